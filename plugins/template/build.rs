@@ -1,6 +1,6 @@
-//! Lists the sources of the crates that a plugin in Rust is built from, and the headers for one in C, so that they can be embedded.
+//! Lists the sources of the crates for Rust plugins, and the headers for C plugins, so they can be embedded.
 //!
-//! `vendor/` holds links to them. `cargo package` replaces the links by their targets, so the published crate is complete. A checkout without
+//! `vendor/` contains links to them. `cargo package` replaces the links by their targets, so the published crate is complete. A checkout without
 //! symbolic links reads them from the workspace.
 
 use std::env;
@@ -9,7 +9,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Crates, each with its path from here in the workspace.
+/// Crates, each with its path relative to this folder in the workspace.
 const CRATES: [(&str, &str); 3] = [
     ("taceva-core", "../../taceva-core"),
     ("taceva-abi", "../abi"),
@@ -45,7 +45,7 @@ fn main() -> io::Result<()> {
     fs::write(out.join("headers.rs"), format!("&[\n{headers}]\n"))
 }
 
-/// Writes a line for each file: its path in the plugin, and its content.
+/// Writes one line per file: its path in the plugin, and its content.
 fn list(name: &str, folder: &Path, mut files: Vec<PathBuf>, into: &mut String) -> io::Result<()> {
     files.sort();
     for file in files {
@@ -57,7 +57,7 @@ fn list(name: &str, folder: &Path, mut files: Vec<PathBuf>, into: &mut String) -
     Ok(())
 }
 
-/// The files below `folder`; cargo runs this again when one is added.
+/// Lists the files below `folder`. Cargo runs this script again after a file is added.
 fn walk(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
     println!(
         "cargo::rerun-if-changed={}",

@@ -13,7 +13,9 @@ use taceva_import::{ExportForm, ExportPlan};
 use taceva_models::Models;
 
 use crate::buffer::{Buffer, Number};
-use crate::errors::{dataset_error, dataset_error_at, dataset_error_of, study_error, value_error};
+use crate::errors::{
+    dataset_error, dataset_error_at, dataset_error_of, import_error, study_error, value_error,
+};
 use crate::watched;
 
 /// A recording on disk. Its rows are samples: labels, and optionally a frame or signals.
@@ -260,7 +262,7 @@ impl Recording {
         })?;
         exported
             .map(|report| report.left_out)
-            .map_err(|error| dataset_error(&error))
+            .map_err(|error| import_error(&error))
     }
 
     /// The findings of `taceva check`, as its JSON output.

@@ -7,6 +7,7 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use taceva_core::ErrorKind;
 use taceva_evaluate::EvaluateError;
+use taceva_import::ImportError;
 
 create_exception!(
     taceva,
@@ -39,12 +40,25 @@ pub(crate) fn dataset_error_of(path: &Path, problem: &str) -> PyErr {
 
 /// `error` of a recording as a `DatasetError`, with the row at fault if known.
 pub(crate) fn dataset_error_at(error: &taceva_dataset::DatasetError, row: Option<usize>) -> PyErr {
-    use taceva_dataset::DatasetError as Of;
-    let row = row.and_then(|row| u64::try_from(row).ok());
+    let (path, own, line) = location(error);
+    let row = own.or(row.and_then(|row| u64::try_from(row).ok()));
+    placed(error.to_string(), path.cloned(), row, line)
+}
+
+/// `error` of an import, an export or a table as a `DatasetError`.
+pub(crate) fn import_error(error: &ImportError) -> PyErr {
     let (path, row, line) = match error {
-        Of::Toml { place, .. } | Of::Table { place, .. } => {
-            (Some(&place.path), place.row.or(row), place.line)
-        }
+        ImportError::Table { place, .. } => (Some(&place.path), place.row, place.line),
+        other => other.dataset().map_or((None, None, None), location),
+    };
+    placed(error.to_string(), path.cloned(), row, line)
+}
+
+/// The file, the row and the line at fault, as far as `error` knows them.
+fn location(error: &taceva_dataset::DatasetError) -> (Option<&PathBuf>, Option<u64>, Option<u64>) {
+    use taceva_dataset::DatasetError as Of;
+    match error {
+        Of::Text { place, .. } => (Some(&place.path), place.row, place.line),
         Of::Io { path, .. }
         | Of::Image { path, .. }
         | Of::TargetExists { path }
@@ -55,10 +69,9 @@ pub(crate) fn dataset_error_at(error: &taceva_dataset::DatasetError, row: Option
         | Of::Seal { path, .. }
         | Of::Damaged { path, .. }
         | Of::Journal { path, .. }
-        | Of::Request { path, .. } => (Some(path), row, None),
-        _ => (None, row, None),
-    };
-    placed(error.to_string(), path.cloned(), row, line)
+        | Of::Request { path, .. } => (Some(path), None, None),
+        _ => (None, None, None),
+    }
 }
 
 fn placed(message: String, path: Option<PathBuf>, row: Option<u64>, line: Option<u64>) -> PyErr {
@@ -80,6 +93,7 @@ pub(crate) fn study_error(error: &EvaluateError) -> PyErr {
     match error {
         error if error.kind() == ErrorKind::Interrupted => PyKeyboardInterrupt::new_err(()),
         EvaluateError::Dataset(error) => dataset_error(error),
+        EvaluateError::Table(error) => import_error(error),
         EvaluateError::Model(error) => ModelError::new_err(error.to_string()),
         error => value_error(error),
     }

@@ -178,7 +178,8 @@ impl Sums {
         for (name, found) in lengths {
             if let Some(found) = found.filter(|found| *found != rows) {
                 return Err(value_error(format_args!(
-                    "{name} has {found} rows, truth has {rows}"
+                    "{name} has {}, truth has {rows}",
+                    taceva_core::counted(found, "row")
                 )));
             }
         }

@@ -18,6 +18,7 @@ mod training;
 mod waiting;
 
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use pyo3::prelude::*;
 use taceva_conformance::serve_as_child;
@@ -30,10 +31,14 @@ use crate::errors::value_error;
 pub(crate) use self::training::Training;
 pub(crate) use self::waiting::{Deadline, Interrupted};
 
+/// True in the process of a plugin.
+static SERVES: AtomicBool = AtomicBool::new(false);
+
 /// Becomes the process of a plugin: confines it, calls `import_module(folder, name, preload)` for the plugin, serves it until the host
 /// ends, and returns the exit code. Must be called first, before any import that starts threads.
 #[pyfunction]
 pub(crate) fn serve_plugin(py: Python<'_>, import_module: Py<PyAny>) -> i32 {
+    SERVES.store(true, Ordering::Relaxed);
     py.detach(|| {
         serve_as_child(|module| {
             Python::attach(|py| {
@@ -93,7 +98,15 @@ pub(crate) fn plugin_log(level: &str, message: &str) -> PyResult<()> {
 }
 
 /// Makes this interpreter, with its installed package `taceva`, run the processes of plugins.
+///
+/// # Errors
+/// `ValueError` in the process of a plugin, which could start itself without end.
 pub(crate) fn within(py: Python<'_>) -> PyResult<()> {
+    if SERVES.load(Ordering::Relaxed) {
+        return Err(value_error(
+            "a plugin cannot use plugins or the command, since it could start itself without end",
+        ));
+    }
     let interpreter: PathBuf = py.import("sys")?.getattr("executable")?.extract()?;
     let files: Vec<PathBuf> = py.import("taceva")?.getattr("__path__")?.extract()?;
     if let Some(package) = files.into_iter().next() {

@@ -13,7 +13,7 @@ use taceva_import::{Decoders, ImportMap, ImportPlan};
 use crate::arrays::{Points, Table};
 use crate::buffer::Pixels;
 use crate::dataset::jobs_of;
-use crate::errors::{dataset_error, value_error};
+use crate::errors::{dataset_error, import_error, value_error};
 use crate::metrics::channels_of;
 use crate::watched;
 
@@ -67,7 +67,9 @@ impl Facts {
         };
         let facts = RecordingFacts::new(source, clock, sensor);
         Ok(match self.footprint_mm {
-            Some((width, height)) => facts.with_footprint(Footprint::rectangle(width, height)),
+            Some((width, height)) => {
+                facts.with_footprint(Footprint::rectangle(width / 2.0, height / 2.0))
+            }
             None => facts,
         })
     }
@@ -214,5 +216,5 @@ pub(crate) fn import_recording(
             false => plan.run(&out, jobs_of(jobs), progress),
         }
     })?;
-    imported.map(drop).map_err(|error| dataset_error(&error))
+    imported.map(drop).map_err(|error| import_error(&error))
 }

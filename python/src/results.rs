@@ -148,6 +148,12 @@ pub(crate) fn figure_pdf(texts: Vec<String>, name: &str) -> PyResult<Vec<u8>> {
     Ok(figure.pdf())
 }
 
+/// The sentence that every output about samples of these origins states, if one was not measured.
+#[pyfunction]
+pub(crate) fn not_measured(sources: Vec<String>) -> Option<String> {
+    taceva_results::not_measured(sources.iter().map(String::as_str))
+}
+
 /// The comparison of two or more results: `json` besides the forms of `score_table`.
 #[pyfunction]
 pub(crate) fn comparison(
@@ -162,7 +168,9 @@ pub(crate) fn comparison(
         margins,
         seed,
     };
-    let compared = compare(&studies(&texts)?, &request);
+    let studies = studies(&texts)?;
+    let request = request.resolved(&studies).map_err(value_error)?;
+    let compared = compare(&studies, &request);
     match form {
         "json" => Ok(compared.json()),
         "text" => Ok(compared.text()),

@@ -210,6 +210,9 @@ def test_arrays_become_a_recording_that_gives_them_back(tmp_path: Path, kind: st
         assert np.array_equal(dataset.frames(), expected)
         reference = dataset.reference()
         assert reference is not None and np.array_equal(reference, expected[0])
+    # Width and height are given, halves of them are stored.
+    header = (path / "dataset.toml").read_text()
+    assert "half_x_mm = 8.0" in header and "half_y_mm = 6.0" in header, header
     with pytest.raises(taceva.DatasetError):
         taceva.from_arrays(path, labels, sensor="my gel", source="synthetic", channels=["Pz", "Fz"])
 

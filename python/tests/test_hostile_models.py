@@ -117,6 +117,43 @@ def test_a_model_that_calls_back_into_taceva_gets_an_answer(drawn: taceva.Datase
     assert inner == [taceva.evaluate(drawn, "ridge", split=SPLIT, settings=SMALL).text]
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_model_that_calls_itself_without_end_is_named_with_its_line_and_nothing_of_it_is_kept(
+    drawn: taceva.Dataset, kind: Any
+) -> None:
+    def endless(seen: Any) -> Any:
+        return endless(seen)
+
+    said = r"test_hostile_models\..*(Mean|endless) calls itself without end: .*recursion.*test_hostile_models\.py, line \d+\)$"
+    with pytest.raises(taceva.ModelError, match=said) as caught:
+        taceva.evaluate(drawn, kind(endless), split=SPLIT, settings=SMALL if kind is Mean else None)
+    assert caught.value.__context__ is None
+    assert taceva.evaluate(drawn, lambda frames: np.zeros((len(frames), 3)))["mae", "Fz"].n == ROWS
+
+
+def test_a_fit_that_calls_itself_without_end_is_an_error_of_its_model(drawn: taceva.Dataset) -> None:
+    class Endless(Mean):
+        def fit(self, seen: Any, labels: Any) -> None:
+            self.fit(seen, labels)
+
+    with pytest.raises(taceva.ModelError, match="Endless calls itself without end"):
+        taceva.evaluate(drawn, Endless(), split=SPLIT, settings=SMALL)
+
+
+def test_a_model_that_evaluates_itself_ends_after_a_few_evaluations_in_an_error_of_that_model(drawn: taceva.Dataset) -> None:
+    calls = []
+
+    def evaluates_itself(frames: Any) -> Any:
+        calls.append(len(frames))
+        return taceva.evaluate(drawn, evaluates_itself, split=SPLIT)
+
+    for _ in range(2):
+        calls.clear()
+        with pytest.raises(taceva.ModelError, match=r"evaluates_itself calls itself without end: 8 evaluations .*hostile_models\.py, line"):
+            taceva.evaluate(drawn, evaluates_itself, split=SPLIT)
+        assert len(calls) == 8
+
+
 def test_a_model_that_writes_to_what_it_is_given_spoils_no_truth(drawn: taceva.Dataset) -> None:
     class Greedy(Mean):
         def fit(self, seen: Any, labels: Any) -> None:

@@ -129,13 +129,14 @@ def test_no_rows_give_undefined_scores_with_a_reason() -> None:
     [
         (np.zeros((3, 5)), np.zeros((3, 6)), ValueError, r"truth has the shape \[3, 5\], expected \[rows, 6\]"),
         (np.zeros((3, 6)), np.zeros((2, 6)), ValueError, "prediction has 2 rows, truth has 3"),
+        (np.zeros((3, 6)), np.zeros((1, 6)), ValueError, "prediction has 1 row, truth has 3"),
         (np.zeros((3, 6), complex), np.zeros((3, 6)), TypeError, "complex128"),
         (np.full((3, 6), None), np.zeros((3, 6)), TypeError, "object"),
         (np.array([["a"] * 6]), np.zeros((1, 6)), TypeError, "truth: expected numbers"),
         (np.zeros((3, 6)), np.array([[0.0] * 6, [0.0] * 6, [0.0] * 5 + [np.nan]]), ValueError, r"nan at \[2, 5\]"),
         (np.zeros((1, 6)), np.array([[np.inf] + [0.0] * 5]), ValueError, r"inf at \[0, 0\]"),
     ],
-    ids=["shape", "length", "complex", "objects", "texts", "nan", "infinite"],
+    ids=["shape", "length", "one row", "complex", "objects", "texts", "nan", "infinite"],
 )
 def test_what_is_no_array_of_numbers_is_refused_and_nothing_is_taken_in(
     truth: Any, prediction: Any, error: type[Exception], message: str
@@ -213,7 +214,7 @@ def test_whatever_is_shown_of_samples_that_nobody_measured_says_so(tmp_path: Pat
     for shown in (str(drawn), drawn.to_latex(), drawn._repr_html_(), str(together), together.to_latex(), together._repr_html_()):
         assert said in shown
     assert "training data are unknown" in str(drawn) and "training data are unknown" in drawn._repr_html_()
-    assert "Not all of this was measured: some of the samples are synthetic." in str(taceva.compare(drawn, of_arrays))
+    assert "Not everything here was measured: some of the samples are synthetic." in str(taceva.compare(drawn, of_arrays))
     assert "measured" not in str(of_arrays)
 
 
@@ -226,6 +227,8 @@ def test_a_comparison_says_which_is_better() -> None:
     assert "better" in str(comparison)
     with pytest.raises(ValueError, match="at least two"):
         taceva.compare(near)
+    with pytest.raises(ValueError, match="did you mean `mae`"):
+        str(taceva.compare(near, far, metrics=["mea"]))
 
 
 @pytest.mark.parametrize("channels", [["Fz", "Px"], ["Fz", "b", "Px", "a"], ["b", "a"]])

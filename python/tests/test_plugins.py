@@ -125,7 +125,7 @@ def test_a_new_project_of_every_kind_says_what_its_manifest_says_and_keeps_every
 def test_a_manifest_of_another_wire_is_refused_with_both_numbers_and_the_remedy(tmp_path: Path, program: Program) -> None:
     made = package(tmp_path, manifest=MANIFEST.replace("wire = 1", "wire = 2"))
     listed = program.run("plugin", "list", "--all", "--plugin-dir", str(made)).stdout
-    assert "written for version 2 of the wire, this TacEva speaks 1" in listed
+    assert "written for wire version 2, but this TacEva has 1" in listed
     assert "python -m taceva.plugin manifest MODULE --write" in listed
 
 
@@ -468,6 +468,25 @@ def test_complex_predictions_of_a_plugin_are_refused_as_those_of_any_model(tmp_p
     code.write_text(code.read_text().replace("return np.einsum(", "return 1j + np.einsum("))
     done = program.check("org.example.my-plane", made, "--only", "estimator/fits")
     assert "what the model predicted: expected numbers, found an array of complex128" in "\n".join(done["failed"]), done
+
+
+@pytest.mark.parametrize("before", ["", "import sys; sys.setrecursionlimit(10**9); "])
+def test_an_estimator_that_calls_itself_without_end_fails_with_its_line_whatever_limit_it_sets(
+    before: str, tmp_path: Path, program: Program
+) -> None:
+    made = new(tmp_path, "estimator", "my-plane")
+    code = made / "__init__.py"
+    code.write_text(code.read_text().replace("return np.einsum(", f"{before}return self.predict(features) or np.einsum("))
+    why = "\n".join(program.check("org.example.my-plane", made, "--only", "estimator/fits")["failed"])
+    assert "RecursionError: " in why and "it calls itself without end" in why and "__init__.py, line" in why, why
+
+
+def test_an_estimator_that_asks_for_plugins_fails_in_words_and_starts_none(tmp_path: Path, program: Program) -> None:
+    made = new(tmp_path, "estimator", "my-plane")
+    code = made / "__init__.py"
+    code.write_text(code.read_text().replace("return np.einsum(", "import taceva; taceva.plugins()\n        return np.einsum("))
+    why = "\n".join(program.check("org.example.my-plane", made, "--only", "estimator/fits")["failed"])
+    assert "a plugin cannot use plugins or the command" in why, why
 
 
 # The study of the guide.

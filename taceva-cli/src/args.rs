@@ -58,6 +58,7 @@ I have no data yet
 
 I have a rig: camera, robot, force transducer
   taceva init rig                                           asks for its devices; writes rig.toml
+  taceva rig teach rig.toml                                 where is the gel? you jog, it reads
   taceva rig check rig.toml                                 are they fast and quiet enough?";
 
 const EXIT_CODES: &str = "\

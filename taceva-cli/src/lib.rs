@@ -30,6 +30,7 @@ use taceva_acquire::AcquireError;
 use taceva_core::{ErrorKind, ModelError};
 use taceva_dataset::DatasetError;
 use taceva_evaluate::EvaluateError;
+use taceva_import::ImportError;
 use taceva_study::StudyError;
 use taceva_sweep::SweepError;
 
@@ -153,13 +154,19 @@ fn missing_dataset(error: &Error) -> Option<&Path> {
             (Some(EvaluateError::Dataset(dataset)), ..)
             | (_, Some(AcquireError::Dataset(dataset)), _)
             | (.., Some(SweepError::Dataset(dataset))) => Some(dataset),
-            _ => cause.downcast_ref::<DatasetError>(),
+            _ => dataset_error(cause),
         };
         match dataset? {
             DatasetError::NoDataset { path, .. } => Some(path.as_path()),
             _ => None,
         }
     })
+}
+
+/// The error of a dataset that `cause` is, or that an import has.
+fn dataset_error<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a DatasetError> {
+    let import = cause.downcast_ref::<ImportError>();
+    import.map_or_else(|| cause.downcast_ref(), ImportError::dataset)
 }
 
 /// The parsed arguments; help goes to standard output, and wrong arguments end the program.
@@ -196,11 +203,13 @@ fn code_of(error: &Error) -> u8 {
         if let Some(code) = code_of_study(cause) {
             return code;
         }
-        if let Some(dataset) = cause.downcast_ref::<DatasetError>() {
-            return match dataset {
-                DatasetError::View { .. } => exit::USAGE,
-                other => code_of_kind(other.kind()),
-            };
+        match dataset_error(cause) {
+            Some(DatasetError::View { .. }) => return exit::USAGE,
+            Some(other) => return code_of_kind(other.kind()),
+            None => {}
+        }
+        if let Some(import) = cause.downcast_ref::<ImportError>() {
+            return code_of_kind(import.kind());
         }
         if let Some(model) = cause.downcast_ref::<ModelError>() {
             return code_of_kind(model.kind());

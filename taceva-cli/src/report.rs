@@ -29,12 +29,6 @@ use taceva_study::bench::KernelBench;
 
 use crate::args::{Format, TableScores};
 
-/// Counts in words: `1 job`, `2 jobs`.
-pub(crate) fn counted(count: usize, what: &str) -> String {
-    let plural = if count == 1 { "" } else { "s" };
-    format!("{count} {what}{plural}")
-}
-
 /// Writes an evaluation in the requested format.
 pub(crate) fn evaluation(
     report: &EvaluationReport,
@@ -44,7 +38,7 @@ pub(crate) fn evaluation(
 ) -> io::Result<()> {
     if table == TableScores::Main && format != Format::Json {
         let study = Study::from(report.clone());
-        return main_scores(&ScoreTable::of(&[study]), format, out);
+        return main_scores(&ScoreTable::of(&[study]), format, None, out);
     }
     match format {
         Format::Text => text::write(report, out),
@@ -58,10 +52,12 @@ pub(crate) fn evaluation(
     }
 }
 
-/// Writes the main scores in `format`, which must not be JSON. Scores that do not fit into one table go to further ones.
+/// Writes the main scores in `format`, which must not be JSON; text in lines of at most `width` characters. Scores that do not fit into one
+/// table go to further ones.
 pub(crate) fn main_scores(
     scores: &ScoreTable,
     format: Format,
+    width: Option<usize>,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     if format == Format::Csv {
@@ -78,7 +74,10 @@ pub(crate) fn main_scores(
                 let caption = escape_markdown(&table.caption);
                 format!("{caption}\n\n{}", table.markdown())
             }
-            _ => table.text(),
+            _ => match width {
+                Some(width) => table.text_within(width),
+                None => table.text(),
+            },
         };
         out.write_all(text.as_bytes())?;
     }
@@ -97,7 +96,7 @@ pub(crate) fn profiles(
     }
     if table == TableScores::Main {
         let studies: Vec<Study> = reports.iter().cloned().map(Study::from).collect();
-        return main_scores(&ScoreTable::of(&studies), format, out);
+        return main_scores(&ScoreTable::of(&studies), format, None, out);
     }
     if format == Format::Text && reports.len() > 1 {
         return profile::write(reports, out);

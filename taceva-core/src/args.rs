@@ -20,7 +20,7 @@ use std::fmt;
 /// ```
 /// use taceva_core::{ArgSpec, ArgValue, Args};
 /// let specs = [
-///     ArgSpec::whole("seed", 0, i64::MAX).default(ArgValue::Whole(0)).help("what the noise is drawn from"),
+///     ArgSpec::whole("seed", 0, i64::MAX).default(ArgValue::Whole(0)).help("seed of the noise"),
 ///     ArgSpec::number("exposure", 0.1, 33.0).unit("ms").default(ArgValue::Number(8.0)).help("of one frame"),
 /// ];
 /// let args = Args::parse(&specs, "seed=3;exposure=16 ms")?;
@@ -36,7 +36,7 @@ pub struct Args {
 }
 
 impl Args {
-    /// Parses arguments as written behind the colon of a selector: `key=value;key=value`. `;;` is a semicolon within a value.
+    /// Parses arguments as written after the colon of a selector: `key=value;key=value`. `;;` is a semicolon within a value.
     ///
     /// # Errors
     /// [`ArgError`] for the first fault.
@@ -169,7 +169,7 @@ fn missing(spec: &ArgSpec) -> ArgError {
 
 fn undeclared(key: &str, expected: &str, found: Option<&ArgValue>) -> ! {
     panic!(
-        "the driver did not declare `{key}` as a {expected} that is always there, found {found:?}"
+        "the driver did not declare `{key}` as a required {expected} or one with a default, found {found:?}"
     )
 }
 

@@ -76,7 +76,7 @@ impl Batch {
             channels,
             truth,
             prediction,
-            // As in `BatchBuilder`, a batch with a row without a point has no clusters.
+            // If any row has no point, the whole batch has no clusters, as in `BatchBuilder`.
             points: points.filter(Labels::all_named),
             recordings: None,
             labels: BTreeMap::new(),
@@ -87,7 +87,7 @@ impl Batch {
     /// The same batch with the texts of `field`: scene, unit, phase, kind of grating or digest of the frame.
     ///
     /// # Panics
-    /// If the length differs from the number of rows, or the field is no text.
+    /// If the length differs from the number of rows, or the field does not hold text.
     #[must_use]
     pub fn with_labels(mut self, field: Field, labels: Labels) -> Batch {
         assert_eq!(labels.index().len(), self.rows, "a label for each row");
@@ -125,7 +125,7 @@ impl Batch {
     /// The same batch with the numbers of `field`: depth step, repeat, time in s, spacings in whole nm, intensity.
     ///
     /// # Panics
-    /// If the length differs from the number of rows, or the field is no number.
+    /// If the length differs from the number of rows, or the field does not hold numbers.
     #[must_use]
     pub fn with_numbers(mut self, field: Field, numbers: Column) -> Batch {
         assert_eq!(numbers.len(), self.rows, "a number for each row");

@@ -93,10 +93,10 @@ impl Channel {
         Ok(Channel::fixed(name, unit))
     }
 
-    /// The channel as an angle whose values repeat after `degrees`, from 1 to 360.
+    /// The channel as an angle whose values repeat after `degrees`, from 1 to 360. Values in radians repeat after the same angle.
     ///
     /// # Errors
-    /// [`ChannelError::Period`] if the channel is not in degrees, or `degrees` is 0 or above 360.
+    /// [`ChannelError::Period`] if the channel is neither in degrees nor in radians, or `degrees` is 0 or above 360.
     ///
     /// ```
     /// use taceva_core::{Channel, Unit};
@@ -108,7 +108,7 @@ impl Channel {
     pub fn with_period(self, degrees: u16) -> Result<Channel, ChannelError> {
         let period = NonZeroU16::new(degrees).filter(|degrees| degrees.get() <= 360);
         match period {
-            Some(period) if self.unit == Unit::Degree => Ok(Channel {
+            Some(period) if matches!(self.unit, Unit::Degree | Unit::Radian) => Ok(Channel {
                 period: Some(period),
                 ..self
             }),
@@ -129,7 +129,7 @@ impl Channel {
         self.unit
     }
 
-    /// Period of the values, degrees; `None` if the channel is no angle or declares no period.
+    /// Period of the values, degrees; `None` if the channel is not an angle or declares no period.
     pub fn period(&self) -> Option<u16> {
         self.period.map(NonZeroU16::get)
     }
@@ -139,8 +139,12 @@ impl Channel {
     ///
     /// A value at most half a period away is returned unchanged, to the bit.
     pub fn nearest(&self, value: f64, reference: f64) -> f64 {
-        let Some(period) = self.period.map(|period| f64::from(period.get())) else {
+        let Some(degrees) = self.period.map(|period| f64::from(period.get())) else {
             return value;
+        };
+        let period = match self.unit {
+            Unit::Radian => degrees.to_radians(),
+            _ => degrees,
         };
         let turns = ((value - reference) / period).round();
         match turns.abs() >= 1.0 && (value - reference).abs() > period / 2.0 {
@@ -250,12 +254,12 @@ pub enum ChannelError {
     Unit {
         /// The channel.
         name: String,
-        /// The unit it is kept in.
+        /// Unit of the channel.
         expected: Unit,
-        /// The unit that was given.
+        /// Unit found.
         found: Unit,
     },
-    /// A period of a channel that is not in degrees, or one outside 1 to 360.
+    /// A period of a channel that is no angle, or one outside 1 to 360 degrees.
     Period {
         /// The channel.
         name: String,
@@ -343,6 +347,16 @@ mod tests {
             let refused = angle.with_period(degrees);
             assert!(matches!(refused, Err(ChannelError::Period { .. })));
         }
+    }
+
+    #[test]
+    fn an_angle_in_radians_repeats_after_as_many_radians() {
+        let yaw = Channel::named("yaw_rad", Unit::Radian).and_then(|yaw| yaw.with_period(360));
+        let yaw = yaw.expect("an angle");
+        let turn = std::f64::consts::TAU;
+        assert!((yaw.nearest(-3.0, 3.0) - (turn - 3.0)).abs() < 1e-12);
+        assert!((yaw.nearest(3.0, -3.0) - (3.0 - turn)).abs() < 1e-12);
+        assert_eq!(yaw.period(), Some(360));
     }
 
     #[test]

@@ -12,12 +12,11 @@
 //!
 //! # Threads
 //! Each device takes one call at a time. The exceptions are [`Halt`], [`RobotWatch`], [`EnablingSwitch`] and [`Interrupt`]: they may be called
-//! from any thread beside any other call.
+//! from any thread during any other call.
 //!
-//! # Values
-//! mm, degrees, N and N·mm in the sensor's frame. A value that is not finite is refused on the way in
-//! ([`InvalidArgument`](crate::ErrorKind::InvalidArgument)) and is a fault of the device on the way out
-//! ([`DeviceFault`](crate::ErrorKind::DeviceFault)): [`check_pose`] and [`check_wrench`] do both.
+//! mm, degrees, N and N·mm in the sensor's frame. Values must be finite. An infinite value or NaN from the caller is
+//! [`InvalidArgument`](crate::ErrorKind::InvalidArgument). From the device it is [`DeviceFault`](crate::ErrorKind::DeviceFault).
+//! [`check_pose`] and [`check_wrench`] check both.
 
 mod bench;
 mod changer;
@@ -35,6 +34,7 @@ mod kind;
 mod lighting;
 mod robot;
 mod robot_watch;
+mod sample_timing;
 mod sensor;
 mod speed;
 
@@ -54,5 +54,6 @@ pub use kind::{Device, DriverKind};
 pub use lighting::Lighting;
 pub use robot::Robot;
 pub use robot_watch::RobotWatch;
+pub use sample_timing::{SampleTiming, TimingError};
 pub use sensor::Sensor;
 pub use speed::{Speed, SpeedError};

@@ -94,7 +94,7 @@ impl Footprint {
         }
     }
 
-    /// The greatest distance from the centre to a point of it: the radius, or half the diagonal rounded up to a nanometre.
+    /// Greatest distance of a point of the surface from the centre: the radius, or half the diagonal rounded up to a nanometre.
     pub fn reach(&self) -> Nanometre {
         match self.outline {
             Outline::Disc { radius } => radius,

@@ -48,7 +48,7 @@ impl Frame {
         self.bytes
     }
 
-    /// Every number of the frame, in order, 8-bit ones widened.
+    /// All samples of the frame in order; 8-bit samples are widened to 16 bits.
     pub fn samples(&self) -> impl Iterator<Item = u16> + '_ {
         let width = self.info.format.bytes_per_sample();
         self.bytes.chunks_exact(width).map(|sample| match *sample {

@@ -24,7 +24,7 @@ impl DriverKey {
     /// A constant key in the code.
     ///
     /// # Panics
-    /// If it is no key; in a constant this is an error of the compiler.
+    /// If it is not a key; in a constant this is an error of the compiler.
     pub const fn fixed(key: &'static str) -> DriverKey {
         assert!(
             is_key(key.as_bytes()),
@@ -84,12 +84,12 @@ impl fmt::Display for DriverKey {
     }
 }
 
-/// Text that is no driver key.
+/// Text that is not a driver key.
 ///
 /// ```
 /// use taceva_core::DriverKey;
 /// let error = "Sim/GelSight".parse::<DriverKey>().unwrap_err();
-/// assert!(error.to_string().starts_with("\"Sim/GelSight\" is no driver key"));
+/// assert!(error.to_string().starts_with("\"Sim/GelSight\" is not a driver key"));
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DriverKeyError {
@@ -100,7 +100,7 @@ impl fmt::Display for DriverKeyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{:?} is no driver key, expected lower-case words joined by `/` such as `sim/gelsight`, at most {} bytes",
+            "{:?} is not a driver key, expected lower-case words joined by `/` such as `sim/gelsight`, at most {} bytes",
             self.text,
             DriverKey::LENGTH_MAX
         )

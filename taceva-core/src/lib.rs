@@ -3,6 +3,7 @@
 mod args;
 mod batch;
 mod channel;
+mod count;
 mod driver;
 mod error;
 mod estimator_factory;
@@ -41,11 +42,12 @@ mod wrench;
 pub use args::{ArgError, ArgKind, ArgSpec, ArgValue, Args, Presence};
 pub use batch::{Batch, BatchBuilder, Column, Labels};
 pub use channel::{Channel, ChannelError, Channels};
+pub use count::{by_count, counted};
 pub use driver::{
     Axes, Axis, Changer, Deadline, Device, DriverError, DriverKind, EXPIRES, EnablingSwitch,
     ExpiringMotion, Fault, ForceTransducer, Guard, GuardedMotion, GuardedStop, Halt, Interrupt,
-    Lighting, NotFinite, Robot, RobotWatch, Sensor, SimulatedBench, Speed, SpeedError, Tare,
-    check_pose, check_wrench,
+    Lighting, NotFinite, Robot, RobotWatch, SampleTiming, Sensor, SimulatedBench, Speed,
+    SpeedError, Tare, TimingError, check_pose, check_wrench,
 };
 pub use error::ErrorKind;
 pub use estimator_factory::{EstimatorFactory, FitRequest};

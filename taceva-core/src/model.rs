@@ -18,7 +18,7 @@ use crate::progress::Progress;
 ///     Channel, Channels, Estimator, FeatureShape, Features, ModelError, Progress, Regressor, SilentProgress, Targets, TrainingSet,
 /// };
 ///
-/// /// Predicts the means of what it was fitted on.
+/// /// Predicts the means of the training labels.
 /// struct Mean;
 ///
 /// impl Estimator for Mean {
@@ -89,7 +89,7 @@ pub trait Estimator: Send + Sync {
 /// ```
 /// use taceva_core::{Channel, Channels, FeatureShape, Features, ModelError, Regressor};
 ///
-/// /// A force in proportion to how bright the picture is.
+/// /// Predicts a force proportional to the brightness of the picture.
 /// struct Brightness {
 ///     channels: Channels,
 ///     newton_per_step: f64,
@@ -133,7 +133,7 @@ pub trait Regressor: Send + Sync {
     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError>;
 }
 
-/// A fitted model that can be saved as bytes in its own format, such as that of a plugin.
+/// A fitted model that can be saved as bytes in its own format, such as a plugin's format.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, FeatureShape, Features, Regressor};

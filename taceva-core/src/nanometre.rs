@@ -17,13 +17,13 @@ pub struct Nanometre(pub i64);
 
 /// Nanometres in a millimetre.
 const PER_MILLIMETRE: f64 = 1e6;
-/// Greatest magnitude: whole nanometres up to here are exact in binary64 too (nine thousand kilometres).
+/// Greatest magnitude, nm: whole numbers up to here (9000 km) are exact in binary64.
 const GREATEST: i64 = 1 << 53;
 
 impl Nanometre {
     /// The nanometre nearest to `millimetres`, ties to even; `None` for NaN or a length above 2⁵³ nm.
     ///
-    /// The multiplication rounds, so a tie here is a tie of the rounded product; decimals of up to six places come out exact.
+    /// The multiplication rounds, so a tie is a tie of the rounded product. Decimals of up to six places are exact.
     pub fn from_millimetres(millimetres: f64) -> Option<Nanometre> {
         let nanometres = (millimetres * PER_MILLIMETRE).round_ties_even();
         #[expect(
@@ -75,7 +75,7 @@ fn parse(text: &str) -> Option<Nanometre> {
     if digits.is_empty() || !digits.iter().all(u8::is_ascii_digit) {
         return None;
     }
-    // The first `kept` digits are before the point once the unit is nanometres.
+    // In nanometres, the first `kept` digits stand before the decimal point.
     let kept = i64::try_from(whole.len()).ok()? + i64::from(exponent) + 6;
     let digit = |place: i64| {
         usize::try_from(place)
@@ -85,7 +85,7 @@ fn parse(text: &str) -> Option<Nanometre> {
     };
     let mut nanometres = 0_i64;
     for place in 0..kept {
-        // Leading zeros cost nothing; a number that has outgrown the range ends the loop.
+        // Leading zeros never overflow; a number beyond the range ends the loop.
         nanometres = nanometres.checked_mul(10)?.checked_add(digit(place))?;
         if nanometres > GREATEST {
             return None;
@@ -111,12 +111,12 @@ impl fmt::Display for Nanometre {
     }
 }
 
-/// Text that is no length in mm.
+/// Text that is not a length in mm.
 ///
 /// ```
 /// use taceva_core::Nanometre;
 /// let error = "1 mm".parse::<Nanometre>().unwrap_err();
-/// assert_eq!(error.to_string(), "`1 mm` is no length, expected millimetres such as 0.35");
+/// assert_eq!(error.to_string(), "`1 mm` is not a length, expected millimetres such as 0.35");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NanometreError {
@@ -127,7 +127,7 @@ impl fmt::Display for NanometreError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "`{}` is no length, expected millimetres such as 0.35",
+            "`{}` is not a length, expected millimetres such as 0.35",
             self.text
         )
     }

@@ -103,7 +103,7 @@ impl Orientation {
         ]
     }
 
-    /// The same orientation, as that of its two quaternions which is nearer to `other`.
+    /// The same orientation, with the sign of the quaternion that is nearer to `other`.
     fn beside(self, other: Orientation) -> Orientation {
         let pairs = self.quaternion().into_iter().zip(other.quaternion());
         let product: f64 = pairs.map(|(a, b)| a * b).sum();
@@ -160,7 +160,7 @@ mod tests {
             &[0.0, 0.0, quarter / 3.0],
         );
         assert_near(&[start.angle_to(end).0], &[90.0]);
-        // 170 and -170 degrees are 20 apart, through half a turn.
+        // The angles 170 and -170 degrees differ by 20 degrees, through half a turn.
         let [one, other] =
             [170.0_f64, -170.0].map(|angle| Orientation::of_vector([0.0, angle.to_radians(), 0.0]));
         assert_near(&[one.angle_to(other).0], &[20.0]);
@@ -172,7 +172,7 @@ mod tests {
     fn the_weight_of_a_tool_that_is_turned_lies_along_another_of_its_axes() {
         let quarter = std::f64::consts::FRAC_PI_2;
         let turned = Orientation::of_vector([quarter, 0.0, 0.0]);
-        // About x by a quarter: the axis z of the tool points along -y, its axis y up.
+        // Quarter turn about x: the tool's z axis points along -y, its y axis up.
         assert_near(&turned.into_body([0.0, 0.0, -1.0]), &[0.0, -1.0, 0.0]);
         let about_z = Orientation::of_vector([0.0, 0.0, quarter]);
         assert_near(&about_z.into_body([1.0, 0.0, 0.0]), &[0.0, -1.0, 0.0]);

@@ -22,7 +22,7 @@ pub enum Limit {
 }
 
 impl Limit {
-    /// Every one.
+    /// Every limit.
     pub const ALL: [Limit; 3] = [Limit::Depth, Limit::NormalForce, Limit::ShearForce];
 
     /// The word used in tables.
@@ -73,7 +73,7 @@ impl PressOutcome {
         matches!(self, PressOutcome::Limited(_))
     }
 
-    /// Every one.
+    /// Every outcome.
     pub const ALL: [PressOutcome; 5] = [
         PressOutcome::Complete,
         PressOutcome::Limited(Limit::Depth),

@@ -37,7 +37,7 @@ impl fmt::Display for Shown<'_> {
 
 /// Escapes text of several lines; line feeds and tabs stay.
 ///
-/// The last check before a terminal, for text that was put together elsewhere.
+/// Last check before a terminal, for text assembled by other code.
 pub fn shown_lines(text: &str) -> String {
     let mut written = String::with_capacity(text.len());
     for letter in text.chars() {

@@ -63,7 +63,7 @@ pub const fn mix(word: u64) -> u64 {
     finalise(word.wrapping_add(STEP))
 }
 
-/// A number of 0 ≤ u < 1 from 64 random bits: a multiple of 2⁻⁵³, each as likely.
+/// Number u with 0 ≤ u < 1 from 64 random bits: a multiple of 2⁻⁵³, all equally likely.
 ///
 /// ```
 /// use taceva_core::random::unit;
@@ -103,7 +103,7 @@ pub const fn open_unit(bits: u64) -> f64 {
     }
 }
 
-/// A whole number below `bound` from 64 random bits, by one multiplication; 0 if there is none.
+/// Whole number below `bound` from 64 random bits, by one multiplication; 0 if `bound` is 0.
 ///
 /// Probabilities differ from 1 / `bound` by at most 2⁻⁶⁴: use it for a draw by counter, which cannot be repeated, and
 /// [`SplitMix64::below`] where all numbers must be equally likely.
@@ -164,7 +164,7 @@ mod tests {
             let number = usize::try_from(scaled(draws.bits(at), 5)).expect("below 5");
             counts[number] += 1;
         }
-        // 200 expected, standard deviation 13: five of them.
+        // Expected: 200, standard deviation 13; the limits are five deviations.
         assert!(
             counts.iter().all(|count| count.abs_diff(200) < 65),
             "{counts:?}"

@@ -46,7 +46,7 @@ pub struct Sample {
     pub limited_by: Option<Limit>,
     /// Standard uncertainty, in mm, of the height from which its depth `Pz` counts. `None` if that height is not fitted.
     pub zero_u_mm: Option<f64>,
-    /// When it was taken.
+    /// Time of the observation.
     pub stamp: Option<Stamp>,
     /// The relief of the grating that is touched.
     pub kind: Option<GratingKind>,

@@ -21,7 +21,7 @@ const LENGTH_TOLERANCE: f64 = 1e-6;
 pub struct SiPose {
     /// x, y and z.
     pub position_m: [f64; 3],
-    /// The real part, then those about x, y and z.
+    /// Real part first, then x, y and z.
     pub quaternion: [f64; 4],
 }
 
@@ -45,8 +45,7 @@ impl From<Pose> for SiPose {
 impl SiPose {
     /// Pose on its grid ([`Pose::on_grid`]); `None` if a number is not finite or the length of the quaternion is not 1.
     ///
-    /// A pose on the grid is returned unchanged if it is turned by more than −180° and at most 180° about x and z, and by less than 90°
-    /// about y.
+    /// A pose on the grid is returned unchanged for these rotations: above −180° and up to 180° about x and z, less than 90° about y.
     ///
     /// ```
     /// use taceva_core::{Degree, Millimetre, Pose, SiPose};
@@ -98,7 +97,7 @@ impl Speed {
         self.mm_per_s() / PER_METRE
     }
 
-    /// The speed of a number of m/s, on the grid of 1 nm/s.
+    /// Speed from m/s, rounded to whole nm/s.
     ///
     /// # Errors
     /// As [`try_new`](Speed::try_new).

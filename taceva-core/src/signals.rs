@@ -14,7 +14,7 @@ use crate::unit::Unit;
 ///
 /// ```
 /// use taceva_core::{SignalInfo, Unit};
-/// // Five magnetometers behind each other, of three axes each.
+/// // Five magnetometers in a row, of three axes each.
 /// let info = SignalInfo::new(5, 1, 3, Unit::Microtesla)?;
 /// assert_eq!((info.len(), info.to_string().as_str()), (15, "5×1 places of 3 in uT"));
 /// # Ok::<(), taceva_core::SignalError>(())
@@ -101,7 +101,7 @@ impl fmt::Display for SignalInfo {
 /// # Shapes
 /// `[rows, columns, channels]`, contiguous and row-major; all numbers of a place are adjacent.
 /// # Units
-/// That of its [`SignalInfo`].
+/// Unit of its [`SignalInfo`].
 ///
 /// ```
 /// use taceva_core::{SignalInfo, Signals, Unit};

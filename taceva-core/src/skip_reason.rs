@@ -58,7 +58,7 @@ pub enum SkipReason {
 }
 
 impl SkipReason {
-    /// One of each kind, so that tests can visit every line.
+    /// One reason of each kind, for tests.
     pub fn all() -> Vec<SkipReason> {
         vec![
             SkipReason::FieldAbsent(Field::Repeat),

@@ -1,4 +1,4 @@
-//! When an observation was made, and when it was received.
+//! Times of an observation: taken and received.
 
 use std::fmt;
 use std::time::Duration;
@@ -44,7 +44,7 @@ impl fmt::Display for Clock {
 pub struct Stamp {
     /// Time at which the observation was valid: the middle of the exposure, if that is known.
     pub valid_s: f64,
-    /// When it was received; the difference is the latency.
+    /// Time of receipt; the difference is the latency.
     pub received_s: Option<f64>,
 }
 
@@ -68,7 +68,7 @@ impl Stamp {
         }
     }
 
-    /// The stamp of an observation that was received at the moment at which it was made.
+    /// Stamp of an observation that is received at the time at which it is taken.
     pub fn at(now: Duration) -> Stamp {
         Stamp::new(now, Some(now))
     }
@@ -78,7 +78,7 @@ impl Stamp {
         nanoseconds(self.valid_s)
     }
 
-    /// When it was received, to the nanosecond.
+    /// Time of receipt, to the nanosecond.
     pub fn received(&self) -> Option<Duration> {
         self.received_s.map(nanoseconds)
     }

@@ -1,4 +1,4 @@
-//! Flow of samples: sources push them one way, into sinks.
+//! Flow of samples: sources push them into sinks.
 
 use crate::field::{Field, FieldSet};
 use crate::sample::Sample;
@@ -12,7 +12,7 @@ use crate::sample::Sample;
 /// ```
 pub type SinkError = Box<dyn std::error::Error + Send + Sync>;
 
-/// Takes samples as they come, from a live rig or from a recording; it cannot tell which.
+/// Receives samples from a live rig or from a recording; both look the same.
 ///
 /// ```
 /// use taceva_core::{FieldSet, Sample, SampleSink, SinkError};
@@ -37,7 +37,7 @@ pub type SinkError = Box<dyn std::error::Error + Send + Sync>;
 /// # Ok::<(), SinkError>(())
 /// ```
 pub trait SampleSink {
-    /// Fields that it reads of a sample; a source need not fill the rest.
+    /// Fields of a sample that it reads; a source need not fill the rest.
     fn fields(&self) -> FieldSet;
 
     /// Takes one sample.
@@ -146,7 +146,7 @@ impl<S: SampleSink> SampleSink for Select<S> {
             depth_step: sample.depth_step.filter(|_| kept(Field::DepthStep)),
             repeat: sample.repeat.filter(|_| kept(Field::Repeat)),
             phase: sample.phase.filter(|_| kept(Field::Phase)),
-            // Like the id, these have no `Field` and are always kept.
+            // Always kept: like the id, these have no `Field`.
             limited_by: sample.limited_by,
             zero_u_mm: sample.zero_u_mm,
             stamp: sample.stamp.filter(|_| kept(Field::Stamp)),

@@ -25,7 +25,7 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, _, candidate)| candidate)
 }
 
-/// The question for the nearest of `accepted`, or the list of all of them.
+/// "Did you mean" with the nearest of `accepted`, or the list of all of them.
 ///
 /// ```
 /// use taceva_core::suggestion;
@@ -39,7 +39,7 @@ pub fn suggestion(wrong: &str, accepted: &[&str]) -> String {
     }
 }
 
-/// Longest word that is compared, letters. A longer one is no typing mistake, and the run time grows with the square.
+/// Longest word that is compared, letters. A longer one is not a typing mistake, and the run time grows with the square.
 const LONGEST: usize = 256;
 
 fn edits(first: &[char], second: &[char]) -> usize {

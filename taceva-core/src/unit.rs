@@ -1,4 +1,4 @@
-//! The unit a channel is kept in, and the units that labels may arrive in.
+//! Stored units of channels, and accepted units of labels.
 
 mod source;
 
@@ -28,6 +28,9 @@ pub enum Unit {
     /// Degrees, of angles.
     #[cfg_attr(feature = "serde", serde(rename = "deg"))]
     Degree,
+    /// Radians, of angles in tables that are scored as they are. Labels of datasets are converted to degrees.
+    #[cfg_attr(feature = "serde", serde(rename = "rad"))]
+    Radian,
     /// Seconds.
     #[cfg_attr(feature = "serde", serde(rename = "s"))]
     Second,
@@ -80,11 +83,12 @@ pub enum Unit {
 
 impl Unit {
     /// Every unit, for tests and for help texts.
-    pub const ALL: [Unit; 20] = [
+    pub const ALL: [Unit; 21] = [
         Unit::Millimetre,
         Unit::Newton,
         Unit::NewtonMillimetre,
         Unit::Degree,
+        Unit::Radian,
         Unit::Second,
         Unit::Hertz,
         Unit::Lux,
@@ -110,6 +114,7 @@ impl Unit {
             Unit::Newton => "N",
             Unit::NewtonMillimetre => "N·mm",
             Unit::Degree => "deg",
+            Unit::Radian => "rad",
             Unit::Second => "s",
             Unit::Hertz => "Hz",
             Unit::Lux => "lx",

@@ -4,7 +4,7 @@
 use taceva_core::Rig;
 use taceva_drivers::{Drivers, devices, open};
 
-#[expect(clippy::print_stdout, reason = "a list is what it is for")]
+#[expect(clippy::print_stdout, reason = "an example shows its result")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let drivers = Drivers::builtin()?;
     match std::env::args().nth(1) {

@@ -13,6 +13,8 @@ use crate::drivers::Drivers;
 pub struct Devices {
     /// All drivers: sensors, robots, force transducers, lightings, changers; by key within a kind.
     pub drivers: Vec<ListedDriver>,
+    /// Drivers of enabling switches, by key.
+    pub switches: Vec<ListedSwitch>,
     /// All devices found, in the order of the drivers.
     pub found: Vec<ListedDevice>,
     /// Errors of drivers whose search failed.
@@ -23,6 +25,7 @@ pub struct Devices {
 pub fn devices(drivers: &Drivers) -> Devices {
     let mut devices = Devices {
         drivers: Vec::new(),
+        switches: ListedSwitch::all(drivers),
         found: Vec::new(),
         failed: Vec::new(),
     };
@@ -111,6 +114,30 @@ pub struct ListedDriver {
     pub holds: Vec<String>,
     /// Accepted arguments.
     pub arguments: Vec<ListedArgument>,
+}
+
+/// A driver of enabling switches, which a rig file names as `enable` under `[operator]`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ListedSwitch {
+    /// Key of the driver.
+    pub key: String,
+    /// Title of the driver.
+    pub title: String,
+    /// Accepted arguments.
+    pub arguments: Vec<ListedArgument>,
+}
+
+impl ListedSwitch {
+    fn all(drivers: &Drivers) -> Vec<ListedSwitch> {
+        let switches = drivers.switches.iter();
+        switches
+            .map(|(key, title, arguments)| ListedSwitch {
+                key: key.to_owned(),
+                title: title.to_owned(),
+                arguments: arguments.iter().map(ListedArgument::of).collect(),
+            })
+            .collect()
+    }
 }
 
 /// Argument of a driver.

@@ -29,7 +29,9 @@ pub fn examine(drivers: &Drivers, machine: &Machine) -> Vec<Diagnosis> {
         .iter()
         .map(|driver| driver.key.as_str())
         .collect();
-    let mut findings = of_drivers(&listed, &keys);
+    let switches = listed.switches.iter().map(|switch| switch.key.as_str());
+    let names: Vec<&str> = keys.iter().copied().chain(switches).collect();
+    let mut findings = of_drivers(&listed, &names);
     let user = machine.user();
     if user.is_none() {
         findings.push(Diagnosis {

@@ -38,7 +38,7 @@ mod zero;
 
 pub use bench_sensor::OnBench;
 pub use clock::MonotonicClock;
-pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, devices};
+pub use devices::{Devices, ListedArgument, ListedDevice, ListedDriver, ListedSwitch, devices};
 pub use drivers::{Drivers, open};
 pub use open_error::OpenError;
 pub use pace::{Pace, RealPace, VirtualPace};

@@ -14,6 +14,7 @@ type Open = Box<dyn Fn(&Selector) -> Result<Arc<dyn EnablingSwitch>, OpenError> 
 
 /// A driver of enabling switches.
 struct Entry {
+    title: String,
     arguments: Vec<ArgSpec>,
     open: Open,
 }
@@ -22,6 +23,8 @@ struct Entry {
 pub(crate) struct LinkedSwitch {
     /// Key of the driver.
     pub(crate) key: DriverKey,
+    /// Title of the driver.
+    pub(crate) title: &'static str,
     /// Arguments that a selector may have.
     pub(crate) arguments: fn() -> Vec<ArgSpec>,
     /// Opens a switch by its selector.
@@ -53,7 +56,8 @@ impl Switches {
     pub fn builtin() -> Switches {
         let mut switches = Switches::default();
         for linked in inventory::iter::<LinkedSwitch> {
-            switches.add(linked.key.clone(), (linked.arguments)(), linked.open);
+            let (key, arguments) = (linked.key.clone(), (linked.arguments)());
+            switches.add(key, linked.title, arguments, linked.open);
         }
         switches
     }
@@ -62,12 +66,27 @@ impl Switches {
     pub fn add(
         &mut self,
         key: DriverKey,
+        title: &str,
         arguments: Vec<ArgSpec>,
         open: impl Fn(&Selector) -> Result<Arc<dyn EnablingSwitch>, OpenError> + Send + Sync + 'static,
     ) {
-        let open = Box::new(open);
-        self.0
-            .insert(key.as_str().to_owned(), Entry { arguments, open });
+        let entry = Entry {
+            title: title.to_owned(),
+            arguments,
+            open: Box::new(open),
+        };
+        self.0.insert(key.as_str().to_owned(), entry);
+    }
+
+    /// True if `key` is the driver of an enabling switch.
+    pub fn has(&self, key: &str) -> bool {
+        self.0.contains_key(key)
+    }
+
+    /// Key, title and arguments of every driver, by key.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&str, &str, &[ArgSpec])> {
+        let entries = self.0.iter();
+        entries.map(|(key, entry)| (key.as_str(), entry.title.as_str(), &entry.arguments[..]))
     }
 
     /// Checks that `selector` names a switch with valid arguments. Opens nothing.

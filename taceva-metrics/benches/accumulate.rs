@@ -1,4 +1,4 @@
-//! Time per pair of exact sums beside a loop that rounds, and of whole evaluations with clusters.
+//! Time per pair of exact sums compared with a loop that rounds, and of whole evaluations with clusters.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};

@@ -1,4 +1,4 @@
-//! How often 95 % intervals hold the score of infinitely many samples, in simulated presses.
+//! Coverage of 95 % intervals in simulated presses: the share that contain the score of infinitely many samples.
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
@@ -30,7 +30,7 @@ const DESIGNS: [(u32, u32); 16] = [
     (46, 4),
     (400, 4),
 ];
-/// Those for which every other way to an interval is tried too.
+/// Designs for which the other interval methods are run too.
 const COMPARED: [(u32, u32); 3] = [(12, 20), (46, 1), (400, 4)];
 const RUNS: u32 = 1500;
 const METHODS: [Method; 4] = [
@@ -50,7 +50,10 @@ fn main() {
         .zip(expected())
         .map(|((metric, label), value)| format!("{metric} {label} {value:.5}"))
         .collect();
-    println!("Expected of infinitely many: {}.\n", expected.join(", "));
+    println!(
+        "Scores of infinitely many samples: {}.\n",
+        expected.join(", ")
+    );
     let names = METRICS.map(|(metric, label)| format!("{metric} {label}"));
     println!("| locations × presses | interval | {} |", names.join(" | "));
     println!("|---|---|{}", "---|".repeat(METRICS.len()));
@@ -69,7 +72,7 @@ fn main() {
     }
 }
 
-/// The sum over all runs; it is the same for any number of threads.
+/// Sum over all runs, independent of the number of threads.
 fn in_parallel(
     threads: usize,
     coverage: impl Fn(Range<u32>) -> Each<Coverage> + Sync,

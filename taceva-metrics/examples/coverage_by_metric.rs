@@ -73,7 +73,7 @@ impl Coverage {
     }
 }
 
-/// The coverage over all runs; the same for any number of threads.
+/// Coverage over all runs, independent of the number of threads.
 fn in_parallel(
     threads: u32,
     points: u32,
@@ -121,7 +121,7 @@ fn coverage(
 
 /// Value and ends of the interval of every score of a study, by name.
 ///
-/// Untouched frames are a recording of their own: beside presses they would be one more place, whatever the number of places.
+/// Untouched frames form a separate recording, because together with presses they would count as one more contact point.
 fn evaluated(points: u32, seed: u64) -> BTreeMap<Name, (f64, Option<[f64; 2]>)> {
     let mut study = Study::new(points, seed);
     let mut presses = evaluator();
@@ -177,7 +177,7 @@ fn evaluator() -> Evaluator {
     Evaluator::new(&plan)
 }
 
-/// A study of one sensor: presses at random places, whose compliance, hysteresis, errors and their spread are a place's own.
+/// Study of one sensor: presses at random places, each with its own compliance, hysteresis, mean error and spread.
 struct Study {
     points: u32,
     random: SplitMix64,

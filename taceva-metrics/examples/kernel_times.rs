@@ -1,13 +1,12 @@
-//! Times every way to sum on columns read from a file, and prints one JSON object.
+//! Times every summation kernel on columns read from a file, and prints one JSON object.
 //!
 //! usage: kernel_times COLUMNS CHANNELS [REPEATS]
 //!
-//! COLUMNS: little-endian binary64, first the references and then the estimates of each channel in turn, all of one length.
-//! For each way the best and the median of the processor time of the thread, and of the wall clock, in nanoseconds per pair:
-//! `[best, median, best, median]`. Every way is run once per round, so that all run under the same load. The last way has half of
-//! the channels on a second thread: only its wall clock is meaningful.
+//! COLUMNS: little-endian binary64, first the references and then the estimates of each channel in turn, all of one length. Times are in
+//! nanoseconds per pair: best and median of the thread's processor time, then of the wall clock. Each round runs every kernel once, so all
+//! run under the same load. The last kernel runs half of the channels on a second thread: only its wall clock is meaningful.
 
-#![expect(clippy::print_stdout, reason = "an example's result is what it prints")]
+#![expect(clippy::print_stdout, reason = "an example shows its result")]
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -88,7 +87,7 @@ fn main() -> Result<(), Error> {
     Ok(())
 }
 
-/// In nanoseconds per pair, to four places.
+/// Best and median time, ns per pair, to four places.
 fn best_and_median(mut seconds: Vec<f64>, pairs: usize) -> [String; 2] {
     seconds.sort_by(f64::total_cmp);
     #[expect(clippy::cast_precision_loss, reason = "a count of rows")]
@@ -96,7 +95,7 @@ fn best_and_median(mut seconds: Vec<f64>, pairs: usize) -> [String; 2] {
     [0, seconds.len() / 2].map(|at| format!("{:.4}", seconds[at] * 1e9 / pairs))
 }
 
-/// What this thread has computed so far, without the time in which others had its processor.
+/// Processor time of this thread, s.
 #[expect(clippy::cast_precision_loss, reason = "seconds of one run")]
 fn thread_seconds() -> f64 {
     let time = clock_gettime(ClockId::ThreadCPUTime);

@@ -23,6 +23,7 @@ pub use unknown_metric::UnknownMetric;
 use crate::evaluate::metric::Metric;
 use crate::families::bias_level::BIAS_LEVEL;
 use crate::families::crosstalk::CROSSTALK;
+use crate::families::detection::DETECTION_LIMIT;
 use crate::families::drift::DRIFT;
 use crate::families::hysteresis::HYSTERESIS;
 use crate::families::inter_sensor::INTER_SENSOR;
@@ -34,7 +35,7 @@ use crate::families::spatial::R_SPATIAL;
 use crate::families::tolerance::TOLERANCE;
 
 /// Every metric, in the order of reports.
-pub static ALL: [&Metric; 25] = [
+pub static ALL: [&Metric; 26] = [
     &mae::MAE,
     &rmse::RMSE,
     &bias::BIAS,
@@ -54,6 +55,7 @@ pub static ALL: [&Metric; 25] = [
     &INTRINSIC,
     &noise_equivalent_force::NOISE_EQUIVALENT_FORCE,
     &zero_error::ZERO_ERROR,
+    &DETECTION_LIMIT,
     &signal_to_repeatability::SIGNAL_TO_REPEATABILITY,
     &LINEARITY,
     &CROSSTALK,

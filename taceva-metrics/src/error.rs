@@ -42,7 +42,7 @@ pub enum MetricError {
         /// Columns that were found.
         found: usize,
     },
-    /// No value where every row needs one.
+    /// A missing value in a column that needs one in every row.
     Absent {
         /// The row, from 0.
         row: usize,
@@ -79,7 +79,7 @@ pub enum MetricError {
         /// Value that was given.
         found: String,
     },
-    /// A state whose parts are not those of its schema.
+    /// A state that does not match its schema.
     Malformed {
         /// The schema.
         schema: &'static str,

@@ -10,6 +10,7 @@ pub(crate) mod cells;
 pub(crate) mod channelwise;
 pub(crate) mod clustered_excess;
 pub(crate) mod crosstalk;
+pub(crate) mod detection;
 pub(crate) mod drift;
 pub(crate) mod hysteresis;
 pub(crate) mod idle;

@@ -3,6 +3,7 @@
 #[cfg(feature = "bench")]
 pub mod bench;
 pub mod catalogue;
+mod count;
 mod error;
 mod evaluate;
 mod exact;
@@ -19,10 +20,13 @@ pub use evaluate::{
 };
 pub use exact::{Canonical, CanonicalError, ExactSum, Record, Stream, Streams};
 pub use families::accuracy::pair_sums::{PairSpec, PairSums};
+pub use families::accuracy::plane::{PLANES, plane_axes, plane_of};
+pub use families::intrinsic::times::STREAM_S;
 pub use pair::{EPSILON, GREATEST, Paired};
 pub use score::curve::{Band, Curve};
 pub use score::direction::Better;
 pub use score::flag::Flag;
+pub use score::least::LEAST_CLUSTERS;
 pub use score::map::Map;
 pub use score::matrix::Matrix;
 pub use score::range::Range;
@@ -36,9 +40,10 @@ pub use score::{
 pub use stats::{
     ClusterSum, ClusterSums, Clusters, ComparisonError, Difference, DifferenceTest, Estimate,
     HASHED_CLUSTERS, IntervalMethod, NAMED_CLUSTERS, PoissonBootstrap, Question, Repeats, Side,
-    Sides, SignFlip, StatedInterval, Verdict, by_intervals, decide, holm,
+    Sides, SignFlip, StatedInterval, TrainingSpread, Verdict, by_intervals, decide, holm,
+    paired_over_trainings,
 };
-// Types of the signatures here, so that a caller needs no other crate.
+// Types in these signatures, so that a caller needs no other crate.
 pub use taceva_core::{
     Batch, BatchBuilder, Channel, ChannelError, Channels, Column, Field, FieldSet, Footprint,
     FootprintError, GratingKind, Isa, IsaError, Labels, Nanometre, Needs, Phase, Readings, Sample,

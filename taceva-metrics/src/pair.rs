@@ -1,10 +1,10 @@
-//! Predictions beside truths, named by role: swapped arguments would pass every check of shapes.
+//! Predictions and truths, named by role: swapped arguments would pass every check of shapes.
 
 use taceva_core::Batch;
 
 use crate::error::MetricError;
 
-/// Greatest magnitude of a value that is a sample: sums, differences and means of two such values stay finite.
+/// Greatest magnitude of a sample's value: sums, differences and means of two such values stay finite.
 pub const GREATEST: f64 = taceva_core::MAGNITUDE_MAX;
 
 /// ε of sMAPE, the binary64 nearest to 10⁻⁸, in the unit of the channel: it makes 0/0 a 0.
@@ -95,7 +95,7 @@ impl<'a> Paired<&'a [f64]> {
         })
     }
 
-    /// The pairs in stretches of at most `rows`.
+    /// The pairs in blocks of at most `rows`.
     pub(crate) fn blocks(self, rows: usize) -> impl Iterator<Item = Paired<&'a [f64]>> {
         let blocks = self.estimate.chunks(rows).zip(self.reference.chunks(rows));
         blocks.map(|(estimate, reference)| Paired {

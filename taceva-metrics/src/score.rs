@@ -62,7 +62,7 @@ pub struct Score {
     pub definition: &'static str,
     /// The constants of the definition.
     pub parameters: Vec<Parameter>,
-    /// Counts beside the value: samples outside the footprint, bins that have a value.
+    /// Further counts: samples outside the footprint, bins that have a value.
     pub counts: Vec<Count>,
     /// Warnings for the reader.
     pub flags: Vec<Flag>,
@@ -90,7 +90,7 @@ impl Score {
     }
 }
 
-/// Another value of the same metric and channel, under a name of its own.
+/// Another value of the same metric and channel, under its own name.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator};

@@ -13,7 +13,7 @@ const KINDS: [(PixelFormat, Color, u32); 6] = [
     (PixelFormat::Rgb8, Color::Gray, 32),
     (PixelFormat::Rgb8, Color::Rgb, 32),
     (PixelFormat::Gray16, Color::Gray, 32),
-    // No whole ratio: partial pixels on every side.
+    // Not a whole ratio: partial pixels on every side.
     (PixelFormat::Gray8, Color::Gray, 37),
     (PixelFormat::Rgb8, Color::Gray, 37),
 ];

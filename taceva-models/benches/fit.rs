@@ -18,7 +18,7 @@ struct Recording {
     labels: Vec<f64>,
 }
 
-/// Sixty latent patterns and noise, as pictures of a gel are; the seed is fixed.
+/// Sixty latent patterns plus noise, like pictures of a gel; fixed seed.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "features are kept in single precision"
@@ -74,13 +74,13 @@ impl Recording {
     }
 }
 
-/// Every strength tried on a validation part, then fitted once more on both parts.
+/// Tries every strength on a validation part, then refits on both parts.
 #[divan::bench(args = SHAPES, sample_count = 3)]
 fn ridge(bencher: Bencher, shape: (usize, usize)) {
     fit(bencher, "ridge", shape);
 }
 
-/// Up to sixty directions tried on a validation part, then fitted once more on both parts.
+/// Tries up to sixty directions on a validation part, then refits on both parts.
 #[divan::bench(args = SHAPES, sample_count = 3)]
 fn pls(bencher: Bencher, shape: (usize, usize)) {
     fit(bencher, "pls", shape);

@@ -7,7 +7,7 @@ pub(crate) mod elastic_net;
 pub(crate) mod kernel;
 #[cfg_attr(
     not(any(feature = "linfa", feature = "smartcore")),
-    allow(dead_code, reason = "the adapters of libraries alone use it")
+    allow(dead_code, reason = "only the adapters of libraries use it")
 )]
 pub(crate) mod library;
 pub(crate) mod linear;

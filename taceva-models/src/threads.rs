@@ -6,7 +6,7 @@ use std::thread;
 
 /// Prepares the thread pool of models: at most one thread per core, limited by the system.
 ///
-/// Returns how many of `wanted` threads the system can start beside the calling one. Containers may allow few or none. With fewer than
+/// Returns how many of `wanted` threads the system can start in addition to the calling one. Containers may allow few or none. With fewer than
 /// cores, models share these threads; with none, the calling thread computes alone. Without this call, a model panics in that case.
 ///
 /// ```
@@ -29,7 +29,7 @@ pub fn prepare_threads(wanted: NonZeroUsize) -> usize {
     there.min(wanted.get())
 }
 
-/// Number of threads that the system can start beside this one, at most `most`.
+/// Number of threads that the system can start in addition to this one, at most `most`.
 fn startable(most: usize) -> usize {
     thread::scope(|scope| {
         let started = (0..most).map_while(|_| {

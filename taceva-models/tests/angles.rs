@@ -1,4 +1,4 @@
-//! Angles that begin again are learnt as directions.
+//! Periodic angles are learnt as directions.
 
 use taceva_core::{
     Channel, Channels, Features, FrameInfo, PixelFormat, SilentProgress, Targets, TrainingSet, Unit,
@@ -20,7 +20,7 @@ const FRAME: FrameInfo = FrameInfo {
     format: PixelFormat::Gray8,
 };
 
-/// Forces and yaws, and four numbers that a picture of them would have.
+/// Forces and yaws, with four features as a picture would have them.
 fn drawn(yaws: impl Iterator<Item = f64>) -> (Features, Vec<f64>) {
     let mut values = Vec::new();
     let mut labels = Vec::new();
@@ -61,7 +61,7 @@ fn fitted(name: &str, channels: &Channels, features: &Features, labels: &[f64]) 
     Model::fit(input, &SilentProgress).expect("fitted")
 }
 
-/// The greatest error of the force and of the yaw, the short way round.
+/// Greatest errors of the force and of the yaw; the yaw error is the shortest way round.
 fn errors(channels: &Channels, found: &[f64], labels: &[f64]) -> [f64; 2] {
     let mut greatest = [0.0_f64; 2];
     for (found, labels) in found.chunks(2).zip(labels.chunks(2)) {
@@ -73,7 +73,7 @@ fn errors(channels: &Channels, found: &[f64], labels: &[f64]) -> [f64; 2] {
     greatest
 }
 
-/// Yaws all around, between -180 and 180 degrees.
+/// Yaws around the circle, between -180 and 180 degrees.
 fn around(start: f64) -> impl Iterator<Item = f64> {
     (0..160).map(move |number| (start + f64::from(number) * 23.7).rem_euclid(360.0) - 180.0)
 }

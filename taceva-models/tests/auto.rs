@@ -1,4 +1,4 @@
-//! Choice by `auto`: from evidence worth its work, never by a clock.
+//! Choice by `auto`: it follows evidence worth its work, and reads no clock.
 
 use taceva_core::{Features, SilentProgress};
 use taceva_models::{
@@ -8,8 +8,8 @@ use taceva_models::{
 
 use crate::blobs::{FRAME, Recording, SHAPE, numbers};
 
-/// Blobs that are as often darker as brighter than a slope of light that dwarfs them: what is linear in pixels, or compares whole pictures, sees
-/// nothing of where they are.
+/// Blobs darker or brighter, equally often, than a much stronger slope of light. Models that are linear in pixels or compare whole pictures
+/// cannot find their positions.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "features are kept in single precision"
@@ -94,7 +94,7 @@ fn what_a_network_alone_sees_is_given_to_the_network_after_one_look() {
     let said = reason(&model, "random-forest");
     assert_eq!(said, "cnn is clearly ahead of all cheaper models");
     assert!(reason(&model, "resnet18").contains("name this model to fit it"));
-    // As the preset `default` has it.
+    // Settings of the preset `default`.
     let alone = fit("cnn", &["appearance=auto"], &recording, None);
     assert_eq!(model.regressor(), alone.regressor());
     assert_eq!(model.card().model, "cnn");
@@ -102,7 +102,7 @@ fn what_a_network_alone_sees_is_given_to_the_network_after_one_look() {
 
 #[test]
 fn where_nothing_is_learnable_the_plainest_is_taken() {
-    // Each picture with the labels of another.
+    // Each picture has the labels of another picture.
     let recording = hidden(100, 2);
     let others: Vec<usize> = (0..100).map(|row| (37 * row + 11) % 100).collect();
     let recording = Recording {
@@ -141,7 +141,7 @@ fn a_network_that_is_beyond_the_budget_is_named_with_what_it_takes() {
 
 #[test]
 fn models_that_are_clearly_beaten_are_not_tried_again() {
-    // Blobs on an even ground, which most models see.
+    // Blobs on an even background, which most models can find.
     let model = fit(
         "auto",
         &["budget_s=0.5"],
@@ -166,7 +166,7 @@ fn models_that_are_clearly_beaten_are_not_tried_again() {
 fn networks_see_finer_features_where_there_are_such_and_others_do_not() {
     let coarse = crate::blobs::recording(240, 6);
     let finer = hidden(240, 1);
-    // Nothing can be learnt from the coarse features, because the labels are those of the finer ones.
+    // Nothing can be learnt from the coarse features: the labels belong to the finer ones.
     let coarse = Recording {
         labels: finer.labels.clone(),
         ..coarse

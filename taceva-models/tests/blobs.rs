@@ -1,4 +1,4 @@
-//! Pictures of a blob, and where it is in pixels.
+//! Pictures of a blob, with its position in pixels.
 
 mod drawn;
 
@@ -12,7 +12,7 @@ pub(crate) const SHAPE: FeatureShape = FeatureShape {
     depth: 1,
 };
 
-/// Frames that these features could be of.
+/// Frames with these features.
 pub(crate) const FRAME: FrameInfo = FrameInfo {
     width: 48,
     height: 40,
@@ -27,7 +27,7 @@ pub(crate) const BLOB: Blob = Blob {
     scale: 1.0,
 };
 
-/// Pictures of four by four pixels, and where the blob is in sixths of a pixel.
+/// Pictures of four by four pixels, with the position of the blob in sixths of a pixel.
 pub(crate) const SMALL: Blob = Blob {
     shape: FeatureShape {
         height: 4,

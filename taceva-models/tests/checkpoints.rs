@@ -1,4 +1,4 @@
-//! Promises of checkpoints.
+//! Guarantees of checkpoints.
 
 use std::error::Error;
 use std::fs;
@@ -18,7 +18,7 @@ const SHAPE: FeatureShape = FeatureShape {
     depth: 1,
 };
 
-/// Pictures of noise, whose mean is their label.
+/// Pictures of noise; the label is the mean.
 struct Recording {
     features: Features,
     channels: Channels,
@@ -49,7 +49,7 @@ impl Recording {
     }
 }
 
-/// Stops the work after so many steps.
+/// Cancels the work after a number of steps.
 struct Patience {
     left: AtomicUsize,
     /// True for a stage that began but has not advanced. Its first advance covers the steps made before.
@@ -85,7 +85,7 @@ impl Progress for Patience {
 
 const WORDS: [&str; 4] = ["epochs=6", "batch=8", "jitter=1", "contrast=false"];
 
-/// A training of six epochs of three steps that may keep checkpoints.
+/// Fits with six epochs of three steps, with optional checkpoints.
 fn fit(
     model: &str,
     words: &[&str],
@@ -123,7 +123,7 @@ fn after_each_step(path: &Path) -> Checkpoints {
     }
 }
 
-/// Leaves the checkpoint of a training of `cnn` that was stopped after `steps`.
+/// Leaves the checkpoint of a `cnn` training that was stopped after `steps`.
 fn leave(path: &Path, steps: usize) {
     let patience = Patience::of(steps);
     let stopped = fit(
@@ -150,7 +150,7 @@ fn a_training_stopped_after_any_steps_ends_as_one_that_was_not() {
         let found = loop {
             let patience = Patience::of(steps);
             let checkpoints = match (model, stops % 2) {
-                // A large network writes a checkpoint when it is stopped only: each takes a while.
+                // A large network writes a checkpoint only when it is stopped, because each write takes long.
                 ("cnn", 0) => after_each_step(&path),
                 _ => Checkpoints::at(path.clone()),
             };
@@ -160,7 +160,7 @@ fn a_training_stopped_after_any_steps_ends_as_one_that_was_not() {
             }
             stops += 1;
         };
-        // One that is asked to stop after its last step stops, too.
+        // A training also stops if it is cancelled after its last step.
         assert_eq!(stops, 18 / steps, "{model} makes 18 steps");
         assert!(found.regressor == expected.regressor, "{model}, {steps}");
         assert_eq!(found.choice, expected.choice);
@@ -326,7 +326,7 @@ fn a_place_that_cannot_be_written_or_read_is_named() {
         Some(after_each_step(folder.path())),
         &SilentProgress,
     );
-    let error = error.expect_err("a folder is no file");
+    let error = error.expect_err("a folder is not a file");
     assert!(
         matches!(cause(&error), CheckpointError::Read { .. }),
         "{error}"

@@ -1,4 +1,4 @@
-//! Promises of every registered model, from its training samples to its file.
+//! Guarantees of every registered model, from training samples to model file.
 
 pub(crate) mod case;
 pub(crate) mod cases;

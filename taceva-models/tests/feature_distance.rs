@@ -1,4 +1,4 @@
-//! Distance from what a model has seen: held-out samples keep the limit, and what is unlike them does not.
+//! Distance from the training samples: held-out samples are within the limit, and different samples are beyond it.
 
 use taceva_core::random::SplitMix64;
 use taceva_core::{FeatureShape, Features, SilentProgress};
@@ -17,7 +17,7 @@ fn unit(random: &mut SplitMix64) -> f32 {
     f32::from(random.next_u64().to_le_bytes()[0]) / 255.0
 }
 
-/// Pictures of a dark disc at any place and of any strength, with noise; `light` is added to all of it.
+/// Pictures of a dark disc at a random place and of random strength, with noise; `light` is added to every pixel.
 fn pictures(count: usize, seed: u64, light: f32, strongest: f32) -> Features {
     let mut random = SplitMix64::new(seed);
     let mut values = Vec::with_capacity(count * SHAPE.len());

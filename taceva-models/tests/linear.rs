@@ -1,4 +1,4 @@
-//! Promises of every linear estimator.
+//! Guarantees of every linear estimator.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -8,7 +8,7 @@ use taceva_core::{
 };
 use taceva_models::{LinearEstimator, LinearFit};
 
-/// The names of the linear models.
+/// Names of the linear models.
 const LINEAR: [&str; 3] = ["baseline", "ridge", "pls"];
 
 fn every_model() -> impl Iterator<Item = Box<dyn LinearEstimator>> {
@@ -33,7 +33,7 @@ fn a_linear_map_with_noise_is_recovered_by_all_but_the_baseline() {
             let found = predict(&fit.regressor, &test.features);
             let errors = found.iter().zip(&test.labels).map(|(a, b)| (a - b).powi(2));
             let rms = (errors.sum::<f64>() / found.len() as f64).sqrt();
-            // The noise alone has a standard deviation of 0.02 / √12 = 0.0058; the labels one of about 0.5.
+            // The noise has a standard deviation of 0.02 / √12 = 0.0058, the labels about 0.5.
             assert!(rms < 0.008, "{}: {rms}", estimator.name());
         }
     }
@@ -173,13 +173,16 @@ fn predicting_another_shape_is_an_error() {
         let error = regressor
             .predict(&recording.features, &mut [0.0; 6])
             .expect_err("buffer");
-        assert_eq!(error.to_string(), "6 places for 20 samples of 3 channels");
+        assert_eq!(
+            error.to_string(),
+            "a buffer of 6 values for 20 samples of 3 channels"
+        );
     }
 }
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
-    // Larger than a block and a slab, so that there is work to share.
+    // Larger than a block and a slab, so that threads share the work.
     let (wide, tall) = (recording(280, 1040, 0.1, 11), recording(1040, 280, 0.1, 12));
     for (recording, set) in [(&wide, wide.grouped()), (&tall, tall.set())] {
         for estimator in every_model() {
@@ -241,7 +244,7 @@ fn the_order_of_training_samples_does_not_matter() {
     }
 }
 
-/// Cancels after some questions.
+/// Cancels after a number of progress queries.
 struct Cancel {
     after: usize,
     asked: AtomicUsize,
@@ -280,7 +283,7 @@ fn learning_from_validation_too_equals_learning_from_both_at_once() {
         let rows: Vec<usize> = (0..recording.features.samples()).collect();
         let (first, last) = rows.split_at(rows.len() / 2);
         let (first, last) = (recording.select(first), recording.select(last));
-        // Components have no penalty and here no scale, so neither depends on the part.
+        // Components have no penalty, and here no scale, so neither depends on the part.
         let words = ["components=5", "scale=none"];
         let estimator = model("pls", &words);
         let refitted = estimator
@@ -288,7 +291,7 @@ fn learning_from_validation_too_equals_learning_from_both_at_once() {
             .expect("fits");
         assert!(refitted.refitted);
         let mut spans_of_first = recording.clone();
-        // Label ranges come from the training part; with ranges alike in all channels they cannot matter.
+        // Label ranges come from the training part. With equal ranges in all channels they have no effect.
         spans_of_first.labels = recording
             .labels
             .iter()

@@ -1,4 +1,4 @@
-//! Promises of single models beyond those of every estimator.
+//! Guarantees of single models beyond those of every estimator.
 
 use crate::linear_recordings::{Recording, both_shapes, distance, fit, model, predict, recording};
 use taceva_core::{Features, SilentProgress};
@@ -99,12 +99,12 @@ fn leaving_groups_out_equals_fitting_without_them() {
     }
 }
 
-/// The squared error on `group` of a ridge regression that never saw it, at the penalty of all samples.
+/// Squared error on `group` of a ridge regression fitted without it, at the penalty of all samples.
 fn without(recording: &Recording, group: &[usize], strength: f64, channel: usize) -> f64 {
     let samples = recording.features.samples();
     let others: Vec<usize> = (0..samples).filter(|row| !group.contains(row)).collect();
     let rest = recording.select(&others);
-    // The penalty is relative to the mean eigenvalue of the part: make it the same in absolute terms.
+    // The penalty is relative to the mean eigenvalue of the part; this keeps its absolute value.
     let relative = strength * mean_eigenvalue(recording) / mean_eigenvalue(&rest);
     let words = [format!("strength={relative:e}"), "scale=none".to_owned()];
     let estimator = model("ridge", &[words[0].as_str(), words[1].as_str()]);

@@ -1,15 +1,15 @@
-//! Recordings made up from a known linear map, and what both suites do with them.
+//! Recordings from a known linear map, and helpers of both suites.
 
 use taceva_core::{
     Channel, Channels, FeatureShape, Features, Regressor, SilentProgress, Targets, TrainingSet,
 };
 use taceva_models::{Baseline, LinearEstimator, LinearFit, ModelSettings, Pls, Ridge};
 
-/// Reproducible numbers for tests: a linear congruential generator (Knuth's MMIX constants).
+/// Reproducible test numbers: a linear congruential generator (Knuth's MMIX constants).
 struct Numbers(u64);
 
 impl Numbers {
-    /// Evenly distributed in -0.5..0.5.
+    /// Uniformly distributed in -0.5..0.5.
     fn next(&mut self) -> f64 {
         self.0 = self
             .0
@@ -29,7 +29,7 @@ pub(crate) struct Recording {
     pub(crate) groups: Vec<u32>,
 }
 
-/// Samples × features; the map is always the same, the seed draws features and noise.
+/// Samples × features. The map is always the same; the seed determines features and noise.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "features are kept in single precision"
@@ -90,11 +90,11 @@ pub(crate) fn model(name: &str, words: &[&str]) -> Box<dyn LinearEstimator> {
         "baseline" => Box::new(Baseline::from_settings(&settings).expect(valid)),
         "ridge" => Box::new(Ridge::from_settings(&settings).expect(valid)),
         "pls" => Box::new(Pls::from_settings(&settings).expect(valid)),
-        _ => panic!("{name} is no linear model"),
+        _ => panic!("{name} is not a linear model"),
     }
 }
 
-/// Fitted without a validation part.
+/// Fits without a validation part.
 pub(crate) fn fit(estimator: &dyn LinearEstimator, set: &TrainingSet<'_>) -> LinearFit {
     estimator
         .fit_linear(set, None, &SilentProgress)
@@ -122,7 +122,7 @@ pub(crate) fn distance(found: &[f64], expected: &[f64]) -> f64 {
         / largest
 }
 
-/// Wide (fewer samples than features) and tall, because the two are computed differently.
+/// A wide (fewer samples than features) and a tall recording, which are computed differently.
 pub(crate) fn both_shapes(noise: f64) -> [Recording; 2] {
     [recording(60, 90, noise, 1), recording(300, 40, noise, 2)]
 }

@@ -1,4 +1,4 @@
-//! Promises of models: fits, predictions, files, splits and choices.
+//! Guarantees of models: fits, predictions, files, splits and choices.
 
 mod angles;
 mod auto;

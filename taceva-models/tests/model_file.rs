@@ -1,4 +1,4 @@
-//! Models on disk: the same model comes back, and nothing else is taken for one.
+//! Models on disk: the same model is read back, and other files are rejected.
 
 mod distance;
 mod kept;
@@ -28,7 +28,7 @@ pub(crate) const SPEC: FeatureSpec = FeatureSpec {
     ..FeatureSpec::DEFAULT
 };
 
-/// Frames whose brightness patterns carry the labels.
+/// Frames with brightness patterns that encode the labels.
 pub(crate) fn frames(count: usize) -> Vec<Frame> {
     let mut state = 1_u64;
     let mut byte = || {

@@ -1,4 +1,4 @@
-//! Models of a plugin: kept as its bytes, loaded by it alone, and all that they give is checked.
+//! Models of a plugin: stored as its bytes, loaded only by the plugin, with all outputs checked.
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ enum Way {
     Refuses,
 }
 
-/// Predicts the first label that it was shown plus what it was set to add, always.
+/// Always predicts the first training label plus the value of its setting.
 struct First {
     way: Way,
     settings: Vec<ArgSpec>,
@@ -139,7 +139,7 @@ const SPEC: FeatureSpec = FeatureSpec {
     ..FeatureSpec::DEFAULT
 };
 
-/// A model of one channel, fitted on six samples by a maker that does `way` wrong.
+/// Fits a model of one channel on six samples, by a plugin with the fault `way`.
 fn fit(way: Way, words: &[&str], features: FeatureSpec) -> Result<Model, ModelError> {
     let channels = Channels::new([Channel::FZ]).expect("one");
     let values = (0..12_u8).map(f32::from).collect();
@@ -190,7 +190,7 @@ fn a_model_of_a_plugin_is_kept_with_who_made_it_and_comes_back_through_its_maker
     assert_eq!(again, model);
     assert_eq!(again.to_bytes().expect("small"), bytes);
     assert_eq!(again.predict(&asked()).expect("finite"), [5.0, 5.0]);
-    // Another build may load it where its maker admits that; the card still says who fitted it.
+    // Another build may load the model if its plugin permits it; the card still names the build that fitted it.
     let other = First::models(Way::OtherBuild)
         .read(&bytes)
         .expect("admitted");
@@ -214,7 +214,7 @@ fn without_its_plugin_or_against_its_will_no_model_is_loaded() {
     };
     assert_eq!(refused.kind(), ErrorKind::PermissionDenied);
     assert!(error.to_string().contains("sha256:1"), "{error}");
-    // Bytes that were cut are refused by the format, or by the maker.
+    // Truncated bytes are rejected by the format or by the plugin.
     for length in 0..bytes.len() {
         assert!(
             First::models(Way::Right).read(&bytes[..length]).is_err(),

@@ -1,4 +1,4 @@
-//! Splits of several recordings, and of rows that come later.
+//! Splits of several recordings, and of rows that are added later.
 
 use taceva_models::{Part, SplitError, SplitInput, SplitSpec};
 
@@ -6,7 +6,7 @@ fn spec(text: &str) -> SplitSpec {
     text.parse().expect(text)
 }
 
-/// Points `0, 0, 1, 1, …` of `count` rows, from number `first` on.
+/// Point names `0, 0, 1, 1, …` of `count` rows, from number `first` on.
 fn points(first: usize, count: usize) -> Vec<String> {
     (0..count)
         .map(|row| format!("p{}", first + row / 2))
@@ -16,7 +16,7 @@ fn points(first: usize, count: usize) -> Vec<String> {
 #[test]
 fn rows_that_come_later_change_no_part_and_a_known_point_keeps_its_own() {
     let before = points(0, 40);
-    // Ten rows of points that are there, then five new points.
+    // Ten rows of known points, then five new points.
     let added = [&points(3, 10)[..], &points(20, 10)].concat();
     let all = [&before[..], &added].concat();
     for text in ["by-point", "random"] {

@@ -11,7 +11,7 @@ const SHAPE: FeatureShape = FeatureShape {
     depth: 1,
 };
 
-/// Spacings in mm; a picture shows eight pixels a millimetre.
+/// Spacings, mm; a picture has eight pixels per millimetre.
 const BOARDS: [f64; 4] = [0.5, 0.75, 1.0, 1.5];
 
 fn nanometres(mm: f64) -> Nanometre {
@@ -27,7 +27,7 @@ fn gratings(boards: &[f64], presses: u32) -> (Features, Vec<Nanometre>) {
     let (mut values, mut spacings) = (Vec::new(), Vec::new());
     for press in 0..presses {
         for &board in boards {
-            // The golden ratio spreads phases evenly, whatever their number.
+            // The golden ratio spreads any number of phases evenly.
             let phase = TAU * (0.618_034 * f64::from(press) + board).fract();
             for _ in 0..SHAPE.height {
                 let row = (0..32_u8).map(|column| {
@@ -77,7 +77,7 @@ fn a_length_is_predicted_near_that_of_the_training_pictures() {
     let (found, expected) = predicted(&BOARDS, SpacingOutput::Length);
     let errors = found.iter().zip(&expected).map(|(a, b)| (a - b).abs());
     let mean = errors.sum::<f64>() / 28.0;
-    // The boards lie 0.25 mm apart and more.
+    // The boards differ by at least 0.25 mm.
     assert!(mean < 0.06, "{mean}");
 }
 

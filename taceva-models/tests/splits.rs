@@ -1,4 +1,4 @@
-//! Promises of every split for any recording.
+//! Guarantees of every split for any recording.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -106,7 +106,7 @@ fn a_seed_gives_the_same_parts_for_ever() {
         ..SplitInput::default()
     };
     let split = spec("random").assign(&input, 7).expect("enough samples");
-    // From an independent implementation in another language. A change of the generator or the shuffle changes every published split.
+    // Values from an independent implementation. A change of the generator or the shuffle would change every published split.
     assert_eq!(
         (split.train, split.validation, split.test),
         (vec![0, 1, 3, 4, 5, 8, 9], vec![2, 6], vec![7])
@@ -171,7 +171,7 @@ fn assigned_values_go_where_they_are_sent_and_others_are_counted() {
     );
     assert_eq!(
         split.note.as_deref(),
-        Some("1 samples are left out: their `repeat` is assigned to no part")
+        Some("1 sample is left out: its `repeat` is assigned to no part")
     );
     let split = spec("by-column:repeat=train:1;test:2")
         .assign(&input, 0)
@@ -284,7 +284,7 @@ fn a_manifest_holds_the_ids_and_comes_back_from_json() {
     assert!(SplitManifest::new(&spec, 3, &split, &ids[1..]).is_err());
 }
 
-/// Folds of 40 rows in 20 points, and the names of these.
+/// Folds of 40 rows in 20 points, and the names of the points.
 fn folds_of_points(text: &str, points: &[String]) -> Result<Vec<Split>, SplitError> {
     let input = SplitInput {
         rows: points.len(),
@@ -292,7 +292,7 @@ fn folds_of_points(text: &str, points: &[String]) -> Result<Vec<Split>, SplitErr
         ..SplitInput::default()
     };
     let SplitKind::Folds(folds) = spec(text).kind else {
-        panic!("{text} is no cross-validation");
+        panic!("{text} is not a cross-validation");
     };
     Ok(folds.folds(&input, Fractions::default(), 3)?.splits)
 }
@@ -321,7 +321,7 @@ fn folds_test_on_each_sample_once_and_never_share_a_point() {
                 40
             );
             for row in &fold.test {
-                // The other row of the point.
+                // The other row of the same point.
                 assert!(fold.test.contains(&(row ^ 1)), "{text}");
             }
             for row in &fold.validation {

@@ -1,8 +1,5 @@
-//! Runs one of the toy protocols: `toy_writer PROTOCOL`, in the current folder. Prints `ACK n` when it claims that n is durable.
-#![expect(
-    clippy::print_stdout,
-    reason = "whoever cuts its power reads what was claimed"
-)]
+//! Runs one of the toy protocols: `toy_writer PROTOCOL`, in the current folder. Prints `ACK n` when it claims that record n is durable.
+#![expect(clippy::print_stdout, reason = "the power-cut test reads the output")]
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};

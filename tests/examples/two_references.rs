@@ -1,9 +1,6 @@
-//! Records the frame without contact, a sample, and that frame anew: `two_references FOLDER`. Prints `ACK n` once the n-th is
-//! durable.
-#![expect(
-    clippy::print_stdout,
-    reason = "whoever cuts its power reads what was acknowledged"
-)]
+//! Records the frame without contact, a sample, and a second frame without contact: `two_references FOLDER`. Prints `ACK n` once the n-th
+//! is durable.
+#![expect(clippy::print_stdout, reason = "the power-cut test reads the output")]
 
 use std::error::Error;
 use std::path::Path;

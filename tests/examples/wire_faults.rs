@@ -1,10 +1,10 @@
-//! Plays every fault of the wire bench TIMES times, 100 by default, on so many benches at once: `wire_faults [TIMES] [NAME] [BENCHES]`; a name plays
-//! the cases that begin with it, `all` plays every one.
+//! Plays every fault of the wire bench TIMES times (default 100) on BENCHES benches at once: `wire_faults [TIMES] [NAME] [BENCHES]`. NAME
+//! selects the cases whose name begins with it; `all` selects every case.
 //!
-//! `wire_faults TIMES kill` kills one study that many times instead.
+//! `wire_faults TIMES kill` kills one study TIMES times instead.
 //!
-//! Ends with 1 if anything came of one that must not. What is printed is of this machine as busy as it is.
-#![expect(clippy::print_stdout, reason = "it is run to be read")]
+//! Exits with 1 if any outcome was forbidden. Printed times depend on this machine and its load.
+#![expect(clippy::print_stdout, reason = "an example shows its result")]
 
 use std::error::Error;
 use std::process::ExitCode;
@@ -33,7 +33,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         .filter(|case| case.name.starts_with(&name))
         .collect();
     let (next, is_well) = (AtomicUsize::new(0), AtomicBool::new(true));
-    // Each bench has a gel, devices and a program of its own: studies wait for motion most of the time.
+    // Each bench has its own gel, devices and program: studies mostly wait for motion.
     thread::scope(|scope| {
         for _ in 0..benches {
             scope.spawn(|| {
@@ -51,7 +51,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     })
 }
 
-/// Plays one case and prints its row; whether nothing came of it that must not.
+/// Plays one case and prints its row. Returns true if no outcome was forbidden.
 fn played(case: &Case, times: usize) -> bool {
     let result = play(case, times, SEED);
     let allowed = match case.outcome {

@@ -264,7 +264,7 @@ READERS = [
 
 
 def picked(column, name):
-    """What the source has under a name of a map, a place in a cell included."""
+    """Value of the source for a name of a map, perhaps an index within a cell."""
     found = None
     try:
         found = column(name)
@@ -278,7 +278,7 @@ def picked(column, name):
 
 
 def compared(source, dataset):
-    """How many numbers and pictures are equal; raises where one is not."""
+    """Counts equal numbers and pictures; raises at the first difference."""
     reader = next((reader for pattern, reader in READERS if re.fullmatch(pattern.replace("*", "[^/]*"), source)), None)
     if reader is None:
         raise LookupError("no reader here knows it")
@@ -344,7 +344,7 @@ def main():
             continue
         try:
             numbers, images, left = compared(source, dataset)
-        except Exception as problem:  # noqa: BLE001 a package may say anything
+        except Exception as problem:  # noqa: BLE001 a package may raise anything
             failed.append(source)
             print(f"{source}: DIFFERS or was not read: {type(problem).__name__} {str(problem).strip()[:300]}")
             continue

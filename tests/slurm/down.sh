@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Ends the Slurm that `up.sh FOLDER PORT` began: its processes by their numbers, and no others.
+# Ends the Slurm that `up.sh FOLDER PORT` started, by process ids.
 folder=$1
 pids() {
     for file in "$folder"/slurmd-*.pid "$folder"/slurmctld.pid "$folder"/munge/pid; do

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Begins a Slurm of two virtual nodes on this machine, on loopback alone, and waits until both are idle: `up.sh FOLDER PORT`. It takes the
-# ports PORT to PORT + 2, keeps everything in FOLDER, and `down.sh FOLDER` ends it by the processes' numbers. Needs root, and Debian's
+# Starts a Slurm of two virtual nodes on this machine, on loopback only, and waits until both are idle: `up.sh FOLDER PORT`. It uses the
+# ports PORT to PORT + 2 and keeps all files in FOLDER; `down.sh FOLDER` ends it. Needs root, and Debian's
 # slurm-wlm and munge.
 set -eu
 folder=$1 port=$2
 host=$(hostname -s)
 mkdir -p "$folder"/state "$folder"/logs "$folder"/munge
-# munged refuses folders that others may write to.
+# munged rejects folders that others may write to.
 chmod 755 "$folder"
 chmod 700 "$folder"/munge
 [ -s "$folder"/munge/key ] || (umask 077; head -c 1024 /dev/urandom >"$folder"/munge/key)
@@ -43,7 +43,7 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_Core
 InactiveLimit=0
 KillWait=5
-# A lost node is missed within seconds, though not on a busy machine by mistake.
+# A lost node is noticed within seconds, but a busy machine is not mistaken for one.
 SlurmdTimeout=${SLURMD_TIMEOUT:-20}
 SlurmctldTimeout=20
 JobRequeue=1

@@ -1,4 +1,4 @@
-//! The programs of the workspace as users start them, built once a test program.
+//! Programs of the workspace as users start them, built once per test program.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -46,13 +46,13 @@ fn built(what: &[&str], name: &str) -> PathBuf {
         .clone()
 }
 
-/// Builds `what` with the features that the tests of the whole workspace are built with, so that nothing is compiled for a second time after them.
+/// Builds `what` with the features of the workspace tests, so that nothing is compiled twice.
 fn build(what: &[&str], name: &str) -> PathBuf {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)
         .args(["build", "--message-format=json", "--manifest-path"])
         .arg(root().join("Cargo.toml"))
-        // Only beside an example does cargo look at what tests depend on.
+        // Cargo considers the dependencies of tests only together with an example.
         .args(["--workspace", "--example", "toy_writer"])
         .args(what)
         .args(as_this_test())
@@ -80,7 +80,7 @@ fn build(what: &[&str], name: &str) -> PathBuf {
         .into_std_path_buf()
 }
 
-/// Arguments that put the program where this test was put, so that nothing is built twice.
+/// Arguments that put the program into this test's profile folder, so that nothing is built twice.
 fn as_this_test() -> Vec<std::ffi::OsString> {
     let test = std::env::current_exe().expect("a test knows where it is");
     // target/debug/deps/test-0123

@@ -1,4 +1,4 @@
-//! A lab's folder as an import finds it, with pictures drawn here or taken from elsewhere.
+//! A laboratory's folder to import, with drawn or given pictures.
 
 use std::path::{Path, PathBuf};
 
@@ -8,17 +8,17 @@ use image::{ExtendedColorType, ImageEncoder};
 
 use crate::random::Random;
 
-/// The form of a picture file.
+/// Format of a picture file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// Lossless, with a check of every part.
+    /// Lossless, with a checksum of every part.
     Png,
-    /// Lossy, without any check.
+    /// Lossy, without a checksum.
     Jpeg,
 }
 
 impl Form {
-    /// How its files are called.
+    /// File name extension.
     pub fn extension(self) -> &'static str {
         match self {
             Form::Png => "png",
@@ -27,7 +27,7 @@ impl Form {
     }
 }
 
-/// The file of a gray picture of 48×36 pixels: a slope with noise, so that no two are alike and no pixel can be guessed.
+/// File of a gray picture of 48×36 pixels: a slope with noise, so that all pictures differ and no pixel can be guessed.
 ///
 /// # Panics
 /// If the encoder fails on it, which ends the test.
@@ -54,14 +54,14 @@ pub fn picture(form: Form, number: u32) -> Vec<u8> {
     file
 }
 
-/// A folder of pictures, a table of labels and a map that reads them.
+/// A folder of pictures, a table of labels and a map for them.
 #[derive(Debug)]
 pub struct Lab {
     folder: tempfile::TempDir,
 }
 
 impl Lab {
-    /// A folder in which row `n` of the table names the picture `n` of `pictures`, whose colours are stored in `order`.
+    /// A folder in which row `n` of the table names picture `n` of `pictures`, with colours stored in `order`.
     ///
     /// # Panics
     /// If it cannot be written, which ends the test.
@@ -69,7 +69,7 @@ impl Lab {
         Lab::numbered(form, order, pictures, 0)
     }
 
-    /// A folder with `count` drawn gray pictures of other numbers than those of `drawn`, from `first` on.
+    /// A folder with `count` drawn gray pictures, numbered from `first` on, unlike those of `drawn`.
     ///
     /// # Panics
     /// If it cannot be written, which ends the test.
@@ -104,27 +104,27 @@ impl Lab {
         Lab::new(form, "gray", &pictures)
     }
 
-    /// Where it is.
+    /// Path of the folder.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
 
-    /// The map of it.
+    /// Path of its map.
     pub fn map(&self) -> PathBuf {
         self.path().join("map.toml")
     }
 
-    /// The picture of row `number`.
+    /// Path of the picture of row `number`.
     pub fn picture(&self, form: Form, number: usize) -> PathBuf {
         self.path()
             .join(format!("frames/{number:03}.{}", form.extension()))
     }
 }
 
-/// A new folder in memory where there is such a place, else where temporary files go: the tests make thousands of files.
+/// A new folder in memory if possible, otherwise among temporary files: the tests create thousands of files.
 ///
 /// # Panics
-/// If none can be made, which ends the test.
+/// If it cannot be created, which ends the test.
 pub fn scratch() -> tempfile::TempDir {
     let in_memory = tempfile::tempdir_in("/dev/shm");
     in_memory

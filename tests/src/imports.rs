@@ -1,4 +1,5 @@
-//! Which source file of a crate imports from which: modules as files, `use` declarations and paths followed to where a name is declared.
+//! Imports between the source files of a crate, with modules as files. `use` declarations and paths are followed to the declaration of a
+//! name.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -6,22 +7,22 @@ use std::path::Path;
 
 use crate::source::{rust_files, without_tests, without_text};
 
-/// A module as the words of its path within the crate; the root is empty.
+/// Path of a module within the crate, as words; empty for the root.
 type Module = Vec<String>;
 
-/// The files of one crate, and what each imports of the others; files are named by the path of their module, `stats/holm`, the root `lib`.
+/// Files of one crate, with the imports of each. A file is named by the path of its module, such as `stats/holm`; the root is `lib`.
 pub type Graph = BTreeMap<String, BTreeSet<String>>;
 
 /// The imports of a file, and its other code.
 struct Source {
-    /// Names that come from elsewhere, each with its path; whether it is handed on.
+    /// Imported names, each with its path, and true if it is re-exported.
     imports: Vec<(String, Vec<String>, bool)>,
     /// The code without its `use` declarations.
     body: String,
 }
 
-/// The imports between the files below `src`. Left out are unit tests, what a parent only hands on of its children, and what a child takes of its
-/// parent: the two are one folder, and the parent declares what its files share.
+/// Imports between the files below `src`. Excluded are unit tests, names that a parent only re-exports from its children, and names that a
+/// child takes from its parent: both are one folder, and the parent declares what its files share.
 ///
 /// # Panics
 /// If a file cannot be read, which ends the test.
@@ -55,7 +56,7 @@ fn name(module: &Module) -> String {
     }
 }
 
-/// The other files that `module` imports from.
+/// The other files from which `module` imports.
 fn imported(
     sources: &BTreeMap<Module, Source>,
     module: &Module,
@@ -64,7 +65,7 @@ fn imported(
     let words = words(&source.body);
     let mut found = BTreeSet::new();
     for (name, path, is_public) in &source.imports {
-        // What is handed on and used besides is imported too.
+        // A name that is re-exported and used counts as an import.
         if *is_public && !words.contains(name.as_str()) {
             continue;
         }
@@ -74,15 +75,15 @@ fn imported(
         found.extend(declared_in(sources, module, &path, 0));
     }
     let parent = &module[..module.len().saturating_sub(1)];
-    // What lies in no file of its own, such as a module within another one, is of nobody.
+    // Code without its own file, such as a nested module, belongs to no file.
     found.retain(|other| other != module && other != parent && sources.contains_key(other));
     found
 }
 
-/// How many times a name may be handed on before it is given up.
+/// Most re-exports that are followed for one name.
 const HANDED_ON: usize = 8;
 
-/// The file that declares what `path` names where `module` says it; nothing for other crates.
+/// File that declares what `path` means in `module`; `None` for other crates.
 fn declared_in(
     sources: &BTreeMap<Module, Source>,
     module: &Module,
@@ -120,7 +121,7 @@ fn declared_in(
 }
 
 impl Source {
-    /// What `code`, without comments and strings, says.
+    /// Parses `code`, which has no comments and strings.
     fn read(code: &str) -> Source {
         let (mut imports, mut body) = (Vec::new(), String::new());
         for statement in code.split_inclusive(';') {
@@ -167,7 +168,7 @@ impl Source {
     }
 }
 
-/// The paths that the tree of a `use` declaration, without spaces, stands for.
+/// Paths of the tree of a `use` declaration without spaces.
 fn expanded(tree: &str) -> Vec<String> {
     let Some(open) = tree.find('{') else {
         return vec![tree.to_owned()];
@@ -207,7 +208,7 @@ fn paths(body: &str) -> BTreeSet<Vec<String>> {
     words.filter(|path: &Vec<String>| path.len() > 1).collect()
 }
 
-/// The circles of a graph: files each of which imports, by whatever way round, every other; those of at least `least` files.
+/// Cycles of a graph with at least `least` files: files that import each other, directly or through others.
 pub fn circles(graph: &Graph, least: usize) -> Vec<BTreeSet<String>> {
     let reached: BTreeMap<&str, BTreeSet<&str>> = graph
         .keys()
@@ -224,7 +225,7 @@ pub fn circles(graph: &Graph, least: usize) -> Vec<BTreeSet<String>> {
     found.into_iter().collect()
 }
 
-/// The files that `from` imports, directly or by way of others.
+/// Files that `from` imports, directly or through others.
 fn reached<'a>(graph: &'a Graph, from: &str) -> BTreeSet<&'a str> {
     let (mut seen, mut left) = (BTreeSet::new(), vec![from]);
     while let Some(file) = left.pop() {

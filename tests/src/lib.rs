@@ -1,5 +1,5 @@
-//! What the cross-crate tests share: the workspace seen from outside, its built programs, the real recordings where they are
-//! present, and the means to cut the power of a program at any moment.
+//! Shared helpers of the cross-crate tests: the workspace as data, its built programs, real recordings if present, and simulated power cuts
+//! of a program.
 
 mod binary;
 mod drawn;

@@ -1,10 +1,10 @@
-//! What a power cut could leave of a real program's work.
+//! Possible states of a real program's files after a power cut.
 //!
-//! A program runs once under `strace`. Its system calls are replayed on a model of the disk that knows what is durable, and at
-//! every moment all states are made that a cut could leave: changes that were not made durable kept, lost, torn or zero, names
-//! of each folder up to any point. The caller puts each state on a real disk, recovers it, and reports whether a promise is broken.
+//! A program runs once under `strace`. Its system calls are replayed on a model of the disk that knows which changes are durable. At every
+//! moment all states that a cut could leave are generated: changes that were not made durable are kept, lost, torn or zero, and names of
+//! each folder exist up to any point. The caller writes each state to a real disk, recovers it, and reports a broken promise.
 //!
-//! Killing a process cannot find a missing `fsync`, because the system keeps what was written; this can.
+//! Killing a process cannot reveal a missing `fsync`, because the system keeps written data; this test can.
 
 mod follower;
 mod model;

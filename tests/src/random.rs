@@ -1,8 +1,8 @@
-//! Numbers drawn from a seed, the same on every machine.
+//! Random numbers from a seed, the same on every machine.
 
 use taceva_core::random::{SplitMix64, scaled};
 
-/// The generator SplitMix64: good enough to choose moments and bits.
+/// The generator SplitMix64, to choose moments and bits.
 #[derive(Clone, Debug)]
 pub struct Random(SplitMix64);
 
@@ -17,7 +17,7 @@ impl Random {
         self.0.next_u64()
     }
 
-    /// A number below `end`; 0 if there is none.
+    /// Number below `end`; 0 if `end` is 0.
     pub fn below(&mut self, end: usize) -> usize {
         usize::try_from(scaled(self.bits(), end as u64)).expect("below a usize")
     }

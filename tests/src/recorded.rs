@@ -1,4 +1,4 @@
-//! The recorder as a program that is started, cut off and started again, and what it must leave.
+//! Recorder as a program that is started, interrupted and restarted, and checks of its recordings.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -10,11 +10,11 @@ use taceva_dataset::{Dataset, DatasetError, Digest, Pass, Recorder};
 use crate::binary::example;
 use crate::drawn::scratch;
 
-/// The recorder and the digests of what it records: sample `n` is the same in every recording.
+/// The recorder and the digests of its recordings: sample `n` is the same in every recording.
 #[derive(Debug)]
 pub struct Recorded {
     program: PathBuf,
-    /// Of the recording of the first `n` samples, for each `n`.
+    /// Digest of the recording of the first `n` samples, for each `n`.
     digests: Vec<Digest>,
 }
 
@@ -31,23 +31,23 @@ impl Recorded {
         Recorded { program, digests }
     }
 
-    /// Samples of the longest recording.
+    /// Number of samples of the longest recording.
     pub fn most(&self) -> usize {
         self.digests.len() - 1
     }
 
-    /// The recorder about to record everything in a new folder at `target`, or to go on there.
+    /// Command that records everything in a new folder at `target`, or resumes there.
     pub fn command(&self, target: &Path) -> Command {
         let mut command = Command::new(&self.program);
         command.arg(target).arg(self.most().to_string());
         command
     }
 
-    /// Opens what an interruption left at `target` and closes it: at least the first `acknowledged` samples must be there,
-    /// whole, in order, each once, and nothing else.
+    /// Resumes and closes an interrupted recording at `target`. The first `acknowledged` samples at least must be present: complete, in
+    /// order, each once, and nothing else.
     ///
     /// # Errors
-    /// What is not as promised.
+    /// Description of a broken promise.
     pub fn check(&self, target: &Path, acknowledged: usize) -> Result<(), String> {
         let resumed = if target.exists() {
             Recorder::resume(target)
@@ -61,7 +61,7 @@ impl Recorded {
             Ok(recorder) => {
                 recorder.close().map_err(|error| error.to_string())?;
             }
-            // It was closed already.
+            // The recording was closed already.
             Err(DatasetError::TargetExists { .. }) => {}
             Err(DatasetError::NoDataset { .. }) if acknowledged == 0 => return Ok(()),
             Err(error) => return Err(format!("{acknowledged} acknowledged: {error}")),
@@ -69,10 +69,10 @@ impl Recorded {
         self.check_closed(target, acknowledged)
     }
 
-    /// The same of a recording that is closed.
+    /// Like [`check`](Recorded::check), for a closed recording.
     ///
     /// # Errors
-    /// What is not as promised.
+    /// Description of a broken promise.
     pub fn check_closed(&self, target: &Path, acknowledged: usize) -> Result<(), String> {
         let dataset = open_whole(target)?;
         let found = dataset.table().rows();
@@ -101,10 +101,10 @@ fn uninterrupted(program: &Path, count: usize) -> Digest {
     dataset.digest()
 }
 
-/// The dataset at `target`, after each of its frames was read, verified and decoded.
+/// Opens the dataset at `target`, and reads, verifies and decodes every frame.
 ///
 /// # Errors
-/// What is wrong with it.
+/// Description of the fault.
 pub fn open_whole(target: &Path) -> Result<Dataset, String> {
     let dataset = Dataset::open(target).map_err(|error| error.to_string())?;
     let rows = dataset.all_rows();
@@ -115,10 +115,10 @@ pub fn open_whole(target: &Path) -> Result<Dataset, String> {
     Ok(dataset)
 }
 
-/// A small frame in which each pixel is `shade`.
+/// A small frame in which every pixel is `shade`.
 ///
 /// # Panics
-/// Never: it has a byte for each pixel.
+/// Never: the number of bytes matches.
 pub fn reference(shade: u8) -> Frame {
     let info = FrameInfo {
         width: 40,

@@ -1,4 +1,4 @@
-//! Real recordings: present on some machines, never part of the project.
+//! Real recordings: present on some machines, not part of the project.
 
 use std::path::PathBuf;
 
@@ -6,8 +6,8 @@ use taceva_needs::{Need, skip};
 
 use crate::workspace::root;
 
-/// The folder of the recording called `name`, under `TACEVA_DATA` or beside the workspace; where it is absent, says so
-/// and gives `None`, and the test that asked returns.
+/// Folder of the recording `name`, under `TACEVA_DATA` or beside the workspace. If it is missing, records a skip and returns `None`; the
+/// calling test then returns.
 pub fn recording(name: &str) -> Option<PathBuf> {
     let data = std::env::var_os("TACEVA_DATA")
         .map_or_else(|| root().join("../shared/data"), PathBuf::from);
@@ -15,7 +15,8 @@ pub fn recording(name: &str) -> Option<PathBuf> {
     if folder.is_dir() {
         return Some(folder);
     }
-    let reason = format!("no recording `{name}`: TACEVA_DATA names the folder that holds it");
+    let reason =
+        format!("recording `{name}` is missing: set TACEVA_DATA to the folder that holds it");
     skip(Need::Recordings, reason);
     None
 }

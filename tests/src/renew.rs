@@ -1,6 +1,6 @@
-//! Numbers in documents: who wrote them, whether they still come out, and how they are renewed.
+//! Generated numbers in documents: their commands, checks and renewal.
 //!
-//! A passage of a Markdown file that a command wrote stands between two comments, which a reader never sees:
+//! A generated passage of a Markdown file stands between two comments, which readers do not see:
 //!
 //! ```text
 //! <!-- from: taceva catalogue list --format md -->
@@ -8,10 +8,10 @@
 //! <!-- end -->
 //! ```
 //!
-//! The command is run by `bash` in the folder of the workspace; its standard output is the passage. `$OUT` is an empty folder that the commands
-//! of one document share, in order. `from, slow:` takes longer than a test may, `from, times:` is never twice the same, `from, data:` reads
-//! the recordings of `TACEVA_DATA`: these three are renewed, and compared by `renew --check` where that makes sense. A table of numbers that no
-//! command wrote says why before it: `<!-- by hand: … -->`.
+//! `bash` runs the command in the workspace folder, and its standard output is the passage. `$OUT` is an empty folder that the commands of
+//! one document share, in order. `from, slow:` marks a command that takes too long for a test. `from, times:` marks one whose output
+//! varies, and `from, data:` one that reads the recordings of `TACEVA_DATA`. These three are renewed, and `renew --check` compares them if
+//! possible. A handwritten table of numbers is preceded by its reason: `<!-- by hand: … -->`.
 
 mod documents;
 mod mark;

@@ -1,9 +1,9 @@
-//! Rust sources as text, for tests that hold rules on all of them.
+//! Rust sources as text, for tests of source rules.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Every Rust file below `folder`, in the order of their paths; none where there is no such folder.
+/// Every Rust file below `folder`, in path order; empty if there is no such folder.
 ///
 /// # Panics
 /// If an entry of the folder cannot be read, which ends the test.
@@ -21,7 +21,7 @@ pub fn rust_files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Code without its last part, the unit tests that stand in the same file.
+/// Code without the unit tests at its end.
 ///
 /// ```
 /// let code = "pub struct A;\n\n#[cfg(test)]\nmod tests {\n    struct B;\n}\n";
@@ -32,7 +32,7 @@ pub fn without_tests(code: &str) -> &str {
     &code[..end]
 }
 
-/// Code with a space in the place of each comment, string and letter in quotation marks.
+/// Code with a space in place of each comment, string and character literal.
 ///
 /// ```
 /// let code = "let a = \"told\"; // deal";
@@ -54,7 +54,7 @@ pub fn without_text(code: &str) -> String {
     left
 }
 
-/// How many bytes of comment, string or letter `code` begins with, after the letter `before`.
+/// Length in bytes of the comment, string or character literal at the start of `code`, after the letter `before`.
 fn length_of_text(code: &str, before: Option<char>) -> usize {
     if code.starts_with("//") {
         return code.find('\n').unwrap_or(code.len());
@@ -77,7 +77,7 @@ fn length_of_text(code: &str, before: Option<char>) -> usize {
     }
     match code.chars().next() {
         Some('"') => end_of_quote(code, '"').unwrap_or(code.len()),
-        // A lifetime has no second quotation mark so near.
+        // A lifetime has no closing quotation mark so near.
         Some('\'') => end_of_quote(code, '\'')
             .filter(|end| code[..*end].chars().count() == 3 || code.starts_with("'\\"))
             .unwrap_or(0),
@@ -85,7 +85,7 @@ fn length_of_text(code: &str, before: Option<char>) -> usize {
     }
 }
 
-/// Where the text ends that begins with `mark`.
+/// End of the text that begins with `mark`.
 fn end_of_quote(code: &str, mark: char) -> Option<usize> {
     let mut is_escaped = false;
     for (at, letter) in code.char_indices().skip(1) {

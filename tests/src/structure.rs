@@ -1,6 +1,7 @@
-//! Figures of the structure of the workspace: lines, knots of modules, tuple parameters, copies, doc comments, file names and the files that name one thing.
+//! Structure figures of the workspace: lines, module cycles, tuple parameters, copies, doc comments, file names, and the number of files
+//! per feature.
 //!
-//! `cargo run -p taceva-tests --bin structure` prints them; tests hold the ones that must not grow.
+//! `cargo run -p taceva-tests --bin structure` prints them; tests limit the ones that must not grow.
 
 mod copies;
 mod documentation;

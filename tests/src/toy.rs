@@ -1,23 +1,23 @@
-//! Small writers, some of them wrong on purpose: the search for states of a power cut must find their faults.
+//! Small writers, some with planted bugs, which the search for power-cut states must find.
 
 use std::fmt;
 
-/// One way to make bytes stay.
+/// Protocol that makes bytes durable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Protocol {
-    /// Writes over the old file. Wrong: a cut leaves neither old nor new.
+    /// Overwrites the old file. Wrong: a cut may leave neither old nor new content.
     Overwrite,
-    /// Writes a file beside it and renames. Wrong: the name may be durable before the bytes.
+    /// Writes a second file and renames it. Wrong: the name may be durable before the bytes.
     Rename,
-    /// Makes the bytes durable before. Wrong: the name is not, when success is claimed.
+    /// Syncs the bytes first. Wrong: the name is not durable when success is claimed.
     RenameSynced,
-    /// Makes the folder durable, too. Right.
+    /// Also syncs the folder. Correct.
     RenameSyncedFolder,
-    /// Appends records with length and check, each durable before it is claimed. Right.
+    /// Appends records with length and checksum, each durable before it is claimed. Correct.
     Journal,
-    /// The same, claiming each record before it is durable. Wrong.
+    /// Like `Journal`, but claims each record before it is durable. Wrong.
     JournalUnsynced,
-    /// Appends bare payloads. Wrong: a torn one looks like data.
+    /// Appends bare payloads. Wrong: a torn payload looks like data.
     JournalUnframed,
 }
 
@@ -33,12 +33,12 @@ impl Protocol {
         Protocol::JournalUnframed,
     ];
 
-    /// Whether it keeps its promise.
+    /// True if it keeps its promise.
     pub fn is_right(self) -> bool {
         matches!(self, Protocol::RenameSyncedFolder | Protocol::Journal)
     }
 
-    /// Whether it is a journal; the others replace one file.
+    /// True for a journal; other protocols replace one file.
     pub fn is_journal(self) -> bool {
         matches!(
             self,
@@ -60,32 +60,32 @@ pub const JOURNAL: &str = "journal";
 /// Records of a journal.
 pub const RECORDS: usize = 6;
 
-/// What stood in the header.
+/// Old content of the header.
 pub fn old_header() -> Vec<u8> {
     b"old".repeat(1_000)
 }
 
-/// What shall stand in it.
+/// New content of the header.
 pub fn new_header() -> Vec<u8> {
     b"new!".repeat(2_000)
 }
 
-/// The payload of record `number`, from 0.
+/// Payload of record `number`, from 0.
 pub fn payload(number: usize) -> Vec<u8> {
     let letter = b"ABCDEF"[number % RECORDS];
     vec![letter; 5_000 + 777 * number]
 }
 
-/// The payload behind its length and check.
+/// Payload after its length and checksum.
 pub fn framed(payload: &[u8]) -> Vec<u8> {
     let length = (payload.len() as u64).to_le_bytes();
     [&length[..], &check(payload).to_le_bytes(), payload].concat()
 }
 
-/// How many records a journal holds, from its beginning.
+/// Number of records in a journal, from its start.
 ///
 /// # Errors
-/// What is wrong, if something is taken for a record that was never written.
+/// Description of the fault, if data that was never written counts as a record.
 pub fn recovered(protocol: Protocol, bytes: &[u8]) -> Result<usize, String> {
     let mut rest = bytes;
     for number in 0..RECORDS {

@@ -1,4 +1,4 @@
-//! Studies on emulated devices: the program on one side of the sockets, a simulated gel whose truth is known on the other.
+//! Studies on emulated devices: the program on one side of the sockets, a simulated gel with known truth on the other.
 
 mod compared;
 pub mod faults;
@@ -16,9 +16,9 @@ use crate::binary::taceva;
 use crate::drawn::scratch;
 use crate::workspace::read;
 
-/// Emulated devices, and a folder with a scene and the rig file that reaches them.
+/// Emulated devices, and a folder with a scene and a rig file for them.
 pub struct OnTheWire {
-    /// The devices.
+    /// Emulated devices.
     pub served: Served,
     folder: tempfile::TempDir,
 }
@@ -30,7 +30,7 @@ const SCENE: &str = "wire.toml";
 /// The folder of a run on the wire.
 pub const RUN: &str = "wire";
 
-/// The scene `examples/scenes/wire.toml` with so many presses to one depth each, and a model that is fitted at once.
+/// Scene `examples/scenes/wire.toml` with `presses` presses to one depth each, and a model that fits quickly.
 ///
 /// # Panics
 /// If it cannot be read, which ends the test.
@@ -62,19 +62,19 @@ impl OnTheWire {
         OnTheWire { served, folder }
     }
 
-    /// The folder of the scene.
+    /// Folder of the scene.
     pub fn folder(&self) -> &Path {
         self.folder.path()
     }
 
-    /// The study on the emulated devices, begun or gone on with.
+    /// Command that starts or resumes the study on the emulated devices.
     pub fn study(&self) -> Command {
         let mut command = self.command(RUN);
         command.args(["--rig", RIG]);
         command
     }
 
-    /// Taps on the emulated devices, of which the rig file is told.
+    /// Command of taps on the emulated devices, with the rig file.
     pub fn taps(&self) -> Command {
         let mut command = Command::new(taceva());
         command
@@ -84,7 +84,7 @@ impl OnTheWire {
         command
     }
 
-    /// The same study on the bench that is simulated in the program, in the folder `simulated`.
+    /// Command of the same study on the bench simulated in the program, in the folder `simulated`.
     pub fn simulated(&self) -> Command {
         self.command("simulated")
     }
@@ -102,25 +102,25 @@ impl OnTheWire {
         command
     }
 
-    /// The recording in the folder `run`.
+    /// Recording in the folder `run`.
     ///
     /// # Panics
-    /// If there is none that is closed, which ends the test.
+    /// If there is no closed recording, which ends the test.
     pub fn recording(&self, run: &str) -> Dataset {
         let path = self.folder().join(run).join("recordings/1-wire");
         Dataset::open(&path).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    /// What is written of the results in the folder `run`.
+    /// Results file in the folder `run`.
     pub fn results(&self, run: &str) -> PathBuf {
         self.folder().join(run).join("results.json")
     }
 }
 
-/// Runs a study to its end: how long it took.
+/// Runs a study to its end and returns its duration.
 ///
 /// # Errors
-/// What it said.
+/// Output of the study.
 pub fn finished(mut study: Command) -> Result<Duration, String> {
     let began = Instant::now();
     let output = study.stderr(Stdio::piped()).output();
@@ -131,7 +131,7 @@ pub fn finished(mut study: Command) -> Result<Duration, String> {
     }
 }
 
-/// A study that is under way, which is ended with this.
+/// A running study, which is killed on drop.
 #[derive(Debug)]
 pub struct UnderWay(Child);
 
@@ -145,26 +145,26 @@ impl UnderWay {
         UnderWay(child.expect("the program was built"))
     }
 
-    /// Whether it ended by itself, and whether well; `None` while it goes on.
+    /// True if it ended successfully, false if it failed; `None` while it runs.
     ///
     /// # Panics
-    /// If the system does not say, which ends the test.
+    /// If the system returns an error, which ends the test.
     pub fn ended(&mut self) -> Option<bool> {
         let status = self.0.try_wait().expect("a child that was started here");
         status.map(|status| status.success())
     }
 
-    /// Kills it, as `kill -9` does.
+    /// Kills it, like `kill -9`.
     ///
     /// # Panics
-    /// If the system does not say that it ended, which ends the test.
+    /// If the system does not confirm the end, which ends the test.
     pub fn kill(&mut self) {
-        // It may have ended by itself.
+        // The study may have ended by itself.
         let _ = self.0.kill();
         self.0.wait().expect("a child that was started here");
     }
 
-    /// Waits until it ends: whether well, and what it said.
+    /// Waits for the end. Returns true for success, and the output.
     ///
     /// # Panics
     /// If it cannot be read, which ends the test.

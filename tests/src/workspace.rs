@@ -1,4 +1,4 @@
-//! The workspace as files and as cargo sees it.
+//! Workspace as files, and as cargo describes it.
 
 use std::path::{Path, PathBuf};
 
@@ -21,10 +21,10 @@ pub fn read(relative: &str) -> String {
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// What cargo knows of the workspace, without its dependencies.
+/// Cargo's metadata of the workspace, without its dependencies.
 ///
 /// # Panics
-/// If cargo cannot say, which ends the test.
+/// If cargo fails, which ends the test.
 pub fn metadata() -> Metadata {
     MetadataCommand::new()
         .manifest_path(root().join("Cargo.toml"))

@@ -1,4 +1,4 @@
-//! Files that import one another in a ring cannot be read one at a time: no crate has a ring of three files or more, but for those listed.
+//! No crate has an import cycle of three or more files, except for the listed ones: such files cannot be read one at a time.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -6,10 +6,10 @@ use std::fs;
 use taceva_tests::imports::{circles, graph};
 use taceva_tests::metadata;
 
-/// How many files a circle has that is refused.
+/// Fewest files of a rejected cycle.
 const LEAST: usize = 3;
 
-/// Circles that stay, each by one of its files and with the reason; none may have more files than are stated.
+/// Accepted cycles: package, one of the files, most files, and the reason.
 const KNOWN: &[(&str, &str, usize, &str)] = &[
     (
         "taceva-metrics",

@@ -1,23 +1,23 @@
-//! Pictures are cut short and have bits flipped: as frames of a dataset none is accepted with other pixels.
+//! Truncated pictures and pictures with flipped bits: no frame of a dataset is accepted with other pixels.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use taceva_core::{Frame, SilentProgress};
 use taceva_dataset::{Dataset, DatasetError};
-use taceva_import::{ImportMap, ImportPlan};
+use taceva_import::{ImportError, ImportMap, ImportPlan};
 use taceva_tests::{Form, Lab, Random, picture, recording, scratch};
 
 const SEED: u64 = 20_261_122;
-/// Of each form, from the real recordings.
+/// Number of real pictures of each format.
 const REAL_PICTURES: usize = 66;
 
-/// One way to spoil a file.
+/// Damage of a file.
 #[derive(Clone, Copy, Debug)]
 enum Damage {
-    /// Only so many bytes are left.
+    /// Truncated to this many bytes.
     Truncated(usize),
-    /// One bit of one byte is another.
+    /// One bit of one byte is flipped.
     Flipped(usize, u32),
 }
 
@@ -32,32 +32,32 @@ impl Damage {
     }
 }
 
-fn import(lab: &Lab, target: &Path) -> Result<Dataset, DatasetError> {
+fn import(lab: &Lab, target: &Path) -> Result<Dataset, ImportError> {
     let map = ImportMap::read(&lab.map())?;
     ImportPlan::new(lab.path(), &map)?.run(target, NonZeroUsize::MIN, &SilentProgress)?;
-    Dataset::open(target)
+    Ok(Dataset::open(target)?)
 }
 
-/// What became of damaged copies.
+/// Counts of damaged copies.
 #[derive(Debug, Default)]
 struct Counts {
-    /// In a dataset.
+    /// Damaged copies in a dataset.
     copies: usize,
-    /// Of these, refused.
+    /// Rejected ones of these.
     refused: usize,
-    /// Truncations, at import.
+    /// Truncations at import.
     truncations: usize,
-    /// Of these, refused.
+    /// Rejected ones of these.
     truncations_refused: usize,
-    /// Flips, at import.
+    /// Flips at import.
     flips: usize,
-    /// Of these, refused.
+    /// Rejected ones of these.
     flips_refused: usize,
-    /// Of these, accepted with other pixels.
+    /// Accepted ones of these with other pixels.
     flips_seen_wrong: usize,
 }
 
-/// Damages the stored file of the only frame of a dataset, then the same picture before it is imported.
+/// Damages the stored file of the only frame of a dataset, then the same picture before its import.
 fn try_damages(form: Form, order: &str, bytes: &[u8], damages: &[Damage], counts: &mut Counts) {
     let lab = Lab::new(form, order, &[bytes.to_vec()]);
     let folder = scratch();
@@ -89,7 +89,7 @@ fn try_damages(form: Form, order: &str, bytes: &[u8], damages: &[Damage], counts
 fn count_import(
     damage: Damage,
     original: &Frame,
-    imported: &Result<Option<Frame>, DatasetError>,
+    imported: &Result<Option<Frame>, ImportError>,
     counts: &mut Counts,
 ) {
     let is_refused = usize::from(imported.is_err());
@@ -132,7 +132,7 @@ fn a_drawn_jpeg_damaged_anywhere_is_refused_in_a_dataset_and_cut_short_at_import
     assert_refused("drawn JPEG", &damage_drawn(Form::Jpeg));
 }
 
-/// A truncation at every seventh byte and a flip in every eleventh.
+/// Truncates at every seventh byte and flips a bit in every eleventh.
 fn damage_drawn(form: Form) -> Counts {
     let bytes = picture(form, 3);
     let truncations = (0..bytes.len()).step_by(7).map(Damage::Truncated);
@@ -168,7 +168,7 @@ fn real_pngs_damaged_on_disk_are_refused() {
     );
 }
 
-/// Three damages of each picture: two truncations and a flip.
+/// Damages each picture three times: two truncations and a flip.
 fn damage_real(form: Form, recordings: &[(&str, &str, usize)]) {
     let mut counts = Counts::default();
     let mut random = Random::new(SEED);
@@ -200,7 +200,7 @@ fn damage_real(form: Form, recordings: &[(&str, &str, usize)]) {
     assert_refused(&format!("real {form:?}"), &counts);
 }
 
-/// Every picture of a form below `folder`, in the order of their names.
+/// Every picture of a format below `folder`, by name.
 fn pictures_below(folder: &Path, form: Form) -> Vec<PathBuf> {
     let mut entries: Vec<PathBuf> = folder
         .read_dir()

@@ -1,23 +1,23 @@
-//! JPEGs are cut, closed after a cut, robbed of bytes and changed inside: what libjpeg warns of is refused, and no whole one is.
+//! Damaged JPEGs: truncated, closed after a truncation, with bytes removed or changed. Pictures with a libjpeg warning are rejected, and no
+//! intact one is.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use taceva_core::SilentProgress;
-use taceva_dataset::DatasetError;
-use taceva_import::{ImportMap, ImportPlan};
+use taceva_import::{ImportError, ImportMap, ImportPlan};
 use taceva_needs::{Need, skip};
 use taceva_tests::{Form, Lab, Random, recording, root, scratch};
 
 const SEED: u64 = 20_261_123;
-/// Of each kind.
+/// Number of pictures for each kind of damage.
 const DAMAGED: usize = 100;
-/// Real pictures beside the drawn ones.
+/// Number of real pictures, besides the drawn ones.
 const REAL: usize = 20;
 const END: [u8; 2] = [0xFF, 0xD9];
 
-/// What was done to a picture.
+/// Damage of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Damage {
     Cut,
@@ -56,7 +56,7 @@ impl Damage {
     }
 }
 
-/// Where the first scan's data begins, and where the end marker is.
+/// Offsets of the first scan's data and of the end marker.
 fn entropy_coded(whole: &[u8]) -> (usize, usize) {
     let scan = whole.windows(2).position(|pair| pair == [0xFF, 0xDA]);
     let scan = scan.expect("a scan");
@@ -65,7 +65,7 @@ fn entropy_coded(whole: &[u8]) -> (usize, usize) {
     (scan + 2 + length, end.expect("an end"))
 }
 
-/// Drawn pictures as encoders write them, and some real ones where they are.
+/// Drawn pictures as encoders write them, and some real ones if available.
 fn whole_pictures() -> Vec<(PathBuf, Vec<u8>)> {
     let mut paths = jpegs_below(&root().join("crates/recordings/dataset/tests/fixtures/jpeg"));
     assert!(paths.len() >= 12, "{paths:?}");
@@ -93,8 +93,8 @@ fn jpegs_below(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Imports a picture as the only one of a lab.
-fn import(bytes: &[u8]) -> Result<(), DatasetError> {
+/// Imports a picture as the only one of a folder.
+fn import(bytes: &[u8]) -> Result<(), ImportError> {
     let is_gray = |bytes: &[u8]| {
         let frame = bytes
             .windows(2)
@@ -114,7 +114,7 @@ fn import(bytes: &[u8]) -> Result<(), DatasetError> {
         .map(drop)
 }
 
-/// Whether libjpeg's own program warns of a picture; `None` where it is not installed.
+/// True if libjpeg's own program warns about a picture; `None` if it is not installed.
 fn libjpeg_warns(bytes: &[u8], folder: &Path) -> Option<bool> {
     let path = folder.join("picture.jpg");
     std::fs::write(&path, bytes).expect("room for a picture");
@@ -153,7 +153,7 @@ fn every_jpeg_that_libjpeg_warns_of_is_refused() {
             let imported = import(&bytes);
             let warns = libjpeg_warns(&bytes, folder.path()).unwrap_or(false);
             let context = format!("seed {SEED}, {damage:?} {number}, {}", path.display());
-            // A scan that is whole up to a cut between two scans would be a picture, but not all of it.
+            // A cut between two scans leaves whole scans, which decode to a picture with missing detail.
             if matches!(damage, Damage::Cut | Damage::CutAndClosed) || warns {
                 assert!(imported.is_err(), "accepted: {context}");
             }

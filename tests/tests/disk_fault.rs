@@ -1,5 +1,5 @@
-//! The disk refuses, at the n-th call that makes something durable, once and from then on: no success is claimed, nothing that
-//! was acknowledged is lost, and where the disk works again the work is done again.
+//! The disk fails at the n-th call that makes data durable, once or from then on. No success is reported, no acknowledged data is lost, and
+//! a working disk completes the work.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -8,10 +8,10 @@ use taceva_needs::{Need, skip};
 use taceva_tests::recorded::{Recorded, open_whole};
 use taceva_tests::{Form, Lab, scratch, taceva};
 
-/// The exit code of what the system refuses.
+/// Exit code for errors of the system.
 const REFUSED: i32 = 3;
 
-/// Calls that a disk may refuse, each with its own error.
+/// System calls that may fail, each with its error.
 const FAULTS: [(&str, &str); 4] = [
     ("fsync,fdatasync", "EIO"),
     ("rename,renameat,renameat2", "EIO"),
@@ -19,16 +19,16 @@ const FAULTS: [(&str, &str); 4] = [
     ("ftruncate,fallocate", "EIO"),
 ];
 
-/// Which of the calls fail.
+/// Failing calls.
 #[derive(Clone, Copy, Debug)]
 enum When {
-    /// The n-th alone.
+    /// Only the n-th.
     Once(usize),
-    /// The n-th and all that follow.
+    /// The n-th and all later ones.
     From(usize),
 }
 
-/// Runs `command` on a disk that refuses `calls`; `None` where calls cannot be tampered with.
+/// Runs `command` on a disk on which `calls` fail; `None` if calls cannot be intercepted.
 fn refused(command: &Command, calls: &str, error: &str, when: When) -> Option<Output> {
     let when = match when {
         When::Once(number) => number.to_string(),

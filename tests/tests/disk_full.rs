@@ -1,4 +1,4 @@
-//! The disk is full at every stage: the error says so, nothing half-written is left, and the work goes on where there is room.
+//! Full disk at every stage: the error says so, no partial file remains, and the work continues once there is space.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -7,7 +7,7 @@ use taceva_needs::{Need, skip};
 use taceva_tests::recorded::{Recorded, open_whole};
 use taceva_tests::{Form, Lab, scratch, taceva};
 
-/// The exit code of bad input and of what the system refuses.
+/// Exit code for invalid input and for errors of the system.
 const REFUSED: i32 = 3;
 
 fn import(lab: &Lab, target: &Path) -> Vec<PathBuf> {
@@ -26,9 +26,9 @@ fn recorder(recorded: &Recorded, target: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
-/// Runs a command whose files may not grow beyond `blocks` of 512 bytes: to write more fails, as on a full disk.
+/// Runs a command whose files are limited to `blocks` of 512 bytes: larger writes fail, as on a full disk.
 fn with_small_files(blocks: usize, words: &[PathBuf]) -> Output {
-    // Signals that the shell ignores stay ignored: the write fails instead of the process.
+    // Ignored signals stay ignored in children: the write fails instead of the process.
     let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
     Command::new("sh")
         .args(["-c", &script, "sh"])
@@ -41,7 +41,7 @@ fn complaint(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// What an import that failed must leave: no target and nothing beside it, and an error that names what could not be done.
+/// Asserts the result of a failed import: no target, no other file, and an error that names the failed operation.
 fn assert_left_nothing(output: &Output, folder: &Path, reason: &str) {
     let complaint = complaint(output);
     assert_eq!(output.status.code(), Some(REFUSED), "{complaint}");
@@ -57,7 +57,7 @@ fn an_import_whose_files_cannot_grow_says_so_and_leaves_nothing() {
     let folder = scratch();
     let target = folder.path().join("set");
     let mut refusals = 0;
-    // The pictures are smaller than the table: some limits stop at a picture, some later.
+    // Pictures are smaller than the table: some limits fail at a picture, some later.
     for blocks in 0..64 {
         let output = with_small_files(blocks, &import(&lab, &target));
         if output.status.success() {
@@ -127,17 +127,17 @@ fn highest_acknowledged(said: &str) -> usize {
         .unwrap_or(0)
 }
 
-/// What a command did on a disk that was too small, and again when there was room.
+/// Results of a command on a disk that is too small, and again with enough space.
 struct TwoRuns {
     /// Exit code, standard output and error of both.
     runs: [(i32, String, String); 2],
-    /// The names on the disk after the first.
+    /// Names on the disk after the first run.
     left: String,
-    /// What the target had become after the second, copied to a disk that stays.
+    /// Copy of the target after the second run.
     copied: tempfile::TempDir,
 }
 
-/// Runs a command twice on a disk seen by it alone, of `kib` KiB and then of enough; `None` where this needs more rights.
+/// Runs a command twice on a private disk, first of `kib` KiB and then large enough; `None` without the required permission.
 fn on_small_disk(disk: &Path, kib: usize, words: &[PathBuf]) -> Option<TwoRuns> {
     let copied = scratch();
     let output = Command::new("unshare")
@@ -191,7 +191,7 @@ fn an_import_to_a_full_disk_says_so_and_leaves_nothing() {
     let folder = scratch();
     let words = import(&lab, &folder.path().join("set"));
     let mut refusals = 0;
-    // Every third page of the disk from one to enough.
+    // Disk sizes in steps of three pages, from one page to enough.
     for kib in (4..400).step_by(12) {
         let Some(tried) = on_small_disk(folder.path(), kib, &words) else {
             return;
@@ -201,7 +201,7 @@ fn an_import_to_a_full_disk_says_so_and_leaves_nothing() {
             break;
         }
         assert_eq!(*code, REFUSED, "{kib} KiB: {complaint}");
-        // Either told before the work began, or met by a write.
+        // Reported before the work began, or at a write.
         let is_told =
             ["No space left", "nothing was started"].map(|words| complaint.contains(words));
         assert!(is_told.contains(&true), "{complaint}");
@@ -219,7 +219,7 @@ fn a_recording_on_a_full_disk_goes_on_where_there_is_room() {
     let folder = scratch();
     let words = recorder(&recorded, &folder.path().join("set"));
     let mut refusals = 0;
-    // Every page of the disk from one to enough: frames lie in a pack, so all of it takes a few.
+    // Disk sizes in steps of one page, from one page to enough: frames lie in a pack, so a few pages hold everything.
     for kib in (4..240).step_by(4) {
         let Some(tried) = on_small_disk(folder.path(), kib, &words) else {
             return;

@@ -1,4 +1,4 @@
-//! Numbers in documents are those that their commands print.
+//! Generated numbers in documents equal the output of their commands.
 
 use std::fs;
 use std::path::Path;
@@ -18,7 +18,7 @@ fn passages(document: &Document) -> Vec<Passage> {
 
 #[test]
 fn quick_numbers_of_documents_are_what_their_commands_print() {
-    // Beside it, in a folder of its own; the commands of README run it.
+    // Example in the `examples` folder, which commands of the README run.
     example("make_recording");
     let programs = taceva();
     let programs = programs.parent().expect("a program is in a folder");

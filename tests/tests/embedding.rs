@@ -1,4 +1,4 @@
-//! The first example of `taceva-metrics` compiles and runs in a project outside the workspace, from the crates as they are published.
+//! The first example of `taceva-metrics` compiles and runs in a project outside the workspace, from the packed crates.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use taceva_tests::root;
 
 const CRATES: [&str; 2] = ["taceva-core", "taceva-metrics"];
 
-/// Runs `command`, which must succeed; what it printed.
+/// Runs `command`, which must succeed, and returns its output.
 fn succeed(command: &mut Command) -> String {
     let output = command.output().expect("the program starts");
     let printed = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -21,7 +21,7 @@ fn cargo() -> Command {
     Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
 }
 
-/// Packs the crates and unpacks them below `folder`, as a registry would hand them out; where each lies.
+/// Packs the crates and unpacks them below `folder`, as a registry would deliver them. Returns the folder of each.
 fn unpacked(folder: &Path) -> Vec<(&'static str, PathBuf)> {
     let built = folder.join("packed");
     let mut package = cargo();
@@ -53,7 +53,7 @@ fn unpacked(folder: &Path) -> Vec<(&'static str, PathBuf)> {
         .to_vec()
 }
 
-/// The first Rust example of a document, as a whole program.
+/// First Rust example of a document, as a complete program.
 fn first_example(document: &str) -> String {
     let (_, from) = document.split_once("```rust\n").expect("an example");
     let (example, _) = from.split_once("```").expect("its end");

@@ -1,5 +1,6 @@
-//! Single bits are flipped in datasets, models, states, results, caches and folders of runs and sweeps: what comes of them is the same as before, or
-//! a refusal that names the file. `TACEVA_FLIPS=1000 cargo test --release -p taceva-tests --test tests flips:: -- --nocapture` tries as many in all.
+//! Single bit flips in datasets, models, states, results, caches, and folders of runs and sweeps: the output is unchanged, or an error
+//! names the file. `TACEVA_FLIPS=1000 cargo test --release -p taceva-tests --test tests flips:: -- --nocapture` sets the total number of
+//! flips.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -8,10 +9,10 @@ use std::process::Command;
 use taceva_tests::{Form, Lab, Random, scratch, taceva};
 
 const SEED: u64 = 20_261_124;
-/// In all, over all kinds, where nobody asks for more.
+/// Default total number of flips, over all kinds.
 const FLIPS: usize = 120;
 
-/// What the program was asked for.
+/// Runs the program with `words` in `folder`.
 fn taceva_in(folder: &Path, words: &str) -> (Option<i32>, String, String) {
     let mut command = Command::new(taceva());
     command
@@ -35,12 +36,12 @@ fn ok(folder: &Path, words: &str) -> String {
     out
 }
 
-/// A kind of file, where its files are, and the commands that read them.
+/// A kind of file: its location, and the commands that read it.
 struct Kind {
     name: &'static str,
     below: &'static [&'static str],
     commands: &'static [&'static str],
-    /// Whether what is damaged may be made anew instead of refused.
+    /// True for a cache: a damaged file may be recreated instead of rejected.
     is_cache: bool,
 }
 
@@ -95,9 +96,9 @@ const KINDS: [Kind; 7] = [
     },
 ];
 
-/// A scene of the recording, whose run is small.
+/// Scene of the recording with a small run.
 const SCENE: &str = "scene_version = 1\nname = \"drawn\"\nsensor = { dataset = \"data\" }\nmodel = { name = \"ridge\" }\n";
-/// A sweep over it, of two tasks.
+/// Sweep of it with two tasks.
 const SWEEP: &str = "sweep_version = 1\ndatasets = [\"data\"]\nmodels = [\"ridge\", \"baseline\"]\nmetrics = [\"accuracy\"]\n";
 
 fn prepare(folder: &Path) {
@@ -141,7 +142,7 @@ fn files_below(path: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
-/// What every command says, as far as it says it without an error.
+/// Exit code and output of every command.
 fn said(folder: &Path, commands: &[&str]) -> Vec<(Option<i32>, String, String)> {
     commands
         .iter()
@@ -177,7 +178,7 @@ fn no_flipped_bit_changes_a_number_or_a_claim_without_a_word() {
             let (at, bit) = (random.below(whole.len()), random.below(8));
             let mut bytes = whole.clone();
             bytes[at] ^= 1 << bit;
-            // Files of a cache are shared by links: the damage is one of this name alone.
+            // Cache files share their content through links: damage only this name.
             std::fs::remove_file(path).expect("there");
             std::fs::write(path, &bytes).expect("written");
             let found = said(folder, kind.commands);
@@ -196,7 +197,7 @@ fn no_flipped_bit_changes_a_number_or_a_claim_without_a_word() {
             }
             *counts.entry(outcome).or_default() += 1;
             if kind.is_cache {
-                // What was damaged is made anew, or was of no use.
+                // The damaged file was recreated or is not needed.
                 drop(std::fs::remove_file(path));
             }
             std::fs::write(path, &whole).expect("written");

@@ -1,4 +1,4 @@
-//! Links at every name that a command makes and that could be foretold: what they lead to keeps its bytes and its names.
+//! Links at every predictable file name of a command: the link targets keep their content.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -7,14 +7,14 @@ use std::process::{Command, Output, Stdio};
 use taceva_needs::{Need, skip};
 use taceva_tests::{Form, Lab, scratch, taceva};
 
-/// Calls that make a name.
+/// System calls that create a name.
 const MAKING: &str =
     "trace=open,openat,creat,mkdir,mkdirat,rename,renameat,renameat2,link,linkat,symlink,symlinkat";
 
-/// Names of an earlier run at which links stand, if no name can be foretold.
+/// Number of links at names of an earlier run, if no name is predictable.
 const SOME: usize = 8;
 
-/// Commands, each in a folder `work` of which only they make names. Inputs stand in `given` beside it.
+/// Commands, each in a folder `work` in which only they create names. Inputs are in `given` beside it.
 const COMMANDS: [(&str, &str); 7] = [
     (
         "import",
@@ -70,7 +70,7 @@ impl Bench {
         self.folder.path().join(name)
     }
 
-    /// The folder `work` as it is before each command.
+    /// Restores the folder `work` before each command.
     fn anew(&self) {
         let work = self.path("work");
         if work.exists() {
@@ -115,7 +115,7 @@ impl Bench {
         assert!(output.status.success(), "{words}: {complaint}");
     }
 
-    /// The names below `work` that the command makes, or why they cannot be seen.
+    /// Names below `work` that the command creates, or the reason why they cannot be traced.
     fn made(&self, words: &str) -> Result<BTreeSet<PathBuf>, String> {
         self.anew();
         let log = self.path("trace");
@@ -153,7 +153,7 @@ impl Bench {
 const SWEEP: &str =
     "sweep_version = 1\ndatasets = [\"data\"]\nmodels = [\"ridge\"]\nmetrics = [\"accuracy\"]\n";
 
-/// The name that a line of a trace makes.
+/// Name that a line of a trace creates.
 fn name_made(line: &str) -> Option<String> {
     let (call, result) = line.rsplit_once(" = ")?;
     if result.starts_with('-') {
@@ -167,7 +167,7 @@ fn name_made(line: &str) -> Option<String> {
     quoted.last().map(|name| (*name).to_owned())
 }
 
-/// A copy of a folder and all in it.
+/// Copies a folder and its content.
 fn copied(from: &Path, to: &Path) {
     std::fs::create_dir(to).expect("room");
     for entry in from.read_dir().expect("there").flatten() {
@@ -179,7 +179,7 @@ fn copied(from: &Path, to: &Path) {
     }
 }
 
-/// A folder of somebody else, which looks like a dataset and holds more.
+/// A folder of another user, which looks like a dataset and holds more.
 fn theirs(folder: &Path) {
     if folder.exists() {
         std::fs::remove_dir_all(folder).expect("removed");
@@ -204,14 +204,13 @@ fn content(folder: &Path) -> Vec<(String, Vec<u8>)> {
     content
 }
 
-/// Where a link that leads elsewhere is the wish of whoever made it: new files are kept there, and what was there stays.
+/// True if a link at `path` is a user's choice of location: new files are stored there, and existing ones stay.
 fn is_kept_elsewhere(path: &Path, work: &Path) -> bool {
     ["cache", "share", "which.sweep"]
         .iter()
         .any(|name| path.starts_with(work.join(name)))
 }
 
-/// K3.
 #[cfg(unix)]
 #[test]
 #[expect(clippy::print_stderr, reason = "the counts are the result")]
@@ -240,7 +239,7 @@ fn what_links_at_foretold_names_lead_to_keeps_its_bytes() {
         let is_free = |path: &&PathBuf| std::fs::symlink_metadata(path).is_err();
         let mut linked: Vec<&PathBuf> = foretold.iter().copied().filter(is_free).collect();
         if linked.is_empty() {
-            // No new name is foretold: links stand at some of those that it made before.
+            // No new name is predictable: put links at some names of the first run.
             linked = first.iter().filter(is_free).take(SOME).collect();
         }
         let work = bench.path("work");
@@ -251,7 +250,7 @@ fn what_links_at_foretold_names_lead_to_keeps_its_bytes() {
                 bench.anew();
                 theirs(&elsewhere);
                 let before = content(&elsewhere);
-                // In a folder that is made by the command nobody can put a link beforehand, unless he makes it.
+                // Nobody can put a link into a folder that the command itself creates.
                 let parent = path.parent().expect("below a folder");
                 std::fs::create_dir_all(parent).expect("room");
                 if std::fs::symlink_metadata(path).is_ok() {

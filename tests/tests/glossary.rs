@@ -1,4 +1,4 @@
-//! The glossary of CONTRIBUTING.md defines each term once, and words that were replaced do not come back as identifiers.
+//! The glossary of CONTRIBUTING.md defines each term once, and replaced words are not used as identifiers.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -6,7 +6,7 @@ use std::fs;
 use taceva_tests::source::{rust_files, without_text};
 use taceva_tests::{metadata, read};
 
-/// Words that were replaced in all crates, each with what stands in its place. A word is entered once it is gone from every `src`.
+/// Words replaced in all crates, each with its replacement. A word is listed once no `src` uses it.
 const REPLACED: &[(&str, &str)] = &[
     ("contender", "what it is, such as a kernel"),
     ("contenders", "what they are, such as kernels"),
@@ -25,19 +25,19 @@ const REPLACED: &[(&str, &str)] = &[
     ("told", "predicted, given, distinguished"),
 ];
 
-/// The same for words that some crates keep, with these crates.
+/// Words replaced except in the listed crates.
 const REPLACED_BUT_IN: &[(&str, &str, &[&str])] = &[
-    // A first map for a folder of a lab.
+    // `draft`: a first map for a folder of a laboratory.
     ("draft", "collect", &["taceva-cli", "taceva-import"]),
-    // What comparisons stand on.
+    // `ground`: the basis of a comparison.
     ("ground", "samples, group", &["taceva-report"]),
-    // Whoever judges a simulated run, and who judges published numbers.
+    // `judge`: the checker of a simulated run, or of published numbers.
     (
         "judge",
         "check, set",
         &["taceva-report", "taceva-simulation"],
     ),
-    // What a child printed, and what a program did.
+    // `printed`: output of a child process or of a program.
     (
         "printed",
         "formatted",
@@ -48,7 +48,7 @@ const REPLACED_BUT_IN: &[(&str, &str, &[&str])] = &[
             "taceva-tests",
         ],
     ),
-    // A log is told something.
+    // `tell`: a message to a log.
     (
         "tell",
         "predict, print",
@@ -56,7 +56,7 @@ const REPLACED_BUT_IN: &[(&str, &str, &[&str])] = &[
     ),
 ];
 
-/// The same for words that only some crates must not have, with these crates. A device may fall silent; what shows nothing says what it is.
+/// Words replaced only in the listed crates. A device may be silent; other things have a more precise name.
 const REPLACED_IN: &[(&str, &str, &[&str])] = &[(
     "silent",
     "what it is, such as SilentProgress",
@@ -75,7 +75,7 @@ const REPLACED_IN: &[(&str, &str, &[&str])] = &[(
     ],
 )];
 
-/// Identifiers that have such a word, and say with it what they are.
+/// Identifiers that contain such a word and are precise.
 const KEPT: [&str; 1] = ["SilentProgress"];
 
 /// The terms of the glossary, in lower case, each with its definition.
@@ -201,7 +201,7 @@ fn a_crate_that_keeps_a_word_still_has_it() {
             let metadata = metadata();
             let of_that_name = |package: &&cargo_metadata::Package| package.name.as_str() == *name;
             let package = metadata.packages.iter().find(of_that_name);
-            let folder = package.unwrap_or_else(|| panic!("{name} is no crate"));
+            let folder = package.unwrap_or_else(|| panic!("{name} is not a crate"));
             let src = folder.manifest_path.parent().expect("a folder").join("src");
             let has = rust_files(src.as_std_path()).iter().any(|file| {
                 let code = without_text(&fs::read_to_string(file).expect("readable"));

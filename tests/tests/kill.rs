@@ -1,4 +1,4 @@
-//! Programs are killed at random moments, again and again: nothing is lost, nothing doubled, and the end is the same.
+//! Programs killed repeatedly at random moments: nothing is lost or duplicated, and the final result is the same.
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -17,7 +17,7 @@ const KILLS_OF_ADDITIONS: usize = 40;
 const REPLACEMENTS: usize = 40;
 const PICTURES: u32 = 60;
 
-/// What the lines of a killed recorder said.
+/// Lines of a killed recorder.
 #[derive(Debug, Default)]
 struct Heard {
     resumed: Option<usize>,
@@ -25,7 +25,7 @@ struct Heard {
     is_closed: bool,
 }
 
-/// Starts `command`, hears `acks` acknowledgements, waits `more` and kills it; lines that were under way are heard, too.
+/// Starts `command`, reads `acks` acknowledgements, waits `more` and kills it. Lines already written are read, too.
 fn killed(command: &mut Command, acks: usize, more: Duration) -> Heard {
     let mut child = command
         .stdout(Stdio::piped())
@@ -47,7 +47,7 @@ fn killed(command: &mut Command, acks: usize, more: Duration) -> Heard {
     heard
 }
 
-/// Whether the line was an acknowledgement.
+/// True if the line was an acknowledgement.
 fn hear(line: &str, heard: &mut Heard) -> bool {
     let number = |prefix: &str| line.strip_prefix(prefix)?.parse().ok();
     if let Some(rows) = number("RESUMED ") {
@@ -60,12 +60,12 @@ fn hear(line: &str, heard: &mut Heard) -> bool {
 }
 
 fn kill(child: &mut Child) {
-    // It may have ended by itself.
+    // The program may have ended by itself.
     let _ = child.kill();
     child.wait().expect("a child that was started here");
 }
 
-/// Waits without giving the processor away: sleeping is too coarse for moments a few microseconds apart.
+/// Busy-waits: sleeping is too coarse for moments a few microseconds apart.
 fn spin(time: Duration) {
     let start = Instant::now();
     while start.elapsed() < time {
@@ -77,7 +77,7 @@ fn micros(random: &mut Random, end: usize) -> Duration {
     Duration::from_micros(random.below(end) as u64)
 }
 
-/// Kills one recording after another until `kills` are done; each kill falls after up to `most_acks` acknowledgements.
+/// Kills recordings until `kills` are done, each after up to `most_acks` acknowledgements.
 #[expect(clippy::print_stderr, reason = "the counts are the result")]
 fn kill_recordings(recorded: &Recorded, kills: usize, most_acks: usize, window_us: usize) {
     let mut random = Random::new(SEED);
@@ -118,7 +118,7 @@ fn kill_recordings(recorded: &Recorded, kills: usize, most_acks: usize, window_u
 
 #[test]
 fn a_recorder_killed_at_any_moment_loses_and_doubles_nothing() {
-    // Without an acknowledgement the kill falls into the start or into the resumption.
+    // Without an acknowledgement the kill hits the start or the resumption.
     kill_recordings(&Recorded::up_to(60), KILLS_OF_RECORDINGS, 8, 1_500);
 }
 
@@ -185,7 +185,7 @@ fn an_import_that_replaces_a_dataset_can_be_killed_at_any_moment_and_loses_none(
     let (mut before, mut amid, mut after) = (0, 0, 0);
     for number in 0..KILLS_OF_REPLACEMENTS {
         let (old, new) = ((number + 1) % 2, number % 2);
-        // Every other kill falls late, where names are exchanged and the old one is removed.
+        // Every second kill is late, during the exchange of names and the removal of the old one.
         let whole = entries_below(&target);
         let mut child = import(&labs[new], &target)
             .arg("--force")
@@ -205,7 +205,7 @@ fn an_import_that_replaces_a_dataset_can_be_killed_at_any_moment_and_loses_none(
             Ok(found) if found == digests[old] => amid += 1,
             _ => panic!("lost: {context}"),
         }
-        // The next turn replaces the other one, whichever is there now.
+        // The next turn replaces the present dataset by the other one.
         if found != Ok(digests[new]) {
             let finished = import(&labs[new], &target).arg("--force").status();
             assert!(finished.expect("built").success(), "{context}");
@@ -273,7 +273,7 @@ fn rows_that_are_added_can_be_killed_at_any_moment_and_nothing_is_lost_or_double
             }
             (_, rows) => panic!("{context}: {rows} rows"),
         }
-        // Once more: what was not added is added now, and what was added is refused.
+        // Again: rows that are missing are added, and rows that exist are rejected.
         let was_added = dataset.digest() != old;
         drop(dataset);
         assert_eq!(
@@ -311,7 +311,7 @@ fn readers_see_the_old_or_the_new_dataset_while_it_is_replaced() {
                 scope.spawn(|| {
                     let mut seen = [0; 2];
                     while !is_done.load(std::sync::atomic::Ordering::Relaxed) {
-                        // Opened, and every frame read.
+                        // Open it and read every frame.
                         let found = open_whole(&target).map(|dataset| dataset.digest());
                         match digests.iter().position(|digest| found == Ok(*digest)) {
                             Some(which) => seen[which] += 1,
@@ -335,7 +335,7 @@ fn readers_see_the_old_or_the_new_dataset_while_it_is_replaced() {
     let seen = seen.expect("old or new at every moment");
     eprintln!("datasets read during {REPLACEMENTS} replacements, of each: {seen:?}");
     assert!(seen.iter().all(|seen| seen.iter().all(|count| *count > 0)));
-    // A process that another test has just forked holds what this one held until its program begins: then the next to open clears.
+    // A process that another test has just forked holds inherited locks until it executes its program. Then the next opening cleans up.
     let mut left = Vec::new();
     for _ in 0..100 {
         drop(open_whole(&target).expect("whole"));
@@ -348,7 +348,7 @@ fn readers_see_the_old_or_the_new_dataset_while_it_is_replaced() {
     panic!("left behind: {left:?}");
 }
 
-/// Files and folders at any depth; what vanishes meanwhile is not counted.
+/// Counts files and folders at any depth; ignores those that vanish meanwhile.
 fn entries_below(folder: &Path) -> usize {
     let entries = folder.read_dir().into_iter().flatten().flatten();
     entries.map(|entry| 1 + entries_below(&entry.path())).sum()

@@ -1,5 +1,5 @@
-//! Commands are killed at drawn moments: the same command succeeds then, and nothing of either stays beside its result.
-//! `TACEVA_KILLS=50 cargo test --workspace --test tests kill_commands:: -- --nocapture` kills each as often.
+//! Commands killed at random moments: the repeated command succeeds, and no temporary file remains beside its result. `TACEVA_KILLS=50
+//! cargo test --workspace --test tests kill_commands:: -- --nocapture` sets the number of kills per command.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -8,10 +8,10 @@ use std::time::{Duration, Instant};
 use taceva_tests::{Form, Lab, Random, library, root, scratch, taceva};
 
 const SEED: u64 = 20_261_128;
-/// Kills of each command, where nobody asks for more.
+/// Default number of kills per command.
 const KILLS: usize = 4;
 
-/// A command in a folder of its own, with settings, caches and temporary files below it.
+/// A command in its own folder, with settings, caches and temporary files below it.
 fn command(folder: &Path, words: &str) -> Command {
     let mut command = Command::new(taceva());
     command
@@ -29,7 +29,7 @@ fn command(folder: &Path, words: &str) -> Command {
     command
 }
 
-/// What no finished command leaves: staged names, temporary files and claims.
+/// Files that no finished command leaves: staged names, temporary files and claims.
 fn leftovers(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in folder.read_dir().into_iter().flatten().flatten() {
@@ -47,7 +47,7 @@ fn leftovers(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Kills the command at drawn moments. Before each, `anew` brings the folder to its beginning.
+/// Kills the command at random moments. `anew` restores the folder before each.
 #[expect(clippy::print_stderr, reason = "the counts are the result")]
 fn kill_often(name: &str, folder: &Path, words: &str, anew: impl Fn()) {
     std::fs::create_dir_all(folder.join("tmp")).expect("room");
@@ -71,13 +71,13 @@ fn kill_often(name: &str, folder: &Path, words: &str, anew: impl Fn()) {
     for number in 0..kills {
         anew();
         let mut child = command(folder, words).spawn().expect("built");
-        // One drawn moment in each of as many equal parts.
+        // One random moment in each of `kills` equal parts.
         let part = whole / u32::try_from(kills).expect("few");
         let micros = usize::try_from(part.as_micros()).expect("short");
         let within = Duration::from_micros(random.below(micros + 1) as u64);
         std::thread::sleep(part * u32::try_from(number).expect("few") + within);
         amid += usize::from(child.try_wait().expect("a child").is_none());
-        // It may have ended by itself.
+        // The command may have ended by itself.
         let _ = child.kill();
         child.wait().expect("a child");
         with_leftovers += usize::from(!leftovers(folder).is_empty());
@@ -89,7 +89,7 @@ fn kill_often(name: &str, folder: &Path, words: &str, anew: impl Fn()) {
     assert!(amid >= kills / 2, "the moments were chosen badly");
 }
 
-/// A tar of a lab's folder, and the map beside it.
+/// Creates a tar archive of a laboratory's folder, with the map beside it.
 fn archive(folder: &Path) {
     let lab = Lab::drawn(Form::Png, 200);
     let file = std::fs::File::create(folder.join("lab.tar")).expect("room");
@@ -99,26 +99,25 @@ fn archive(folder: &Path) {
     std::fs::copy(lab.map(), folder.join("map.toml")).expect("copied");
 }
 
-/// Removes what commands of `folder` made.
+/// Removes the files that commands of `folder` created.
 fn without(folder: &Path, names: &[&str]) {
     for name in names {
         let path = folder.join(name);
         match path.is_dir() {
             true => std::fs::remove_dir_all(&path).expect("removed"),
-            // It may not be there yet.
+            // The file may not exist yet.
             false => drop(std::fs::remove_file(&path)),
         }
     }
 }
 
-/// K4.
 #[test]
 fn a_killed_import_of_an_archive_is_followed_by_one_that_succeeds() {
     let folder = scratch();
     let folder = folder.path();
     archive(folder);
     let words = "import lab.tar --map map.toml --out set -q";
-    // Every other begins with a dataset in place, which is replaced.
+    // Every second kill begins with an existing dataset, which is replaced.
     let count = std::cell::Cell::new(0);
     kill_often(
         "import of an archive",
@@ -133,18 +132,16 @@ fn a_killed_import_of_an_archive_is_followed_by_one_that_succeeds() {
     );
 }
 
-/// K4.
 #[test]
 fn a_killed_draft_of_an_archive_is_followed_by_one_that_succeeds() {
     let folder = scratch();
     let folder = folder.path();
     archive(folder);
-    // A draft that was written before the kill is replaced.
+    // A draft from before the kill is replaced.
     let words = "import lab.tar --draft --out draft.toml --force -q";
     kill_often("draft", folder, words, || without(folder, &["draft.toml"]));
 }
 
-/// K8.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_killed_installation_of_a_plugin_is_followed_by_one_that_succeeds() {
@@ -159,7 +156,6 @@ fn a_killed_installation_of_a_plugin_is_followed_by_one_that_succeeds() {
     );
 }
 
-/// K8.
 #[test]
 fn a_killed_sweep_is_followed_by_one_that_succeeds_and_leaves_no_claim() {
     let folder = scratch();
@@ -179,7 +175,7 @@ fn a_killed_sweep_is_followed_by_one_that_succeeds_and_leaves_no_claim() {
 
 const SWEEP: &str = "sweep_version = 1\ndatasets = [\"data\"]\nmodels = [\"ridge\", \"baseline\", \"knn\"]\nseeds = [1, 2]\nmetrics = [\"accuracy\"]\n";
 
-/// The simulated bench as a plugin, packed into `sim.tar` of `folder`.
+/// Packs the simulated bench as a plugin into `sim.tar` of `folder`.
 #[cfg(target_os = "linux")]
 pub(crate) fn packed_plugin(folder: &Path) {
     let plugin = folder.join("plugin");

@@ -1,4 +1,4 @@
-//! Trainings are killed at random moments, again and again, and refused room: the model has the bytes of one that nobody stopped.
+//! Trainings killed repeatedly at random moments, or out of disk space: the model has the same bytes as without interruption.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use taceva_tests::{Form, Lab, Random, scratch, taceva};
 const SEED: u64 = 20_261_122;
 const KILLS: usize = 24;
 
-/// A recording of drawn pictures, and a place for models.
+/// A recording of drawn pictures, and a folder for models.
 struct Bench {
     folder: tempfile::TempDir,
 }
@@ -36,7 +36,7 @@ impl Bench {
         self.folder.path().join(name)
     }
 
-    /// Sixty steps of a small network, put aside after each.
+    /// Command of a training with sixty steps of a small network and a checkpoint after each.
     fn fit(&self, model: &str, settings: &[&str]) -> Command {
         let mut command = Command::new(taceva());
         command
@@ -57,7 +57,7 @@ impl Bench {
         command
     }
 
-    /// The model of a training that nobody stopped.
+    /// Bytes of the model of an uninterrupted training.
     fn undisturbed(&self) -> Vec<u8> {
         let output = output(&mut self.fit("whole.model", &LONG));
         assert!(output.status.success(), "{}", complaint(&output));
@@ -76,14 +76,14 @@ fn complaint(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-/// When the file was last renamed to its place, as far as a file system can tell.
+/// Inode and modification time of the file, which change when it is replaced.
 fn mark(path: &Path) -> Option<(u64, std::time::SystemTime)> {
     use std::os::unix::fs::MetadataExt;
     let found = fs::metadata(path).ok()?;
     Some((found.ino(), found.modified().ok()?))
 }
 
-/// Starts `command` and kills it a while after `checkpoint` was written anew, or a while after its start; whether it was killed.
+/// Starts `command` and kills it a while after `checkpoint` was written, or after its start. True if it was killed.
 fn killed(command: &mut Command, checkpoint: Option<&Path>, random: &mut Random) -> bool {
     let before = checkpoint.and_then(mark);
     let mut child = command
@@ -107,7 +107,7 @@ fn killed(command: &mut Command, checkpoint: Option<&Path>, random: &mut Random)
     while Instant::now() < end {
         std::thread::yield_now();
     }
-    // SIGKILL; a child that is over cannot be killed, and says how it ended.
+    // SIGKILL; a finished child cannot be killed and has an exit status.
     let _ = child.kill();
     !child.wait().expect("a child").success()
 }
@@ -123,7 +123,7 @@ fn a_training_that_is_killed_again_and_again_gives_the_model_of_one_that_is_not(
     let mut random = Random::new(SEED);
     let (mut kills, mut resumptions, mut is_last) = (0, 0, false);
     while !is_last {
-        // Enough kills: the last run is left alone.
+        // Enough kills: the last run is not killed.
         is_last = kills == KILLS;
         resumptions += usize::from(checkpoint.exists());
         let mut command = bench.fit("killed.model", &LONG);
@@ -154,10 +154,10 @@ fn a_training_that_is_killed_again_and_again_gives_the_model_of_one_that_is_not(
     assert_eq!(parts.count(), 0, "{left:?}");
 }
 
-/// The command, whose files may not grow beyond `blocks` of 512 bytes: to write more fails, as on a full disk.
+/// The command with files limited to `blocks` of 512 bytes: larger writes fail, as on a full disk.
 fn with_small_files(blocks: usize, command: &Command) -> Command {
     let mut small = Command::new("sh");
-    // Signals that the shell ignores stay ignored: the write fails instead of the process.
+    // Ignored signals stay ignored in children: the write fails instead of the process.
     let script = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
     small
         .args(["-c", &script, "sh"])
@@ -224,7 +224,7 @@ fn a_checkpoint_of_another_training_stops_the_command_and_force_begins_anew() {
 #[test]
 fn a_training_that_breaks_names_the_step_and_keeps_its_best_epoch() {
     let bench = Bench::new();
-    // The rate rises for a third of the steps: the first epochs are still finite.
+    // The rate rises during a third of the steps, so the first epochs are finite.
     let settings = ["epochs=200", "rate=10", "weight_decay=10", "noise=0"];
     let broken = output(&mut bench.fit("broken.model", &settings));
     let said = complaint(&broken);

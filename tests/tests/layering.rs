@@ -1,4 +1,4 @@
-//! The table of ARCHITECTURE.md is binding: which crate may import which, and what the light crates depend on.
+//! Enforces the table of ARCHITECTURE.md: allowed imports between crates, and allowed dependencies of the light crates.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use cargo_metadata::{DependencyKind, Package};
 use taceva_tests::{metadata, read};
 
-/// Crate → crates it may import, as the table "Crates, and who may import whom" says.
+/// Crates that each crate may import, from the table "Crates, and who may import whom".
 fn allowed() -> BTreeMap<String, BTreeSet<String>> {
     let architecture = read("ARCHITECTURE.md");
     let (_, section) = architecture
@@ -133,7 +133,7 @@ fn lints_are_never_switched_off_and_unsafe_code_stands_where_the_architecture_sa
             let allows = text.lines().any(|line| {
                 line.trim_start().starts_with("#[allow(") || line.starts_with("#![allow(")
             });
-            // A file that several test programs share is used in part by each: nothing that each could expect.
+            // Each of several test programs uses only a part of a shared file, so none can expect all of it.
             let is_shared = source
                 .parent()
                 .and_then(Path::parent)
@@ -173,7 +173,7 @@ fn rust_files(folder: &std::path::Path) -> Vec<std::path::PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).expect("a folder of the workspace") {
         let path = entry.expect("readable").path();
-        // What a link leads to is looked at where it lies.
+        // The target of a link is checked at its own path.
         if path.is_symlink() || path.ends_with("target") {
             continue;
         }

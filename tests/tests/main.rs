@@ -21,6 +21,8 @@ mod plugin_equivalence;
 mod power_cut;
 mod power_cut_self;
 mod public_types;
+#[cfg(unix)]
+mod recording_links;
 mod recordings;
 #[cfg(unix)]
 mod release;

@@ -1,4 +1,4 @@
-//! The minimum Rust version that each crate states is true of all that is built with it, and every document states the same.
+//! The minimum Rust version stated by each crate holds for all its dependencies, and every document states the same version.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +6,7 @@ use cargo_metadata::semver::Version;
 use cargo_metadata::{DependencyKind, Metadata, MetadataCommand, Node, Package, PackageId};
 use taceva_tests::{read, root};
 
-/// What cargo knows of the workspace with its dependencies, as a build without features takes them.
+/// Cargo's metadata of the workspace with its dependencies, for a build without features.
 fn metadata() -> Metadata {
     MetadataCommand::new()
         .manifest_path(root().join("Cargo.toml"))
@@ -14,7 +14,7 @@ fn metadata() -> Metadata {
         .expect("cargo metadata of the workspace that is being tested")
 }
 
-/// Everything that is compiled into `package` or to build it, on any platform; tests are not.
+/// All packages compiled into `package` or for its build, on any platform, without tests.
 fn tree<'a>(package: &Package, metadata: &'a Metadata) -> Vec<&'a Package> {
     let resolve = metadata
         .resolve
@@ -42,7 +42,7 @@ fn tree<'a>(package: &Package, metadata: &'a Metadata) -> Vec<&'a Package> {
         .collect()
 }
 
-/// The crates of the workspace with the version that each states.
+/// Crates of the workspace with their stated versions.
 fn ours(metadata: &Metadata) -> Vec<(&Package, Version)> {
     let packages = metadata.workspace_packages().into_iter();
     packages
@@ -78,7 +78,7 @@ fn no_dependency_needs_a_newer_compiler_than_the_crate_that_takes_it_states() {
     assert!(compared > 300, "only {compared} dependencies were seen");
 }
 
-/// The version behind `words` in `text`, if they stand there: `1.89` of `Minimum supported Rust version: 1.89.`
+/// Version after `words` in `text`: `1.89` in `Minimum supported Rust version: 1.89.`
 fn version_after<'a>(text: &'a str, words: &str) -> Option<&'a str> {
     let (_, rest) = text.split_once(words)?;
     let end = rest.find(|letter: char| letter != '.' && !letter.is_ascii_digit());

@@ -1,4 +1,4 @@
-//! A study has the same bytes whichever way its devices are delivered: linked in, loaded in process, or in a confined child.
+//! A study has the same bytes for devices linked in, loaded in process, or in a confined child.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -7,7 +7,7 @@ use std::sync::Arc;
 use taceva_tests::power_cut::{Tree, read_tree};
 use taceva_tests::{library, root, scratch, taceva};
 
-/// Pictures of a size that the manifest does not say, forces, two units, another light and a board, in little time.
+/// Short scene with a picture size that the manifest lacks, forces, two units, another light and a board.
 const SCENE: &str = r#"scene_version = 1
 name = "study"
 seed = 7
@@ -21,7 +21,7 @@ protocol = { calibration = { points = 4, indentations = 2 }, spatial = { points 
 
 const PLUGIN: &str = "org.taceva.sim/";
 
-/// The bench as a plugin, in a folder of its own.
+/// The bench as a plugin, in its own folder.
 fn plugin() -> tempfile::TempDir {
     let folder = scratch();
     let built = library("taceva-sim-plugin");
@@ -32,7 +32,7 @@ fn plugin() -> tempfile::TempDir {
     folder
 }
 
-/// What a study of `scene` leaves, and what it prints.
+/// Files and output of a study of `scene`.
 fn studied(scene: &str, arguments: &[&Path]) -> (Tree, String) {
     let folder = scratch();
     std::fs::write(folder.path().join("study.toml"), scene).expect("room for a scene");
@@ -40,7 +40,7 @@ fn studied(scene: &str, arguments: &[&Path]) -> (Tree, String) {
         .current_dir(folder.path())
         .args(["run", "study.toml", "--out", "run", "--no-cache", "--quiet"])
         .args(arguments)
-        // Nobody's settings, plugins or quarantine.
+        // No settings, plugins or quarantine of a user.
         .env("HOME", folder.path())
         .env_remove("XDG_CONFIG_HOME")
         .env_remove("XDG_DATA_HOME")
@@ -56,7 +56,7 @@ fn studied(scene: &str, arguments: &[&Path]) -> (Tree, String) {
     (tree, printed)
 }
 
-/// The same files with the names of the plugin's drivers as those of the linked ones; how many named them.
+/// The same files with the plugin's driver names replaced by the linked ones, and the number of files changed.
 fn renamed(mut tree: Tree) -> (Tree, usize) {
     let mut named = 0;
     for bytes in tree.values_mut().flatten() {

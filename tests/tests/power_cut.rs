@@ -1,4 +1,4 @@
-//! The power is cut at every moment of an import and of a recording; what was promised by then is there.
+//! Power cuts at every moment of an import and of a recording: promised data is present.
 
 use std::ops::Range;
 use std::path::Path;
@@ -10,10 +10,10 @@ use taceva_tests::power_cut::{Counted, Disk, State, Trace, TraceError, write_tre
 use taceva_tests::recorded::{Recorded, open_whole, reference};
 use taceva_tests::{Form, Lab, example, scratch, taceva};
 
-/// States of a first cut from which a second recorder is traced; each takes a tenth of a second.
+/// Most states of a first cut from which a second recorder is traced; each takes a tenth of a second.
 const MOST_RESUMED: usize = 80;
 
-/// Runs `command` in the folder at `watched`; `None` where programs cannot be traced.
+/// Runs `command` in the folder at `watched`; `None` if programs cannot be traced.
 fn traced(command: &Command, watched: &Path, initial: Disk) -> Option<Trace> {
     match Trace::run(command, watched, initial) {
         Err(TraceError::NoStrace(why)) => {
@@ -51,7 +51,7 @@ fn run(command: &mut Command) -> Result<(), String> {
     Err(String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
-/// The dataset is absent or whole, and can be imported where it is absent.
+/// Checks that the dataset is absent or complete, and that an absent one can be imported.
 fn whole_or_absent(lab: &Lab, target: &Path, expected: Digest) -> Result<(), String> {
     if !target.exists() {
         run(&mut import(lab, target)).map_err(|error| format!("importing again: {error}"))?;
@@ -110,7 +110,8 @@ fn an_import_that_replaces_a_dataset_leaves_the_old_one_or_the_new_one_in_place(
     assert_old_or_new("import --force", &trace, [replaced, expected]);
 }
 
-/// Whether, after any operation of `trace`, the dataset is the old one or the new one, the new one once it was reported, and nothing else is left.
+/// Asserts that after any operation of `trace` the dataset is the old or the new one, and the new one once it was reported. Nothing else
+/// may remain.
 fn assert_old_or_new(command: &str, trace: &Trace, [old, new]: [Digest; 2]) {
     let counted = trace.each_state(0..trace.operations.len() + 1, |state| {
         let restarted = scratch();
@@ -133,7 +134,7 @@ fn assert_old_or_new(command: &str, trace: &Trace, [old, new]: [Digest; 2]) {
     assert_kept(command, &counted, 100);
 }
 
-/// Adds the pictures of `lab` to the dataset at `target`.
+/// Command that adds the pictures of `lab` to the dataset at `target`.
 fn extend(lab: &Lab, target: &Path) -> Command {
     let mut command = Command::new(taceva());
     command
@@ -166,7 +167,7 @@ fn rows_that_are_added_are_all_there_or_none_is_and_no_row_of_before_is_lost() {
     assert_old_or_new("import --extend", &trace, [before, expected]);
 }
 
-/// A recording, traced, and the operation after which the last sample was acknowledged.
+/// A traced recording, and the operation after which the last sample was acknowledged.
 fn recording(recorded: &Recorded) -> Option<(Trace, usize)> {
     let folder = scratch();
     let watched = folder.path();
@@ -184,7 +185,7 @@ fn try_all(recorded: &Recorded, trace: &Trace, cuts: Range<usize>) -> Counted {
     trace.each_state(cuts, |state| recovers(recorded, state, 0))
 }
 
-/// What was acknowledged, here or `before`, is recovered; what was said to be closed needs no recovery.
+/// Checks that samples acknowledged here or `before` are recovered, and that a closed recording needs no recovery.
 fn recovers(recorded: &Recorded, state: &State<'_>, before: usize) -> Result<(), String> {
     let restarted = scratch();
     let target = restarted.path().join("set");
@@ -217,7 +218,7 @@ fn a_recorder_that_was_killed_and_resumed_survives_a_power_cut() {
     };
     let mut sum = Counted::default();
     for killed_after in 0..first.operations.len() {
-        // What the killed process did not make durable is still not durable when the next one starts.
+        // Data that the killed process did not sync is still not durable when the next process starts.
         let left = first.after(killed_after);
         let folder = scratch();
         write_tree(&left.live_tree(), folder.path()).expect("room for a small folder");

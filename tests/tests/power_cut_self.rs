@@ -1,4 +1,4 @@
-//! The search for states of a power cut finds every planted fault and reports no other.
+//! The search for power-cut states finds every planted bug and reports no other.
 
 use std::process::Command;
 
@@ -6,7 +6,7 @@ use taceva_needs::{Need, skip};
 use taceva_tests::power_cut::{Counted, Disk, State, Trace, TraceError};
 use taceva_tests::toy::{HEADER, JOURNAL, Protocol, new_header, old_header, recovered};
 
-/// What the protocol promises: what was claimed is there and whole, and nothing was invented.
+/// Promise of the protocol: claimed data is present and complete, and no other data exists.
 fn promise(protocol: Protocol, state: &State<'_>) -> Result<(), String> {
     let claimed = state.acknowledged();
     if protocol.is_journal() {
@@ -64,7 +64,7 @@ fn the_five_planted_faults_are_found_and_the_two_right_protocols_pass() {
     }
 }
 
-/// What `program` does to a folder that holds the file `a` and the folder `b` with the file `c`.
+/// Traces `program` on a folder with the file `a` and the folder `b` with the file `c`.
 fn followed(program: &str, arguments: &[&str]) -> Result<Trace, TraceError> {
     let folder = tempfile::tempdir().expect("a folder");
     let watched = folder.path().canonicalize().expect("it is there");

@@ -1,11 +1,11 @@
-//! What the crates that others build on owe each of their public types: an example that runs, and room to grow.
+//! Requirements on the public types of crates for external use: an example that runs, and room for new fields or variants.
 
 use std::fs;
 
 use taceva_tests::root;
 use taceva_tests::source::{rust_files, without_tests};
 
-/// The crates whose interface is a promise, by folder.
+/// Crates with a stable interface, by folder.
 const PROMISED: [&str; 6] = [
     "taceva-core",
     "crates/recordings/dataset",
@@ -15,24 +15,24 @@ const PROMISED: [&str; 6] = [
     "plugins/sdk",
 ];
 
-/// What says in the doc of a struct of public fields that it is complete; the sentence gives the reason.
+/// Words in the doc comment of a complete struct with public fields; the sentence gives the reason.
 const COMPLETE_STRUCT: &str = "gets no further field";
-/// What says so in the doc of an enum.
+/// Words in the doc comment of a complete enum.
 const COMPLETE_ENUM: &str = "gets no further variant";
 
-/// A public type as its source declares it.
+/// A public type as declared in its source.
 #[derive(Debug, PartialEq)]
 struct PublicType {
     name: String,
     is_struct: bool,
     has_example: bool,
-    /// Whether others name its fields or variants: a field more breaks whoever makes one, a variant more whoever matches one.
+    /// True if other crates name its fields or variants, so that a new one would break them.
     is_open: bool,
-    /// Whether it is `#[non_exhaustive]`, or says that it is complete.
+    /// True if it is `#[non_exhaustive]` or documented as complete.
     is_decided: bool,
 }
 
-/// The types that `code` declares at its outermost level.
+/// Types that `code` declares at its outermost level.
 fn public_types(code: &str) -> Vec<PublicType> {
     let lines: Vec<&str> = without_tests(code).lines().collect();
     let mut found = Vec::new();
@@ -46,7 +46,7 @@ fn public_types(code: &str) -> Vec<PublicType> {
         let start = lines[..at].iter().rposition(|line| line.is_empty());
         let above = &lines[start.map_or(0, |blank| blank + 1)..at];
         if above.contains(&"#[doc(hidden)]") {
-            // Shared between our crates and promised to nobody.
+            // Shared between our crates, without a stability promise.
             continue;
         }
         let body = lines[at + 1..]
@@ -73,7 +73,7 @@ fn public_types(code: &str) -> Vec<PublicType> {
     found
 }
 
-/// The files of the promised crates with the types of each, paths from the root of the workspace.
+/// Files of these crates with the types of each, by path from the workspace root.
 fn all_types() -> Vec<(String, Vec<PublicType>)> {
     let mut found = Vec::new();
     for folder in PROMISED {
@@ -87,7 +87,7 @@ fn all_types() -> Vec<(String, Vec<PublicType>)> {
     found
 }
 
-/// The types to which something is owed, each behind the path of its file.
+/// Types that violate a requirement, each after the path of its file.
 fn owed(is_owed: impl Fn(&str, &PublicType) -> bool) -> Vec<String> {
     let mut owed = Vec::new();
     for (path, types) in all_types() {
@@ -105,7 +105,7 @@ fn every_public_type_has_an_example() {
 
 #[test]
 fn every_enum_and_every_struct_of_public_fields_can_grow_or_says_why_it_need_not() {
-    // Structs of the C boundary grow at their end, and say their size; numbers of its kinds are constants, and others are refused.
+    // Structs of the C boundary grow at their end and state their size. Values of its kinds are constants; others are rejected.
     let owed = owed(|path, declared| {
         let is_struct_of_boundary = path.starts_with("plugins/abi/") && declared.is_struct;
         declared.is_open && !declared.is_decided && !is_struct_of_boundary

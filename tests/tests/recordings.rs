@@ -1,4 +1,4 @@
-//! The maps of the real sets, and what may be expected of them. Skipped, with a printed reason, where a set is absent.
+//! Maps of the real sets, and their expected results. Skipped, with a printed reason, if a set is absent.
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -17,7 +17,7 @@ const WORK: Work<'_> = Work {
     cache: None,
 };
 
-/// The set `folder`, imported by the map called `map` into a temporary folder.
+/// Imports the set `folder` by the map called `map` into a temporary folder.
 fn import(folder: &str, map: &str) -> Option<(TempDir, Dataset, ImportReport)> {
     let (set, inner) = folder.split_once('/').unwrap_or((folder, ""));
     let source = recording(set)?.join(inner);
@@ -86,7 +86,7 @@ fn ridge_reads_forces_from_tactip_pictures() {
         ),
         (1, 2)
     );
-    // A single seed swings widely with 46 test samples, so the median of twenty is what is held to.
+    // With 46 test samples single seeds vary widely, so the test checks the median of twenty.
     let runs: Vec<Evaluated> = (0..20)
         .map(|seed| evaluated(&dataset, "ridge", "random", seed))
         .collect();

@@ -1,4 +1,4 @@
-//! Parts of a release: `.ci/release` calls each script, its page names each, and notes are sections of the changelog.
+//! Parts of a release: `.ci/release` calls each script, its page names each, and release notes are sections of the changelog.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use taceva_tests::{read, root};
 
-/// Scripts of `.ci` that are no part of a release: the release itself, checks of every change, and a measurement.
+/// Scripts of `.ci` outside a release: the release itself, checks of every change, and a measurement.
 const OTHERS: [&str; 7] = [
     "driver-sizes",
     "install",

@@ -1,4 +1,5 @@
-//! Reports of real recordings: compared, chosen from and drawn as far as their labels allow. Skipped, with a printed reason, where a set is absent.
+//! Reports of real recordings: compared, chosen and drawn, as far as their labels allow. Skipped, with a printed reason, if a set is
+//! absent.
 
 use std::num::NonZeroUsize;
 
@@ -8,7 +9,7 @@ use taceva_evaluate::{EvaluateRequest, FitRequest, ModelChoice, Work, evaluate};
 use taceva_import::{ImportMap, ImportPlan};
 use taceva_models::ModelSettings;
 use taceva_report::catalogue::Sensor;
-use taceva_report::{CompareRequest, Need, Report, Study, choose, compare, figures, report};
+use taceva_report::{CompareRequest, Need, ReportPage, Study, choose, compare, figures, report};
 use taceva_results::Samples;
 use taceva_tests::{recording, root};
 
@@ -18,7 +19,7 @@ const WORK: Work<'_> = Work {
     cache: None,
 };
 
-/// What `model` makes of the set `name`, with its samples.
+/// Evaluates `model` on the set `name`, with its samples.
 fn study(name: &str, model: &str, split: &str) -> Option<Study> {
     let source = recording(name)?;
     let map = root()
@@ -131,7 +132,7 @@ fn two_sensors_of_two_labs_are_shown_compared_and_chosen_from() {
     for id in ["labels", "predicted-1", "predicted-2"] {
         assert!(drawn.iter().any(|drawn| drawn == id), "{id}: {drawn:?}");
     }
-    let page = report(&Report {
+    let page = report(&ReportPage {
         title: "two labs",
         studies: &studies,
         pictures: &[],

@@ -1,10 +1,10 @@
-//! What a test skips stands in the list that `.ci/test` prints: no test skips in a way that the test runner hides.
+//! Every skip of a test appears in the list that `.ci/test` prints: no test may skip unnoticed.
 
 use std::path::{Path, PathBuf};
 
 use taceva_tests::{metadata, read};
 
-/// The Rust files in folders `tests` of the crates, wherever below them.
+/// Rust files in the `tests` folders of the crates, at any depth.
 fn tests_of_crates() -> Vec<PathBuf> {
     let packages = metadata().packages;
     let folders = packages.iter().filter_map(|package| {
@@ -28,7 +28,7 @@ fn tests_of_crates() -> Vec<PathBuf> {
 
 #[test]
 fn every_skip_goes_into_the_list() {
-    // In two parts, so that this file does not hold what it looks for.
+    // In two parts, so that this file does not contain the searched text.
     let words = ["\"skipped", ": "].concat();
     let files = tests_of_crates();
     assert!(files.len() > 150, "only {} files were found", files.len());
@@ -57,7 +57,7 @@ fn what_is_installed_for_tests_are_the_needs_that_can_be() {
     let known = taceva_needs::Need::ALL.map(taceva_needs::Need::word);
     let expected: Vec<&str> = known
         .into_iter()
-        // A GPU is not installed, an example is built by `.ci/test`, and who has a quiet machine says so.
+        // `gpu` is not installed, `.ci/test` builds examples, and a quiet machine must be declared.
         .filter(|word| !["gpu", "quiet-machine", "example"].contains(word))
         .collect();
     assert_eq!(words, expected);

@@ -1,4 +1,4 @@
-//! A folder is compared with a list of digests before it is imported, and with what was imported afterwards.
+//! A folder is compared with a list of digests before its import, and with the imported files afterwards.
 
 use std::path::Path;
 use std::process::Command;
@@ -20,7 +20,7 @@ fn said(arguments: &[&Path]) -> (Option<i32>, String, String) {
     )
 }
 
-/// The list that `sha256sum` writes of the lab's files.
+/// List of `sha256sum` for the files of the folder.
 fn sums(lab: &Lab) -> String {
     let mut list = String::new();
     let frames = lab.path().join("frames");
@@ -39,7 +39,6 @@ fn sums(lab: &Lab) -> String {
     list
 }
 
-/// K12.
 #[test]
 fn changed_absent_and_unnamed_files_are_refused_by_name_before_an_import_and_named_after_it() {
     let lab = Lab::drawn(Form::Png, 6);
@@ -82,7 +81,7 @@ fn changed_absent_and_unnamed_files_are_refused_by_name_before_an_import_and_nam
     ] {
         assert!(err.contains(part), "{part}: {err}");
     }
-    // Nothing was replaced, and the two files that were read are named.
+    // No file was replaced, and the two files read are named.
     let (code, out, err) = check();
     assert_eq!(code, Some(1), "{err}");
     assert!(out.contains("labels.csv has changed"), "{out}");
@@ -91,7 +90,6 @@ fn changed_absent_and_unnamed_files_are_refused_by_name_before_an_import_and_nam
     assert!(!out.contains("notes.txt"), "{out}");
 }
 
-/// K12.
 #[test]
 fn a_dataset_with_added_rows_knows_each_folder_and_a_damaged_list_is_refused() {
     let folder = scratch();

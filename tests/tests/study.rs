@@ -1,4 +1,4 @@
-//! A whole study is killed, and its power cut, at any moment: it goes on to the bytes of one that nobody interrupted.
+//! A study killed or cut off from power at any moment resumes to the same bytes as an uninterrupted one.
 
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -9,15 +9,15 @@ use taceva_tests::power_cut::{Counted, Disk, Trace, TraceError, Tree, read_tree}
 use taceva_tests::{Random, scratch, taceva};
 
 const SEED: u64 = 20_261_121;
-/// Kills, where `TACEVA_STUDY_KILLS` says no other number.
+/// Default number of kills; `TACEVA_STUDY_KILLS` overrides it.
 const KILLS: usize = 60;
-/// Most moments of a power cut, where `TACEVA_STUDY_CUTS` says no other number, and states of each that are continued: every one is a study.
+/// Most moments of a power cut, and most states of each that are resumed; each is a study. `TACEVA_STUDY_CUTS` overrides the first.
 const CUTS: usize = 40;
 const STATES: usize = 8;
-/// Of so many kills one is of a run that goes on after a kill.
+/// One in this many kills hits a run that resumes after a kill.
 const RESUMED: usize = 5;
 
-/// Pictures, forces, two units, another light and a board, in little time.
+/// Short scene with pictures, forces, two units, another light and a board.
 const SCENE: &str = r#"scene_version = 1
 name = "study"
 seed = 7
@@ -29,7 +29,7 @@ sensor = { driver = "sim/vitactip:reduction=16", units = ["1", "2"] }
 protocol = { calibration = { points = 10, indentations = 2 }, spatial = { points = 3 }, gratings = { step_mm = 0.75, presses = 2 }, lighting = { points = 1 }, repeatability = { points = 1, trials = 2, depth_step_mm = 0.5 }, hysteresis = { points = 1, depth_step_mm = 0.5 }, surface = { points = 3 }, idle = { frames = 4 } }
 "#;
 
-/// Less of the same, as the states of a power cut grow with the number of files.
+/// Smaller scene, because the states of a power cut grow with the number of files.
 const FEW: &str = r#"scene_version = 1
 name = "study"
 seed = 7
@@ -41,7 +41,7 @@ sensor = { driver = "sim/vitactip:reduction=16" }
 protocol = { calibration = { points = 4, indentations = 2 }, hysteresis = { points = 1, depth_step_mm = 1.0 } }
 "#;
 
-/// The study in the folder `run` of `folder`, begun or gone on with.
+/// Command that starts or resumes the study in the folder `run` of `folder`.
 fn study(folder: &Path) -> Command {
     let mut command = Command::new(taceva());
     command
@@ -66,7 +66,7 @@ fn finished(folder: &Path) -> Result<Tree, String> {
     read_tree(&folder.join("run")).map_err(|error| error.to_string())
 }
 
-/// A folder with the scene in it.
+/// A folder with the scene.
 fn with(scene: &str) -> tempfile::TempDir {
     let folder = scratch();
     std::fs::write(folder.path().join("study.toml"), scene).expect("room for a scene");
@@ -81,7 +81,7 @@ fn same(found: &Tree, expected: &Tree) -> Result<(), String> {
     }
 }
 
-/// Kills the study after `time`; whether it was still under way.
+/// Kills the study after `time`; true if it was still running.
 fn killed(folder: &Path, time: Duration) -> bool {
     let mut child: Child = study(folder)
         .stderr(Stdio::null())
@@ -91,7 +91,7 @@ fn killed(folder: &Path, time: Duration) -> bool {
     while start.elapsed() < time {
         std::thread::sleep(Duration::from_micros(200));
     }
-    // It may have ended by itself.
+    // The study may have ended by itself.
     let _ = child.kill();
     let status = child.wait().expect("a child that was started here");
     !status.success()

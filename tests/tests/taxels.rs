@@ -1,4 +1,5 @@
-//! A real recording of taxels: imported by its map, evaluated, and scored as scikit-learn scores it. Skipped, with a printed reason, where it is absent.
+//! A real recording of taxels: imported by its map, evaluated, and compared with scikit-learn's scores. Skipped, with a printed reason, if
+//! it is absent.
 
 use std::num::NonZeroUsize;
 
@@ -16,7 +17,7 @@ const WORK: Work<'_> = Work {
     cache: None,
 };
 
-/// The part that its authors learnt from, and the one that they tested on.
+/// Training and test parts of its authors.
 const SPLIT: &str = "by-column:half=train:training;test:validation";
 
 fn r2(dataset: &Dataset, model: &str, words: &[&str]) -> f64 {
@@ -51,7 +52,7 @@ fn presses_of_a_skin_without_a_camera_are_scored_as_scikit_learn_scores_them() {
     plan.run(&path, WORK.jobs, &SilentProgress)
         .expect("imported");
     let dataset = Dataset::open(&path).expect("a dataset");
-    // 518 presses to learn from and 129 to test on, as the set says.
+    // 518 training presses and 129 test presses, as the set states.
     assert_eq!(dataset.table().rows(), 518 + 129);
     assert!(dataset.fields().contains(Field::Signals));
     // scikit-learn 1.9.1: StandardScaler, then Ridge of 518 times the strength, on s0 to s3 in single precision.
@@ -65,7 +66,7 @@ fn presses_of_a_skin_without_a_camera_are_scored_as_scikit_learn_scores_them() {
             "{word}: {found} for {expected}"
         );
     }
-    // Its authors report 0.89 for a random forest, on another division.
+    // The authors report 0.89 for a random forest, with another split.
     let found = r2(&dataset, "auto", &["budget_s=20"]);
     assert!(found > 0.8, "auto: {found}");
     let request = CheckRequest {

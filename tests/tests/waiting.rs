@@ -1,4 +1,4 @@
-//! Tests that mostly wait, for emulated devices in real time: `.ci/test` runs them beside those that compute.
+//! Tests that mostly wait for emulated devices in real time: `.ci/test` runs them beside tests that compute.
 
 mod rig_session;
 mod rig_tap;

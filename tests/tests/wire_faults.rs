@@ -1,5 +1,4 @@
-//! Whatever goes wrong on the links, the arm stands in time and every press is recorded once. `wire_faults`, an example, plays each fault 100
-//! times.
+//! Faults on the links: the arm stops in time, and every press is recorded once. The example `wire_faults` plays each fault 100 times.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -7,13 +6,13 @@ use taceva_needs::{Need, required, skip};
 use taceva_tests::wire::faults::{CASES, Case, play, play_kills};
 
 const SEED: u64 = 20_261_123;
-/// How often each is played here.
+/// Number of repetitions of each fault here.
 const FEW: usize = 3;
 
-/// One study at a time: each needs the machine for itself.
+/// One study at a time: each needs the whole machine.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// Whether bounds of milliseconds may be asked for here.
+/// True if limits of milliseconds can be tested here.
 fn is_quiet() -> bool {
     let named = required(std::env::var_os("TACEVA_REQUIRE").as_deref());
     let is_quiet = named.is_ok_and(|named| named.contains(&Need::QuietMachine));

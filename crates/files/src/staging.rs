@@ -12,10 +12,10 @@ use crate::temporary_folder::{FORMER, TemporaryFolder, clear, folders, is_living
 
 /// Name prefix of every staging folder.
 pub const STAGED: &str = ".taceva-staged-";
-/// Maximum number of waits for a process between its two renames, and the length of each.
+/// Most waits for a process between its two renames, and the length of each wait.
 const WAITS: u32 = 2_000;
 const PAUSE: Duration = Duration::from_millis(1);
-/// Age from which the modification time of a folder shows every change.
+/// Age of a folder's modification time from which any later change gives a different time.
 const CLOCK: Duration = Duration::from_secs(2);
 /// Attempts to stage a target that another process stages, and the base pause between them.
 const CLAIMS: u32 = 6;
@@ -66,7 +66,7 @@ impl Staged {
     pub fn alone(target: &Path) -> io::Result<Option<Staged>> {
         for attempt in 1..=CLAIMS {
             let staged = Staged::beside(target)?;
-            // Creates the path before the search for rivals, so at least one of two processes sees the other.
+            // Creates the path before the search for rivals, so at least one of two processes finds the other.
             fs::create_dir(&staged.path)?;
             if !staged.has_rival() {
                 return Ok(Some(staged));
@@ -80,7 +80,10 @@ impl Staged {
 
     fn make(target: &Path) -> io::Result<Staged> {
         let name = target.file_name().ok_or_else(|| {
-            io::Error::new(io::ErrorKind::InvalidInput, "names no file and no folder")
+            io::Error::new(
+                io::ErrorKind::InvalidInput,
+                "the path has no file or folder name",
+            )
         })?;
         let folder = TemporaryFolder::make(parent_of(target), STAGED)?;
         Ok(Staged {
@@ -94,7 +97,7 @@ impl Staged {
     fn has_rival(&self) -> bool {
         let name = self.path.file_name().unwrap_or_default();
         folders(parent_of(&self.target), STAGED).any(|other| {
-            // Of one path, another spelling may have been made absolute.
+            // Compares names, because another spelling of the same path is possible.
             other.file_name() != self.folder.path().file_name()
                 && fs::symlink_metadata(other.join(name)).is_ok()
                 && is_living(&other)
@@ -106,8 +109,7 @@ impl Staged {
         &self.path
     }
 
-    /// Replaces the target by the new version, in one step if the file system can exchange names. The old version is removed once no process reads
-    /// it.
+    /// Replaces the target by the new version, in one step if the file system can exchange names. Removes the old version once no process reads it.
     ///
     /// The names inside a staged folder must be durable before the call. The name of the target is durable on return.
     ///
@@ -117,7 +119,7 @@ impl Staged {
         self.put_in_place_by(exchange)
     }
 
-    /// As [`put_in_place`](Staged::put_in_place), with a given exchange of names. `exchange` returns false if the file system cannot.
+    /// As [`put_in_place`](Staged::put_in_place), with a given exchange of names. `exchange` returns false if the file system does not support it.
     ///
     /// # Errors
     /// As [`put_in_place`](Staged::put_in_place).
@@ -138,7 +140,7 @@ impl Staged {
         } else {
             fs::rename(target, &former)?;
             if let Err(error) = fs::rename(path, target) {
-                // Should this fail as well, `settle` puts it back.
+                // If this rename fails too, `settle` restores the old version later.
                 drop(fs::rename(&former, target));
                 return Err(error);
             }
@@ -232,14 +234,14 @@ fn clear_changed(parent: &Path) {
         return;
     }
     clear_leftovers(parent);
-    // A later change within the same tick of the clock of the file system would have the same time.
+    // A later change within the same tick of the file system's clock would have the same time.
     let is_past = changed.elapsed().is_ok_and(|age| age > CLOCK);
     if is_past && folders(parent, STAGED).next().is_none() {
         lock().insert(parent.to_owned(), changed);
     }
 }
 
-/// The old content of `target`, between two renames.
+/// Path of the old content of `target`, between two renames.
 fn former_of(target: &Path) -> Option<PathBuf> {
     let mut name = std::ffi::OsString::from(FORMER);
     name.push(target.file_name()?);
@@ -247,7 +249,7 @@ fn former_of(target: &Path) -> Option<PathBuf> {
     all.find(|former| fs::symlink_metadata(former).is_ok_and(|found| !found.is_symlink()))
 }
 
-/// Exchanges two names atomically; false if the file system cannot.
+/// Exchanges two names atomically. Returns false if the file system does not support it.
 ///
 /// # Errors
 /// [`io::Error`] of the file system.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::durable::{parent_of, sync_folder};
 
-/// Marker file of our temporary folders, locked while the process lives.
+/// Marker file of temporary folders of this crate, locked while the process lives.
 pub(crate) const MARKER: &str = ".taceva-temporary";
 /// Name prefix of the old version of a target, kept here between two renames.
 pub(crate) const FORMER: &str = "replaced-";
@@ -38,7 +38,7 @@ pub struct TemporaryFolder {
 impl TemporaryFolder {
     /// Creates a folder in `parent` whose name begins with `prefix`. Removes leftovers of the same prefix and owner from killed processes.
     ///
-    /// Existing entries are kept: links, folders of other owners, and folders without our marker.
+    /// Keeps existing entries: links, folders of other owners, and folders without a marker.
     ///
     /// # Errors
     /// [`io::Error`] of the file system.
@@ -65,7 +65,7 @@ impl TemporaryFolder {
                 marker => marker?,
             };
             let is_taken = matches!(marker.try_lock(), Err(TryLockError::WouldBlock));
-            // Another process took it for a leftover before it was locked.
+            // Another process removed it as a leftover before it was locked.
             if is_taken || !path.exists() {
                 continue;
             }
@@ -77,7 +77,7 @@ impl TemporaryFolder {
             });
         }
         Err(io::Error::other(
-            "a temporary folder vanishes as soon as it is made",
+            "another program removes each temporary folder as soon as it is created",
         ))
     }
 
@@ -116,7 +116,7 @@ pub(crate) fn folders(parent: &Path, prefix: &str) -> impl Iterator<Item = PathB
         let name = entry.file_name();
         let rest = name.to_str()?.strip_prefix(prefix)?;
         let is_ours = rest.len() == RANDOM && rest.bytes().all(|byte| byte.is_ascii_alphanumeric());
-        // The type of the entry itself, so links are ignored.
+        // Type of the entry itself, so links are ignored.
         let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
         let path = entry.path();
         (is_ours && is_folder && is_of_this_user(&path)).then_some(path)
@@ -135,19 +135,19 @@ fn marker(path: &Path) -> Option<File> {
     is_file.then(|| File::open(&marker).ok())?
 }
 
-/// Removes the folder of a dead process. One without a marker is removed only while it is empty.
+/// Removes the folder of a dead process. A folder without a marker is removed only if it is empty.
 fn remove_dead(path: &Path) -> io::Result<()> {
     let Some(marker) = marker(path) else {
         return fs::remove_dir(path);
     };
-    // Locked until the folder is gone, so that no other process removes a folder of the same name.
+    // The lock is held until the folder is gone, so no other process removes a new folder of the same name.
     match marker.try_lock() {
         Ok(()) => remove(path),
         Err(_) => Ok(()),
     }
 }
 
-/// Removes a folder of ours, the marker last, so that an interrupted removal is recognised.
+/// Removes a marked folder, the marker last, so an interrupted removal is recognised.
 ///
 /// Keeps a folder that another process reads, and one that holds the old version of a missing target.
 fn remove(path: &Path) -> io::Result<()> {
@@ -178,7 +178,7 @@ fn remove(path: &Path) -> io::Result<()> {
             false => fs::remove_file(path)?,
         }
     }
-    // If the sync fails, a power loss can leave content without its marker. The folder is removed all the same.
+    // A power loss can leave content without its marker if the sync fails. The folder is removed all the same.
     drop(sync_folder(path));
     match fs::remove_file(path.join(MARKER)) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),

@@ -1,10 +1,10 @@
-//! Images per second of training steps and of predictions: ResNet-18, six outputs, batches of 32 (and single pictures), in every form of
-//! convolutions in turn or in one of them.
+//! Images per second of training steps and of predictions: ResNet-18, six outputs, batches of 32 or single pictures, for each form of convolution.
 //!
-//! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]] [winograd | mixed | direct] [single | training]`; without arguments 64² and 112² on one and two threads,
-//! every form; with `single` predictions of single pictures alone, with `training` steps alone, for a profiler. The best of REPEATS, by processor time of all threads and by the wall clock, and of
-//! single pictures, which are so short that work beside it hits few of them, the median too, of 4 · REPEATS; and how much memory training takes at most beyond
-//! what the process had before, on Linux and of the first size and form alone, since a peak is one of the process.
+//! `cargo bench -p taceva-network [-- SIDE [THREADS [REPEATS]]] [winograd | mixed | direct] [single | training]`. Without arguments it measures
+//! pictures of 64² and 112² on one and two threads, in every form. `single` measures only predictions of single pictures, `training` only training
+//! steps, for a profiler. It prints the best of REPEATS, by processor time of all threads and by the wall clock. For single pictures it also prints
+//! the median of 4 · REPEATS, because they are so short that other programs disturb few of them. On Linux it also prints the peak memory of the
+//! training beyond that of the process before. It prints this for the first size and form only, because the peak belongs to the whole process.
 //! `benches/peers/torch_network.py` measures PyTorch alike.
 
 #![expect(
@@ -69,7 +69,7 @@ fn main() {
     }
 }
 
-/// The number of `key` in the state of this process, in MiB, where the system reports it.
+/// Value of `key` in `/proc/self/status`, MiB. `None` if the system does not report it.
 fn resident(key: &str) -> Option<f64> {
     let state = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = state.lines().find_map(|line| line.strip_prefix(key))?;
@@ -77,7 +77,7 @@ fn resident(key: &str) -> Option<f64> {
     Some(kib / 1024.0)
 }
 
-/// ResNet-18 for pictures of so many rows.
+/// ResNet-18 for pictures of `side`² pixels.
 fn of_side(side: usize) -> Architecture {
     let input = Picture {
         height: side,
@@ -94,7 +94,7 @@ fn pictures(input: Picture, count: usize) -> Vec<f32> {
         .collect()
 }
 
-/// The form, rows of a picture, and threads.
+/// Form, rows of a picture, and threads.
 type What = (ConvolutionForm, usize, usize);
 
 fn measure_training(what: What, repeats: usize, before: Option<f64>) -> Network {
@@ -123,7 +123,7 @@ fn measure_training(what: What, repeats: usize, before: Option<f64>) -> Network 
         ..Recipe::default()
     };
     let trainer = Trainer::new(&architecture, &recipe, samples, None).expect("a training");
-    // Another form begins anew from the same state, and what the first has taken would be a part of the peak.
+    // Another form starts from the same state. Memory of the previous engine would count towards the peak.
     let mut trainer = match form {
         Trainer::CONVOLUTIONS => trainer,
         form => trainer.in_form(form).expect("room"),
@@ -171,12 +171,12 @@ fn report(measured: &str, (form, side, threads): What, images: usize, [busy, wal
     );
 }
 
-/// The least processor and wall seconds of `work`, after one warm-up.
+/// Least processor time and wall time of `work`, in seconds, after one warm-up.
 fn best(repeats: usize, work: impl FnMut()) -> [f64; 2] {
     times(repeats, work).map(|times| times[0])
 }
 
-/// The processor and wall seconds of each `work` after one warm-up, from the least on.
+/// Processor times and wall times of each `work`, in seconds, after one warm-up, in ascending order.
 fn times(repeats: usize, mut work: impl FnMut()) -> [Vec<f64>; 2] {
     work();
     let mut times = [Vec::new(), Vec::new()];

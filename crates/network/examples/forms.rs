@@ -1,9 +1,9 @@
 //! Compares trainings with different forms of convolutions. A network trains from the same seeds in both forms on pictures of a blob, whose
 //! position and size are the labels. Losses and held-out scores are printed beside their spread over seeds.
 //!
-//! `cargo run --release -p taceva-network --example forms [-- NETWORK [SEEDS [STEPS [SIDE [THREADS]]]]]`; `resnet18`, 5, 200, 32 and 1 are the
-//! defaults. NETWORK is `resnet10`, `resnet18`, `resnet34` or `cnn` (in which no convolution has two forms, so that nothing differs). SIDE is
-//! that of pictures in pixels. THREADS trainings run at a time, each on one thread. Pictures are drawn, and no file is read.
+//! `cargo run --release -p taceva-network --example forms [-- NETWORK [SEEDS [STEPS [SIDE [THREADS]]]]]`; defaults: `resnet18`, 5, 200, 32 and 1.
+//! NETWORK is `resnet10`, `resnet18`, `resnet34` or `cnn`; `cnn` gives equal results, because none of its convolutions has a second form. SIDE is the
+//! side of pictures, pixels. THREADS trainings run in parallel, each on one thread. Pictures are generated; no file is read.
 
 #![expect(
     clippy::print_stdout,
@@ -25,7 +25,7 @@ use taceva_network::{
     Architecture, ConvolutionForm, Depth, Isa, NetworkError, Picture, Recipe, Trainer,
 };
 
-/// Samples to learn from and samples held out.
+/// Training samples and held-out samples.
 const LEARNT: usize = 320;
 const HELD_OUT: usize = 160;
 
@@ -49,14 +49,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         _ => return Err(format!("`{name}`: expected resnet10, resnet18, resnet34 or cnn").into()),
     };
     if seeds < 2 || steps == 0 || threads == 0 {
-        return Err("expected at least two seeds, a step and a thread".into());
+        return Err("expected SEEDS of at least 2, STEPS and THREADS of at least 1".into());
     }
     println!(
         "{name}, {side}², {seeds} seeds, {steps} steps of 32, {LEARNT} samples and {HELD_OUT} held out, {threads} trainings at a time, {}",
         Isa::detect()
     );
     let parts = [Blobs::draw(1, LEARNT, side), Blobs::draw(2, HELD_OUT, side)];
-    // A seed in both forms, and then the next.
+    // Task order: both forms of one seed, then the next seed.
     let tasks = 0..seeds * FORMS.len();
     let next = AtomicUsize::new(0);
     let worker = || {
@@ -82,13 +82,13 @@ fn main() -> Result<(), Box<dyn Error>> {
             .collect::<Result<Vec<Vec<Course>>, String>>()
     })?;
     let mut all: Vec<Course> = all.into_iter().flatten().collect();
-    // Sums over seeds are then the same, whichever thread was first.
+    // A fixed order, so sums over seeds do not depend on which thread finished first.
     all.sort_by_key(|course| course.seed);
     print(FORMS, &all, steps);
     Ok(())
 }
 
-/// Trains from `seed` in one form and scores what was not learnt from.
+/// Trains from `seed` in one form and scores the held-out samples.
 fn train(
     architecture: &Architecture,
     (form, seed): (ConvolutionForm, u64),
@@ -101,7 +101,7 @@ fn train(
         ..Recipe::default()
     };
     let recipe = Recipe {
-        // The rate falls to nothing at the end of the last epoch, which may be a few steps behind the last.
+        // The learning rate reaches zero at the end of the last epoch, possibly a few steps after the last step.
         epochs: steps.div_ceil(LEARNT / recipe.batch) as u64,
         ..recipe
     };

@@ -1,8 +1,8 @@
 //! Images per second of training steps and of predictions on a GPU: ResNet-18, six outputs, squared errors, SGD with momentum.
 //!
-//! `cargo run --release -p taceva-network --features cuda --example speed [-- KIND [SIDE [BATCH [STEPS]]]]`; `cuda`, 64, 32 and 50 are the
-//! defaults. Times are those of the wall clock, pictures come from the memory of the processor as they do in a training.
-//! `benches/peers/torch_network.py --device cuda` measures PyTorch alike.
+//! `cargo run --release -p taceva-network --features cuda --example speed [-- KIND [SIDE [BATCH [STEPS]]]]`; defaults: `cuda`, 64, 32 and 50. Times
+//! are wall-clock times. Pictures are uploaded from main memory, as in a training. `benches/peers/torch_network.py --device cuda` measures PyTorch in
+//! the same way.
 
 #![expect(
     clippy::print_stdout,
@@ -61,7 +61,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut trainer = trainer.on(|snapshot, recipe| gpu.engine(snapshot, recipe))?;
     println!("{gpu}, {side}², batches of {batch}, {steps} of each");
 
-    // Kernels are chosen and compiled as they are met. A step waits for its outputs, and so for all of the step before.
+    // Warm-up: kernels are chosen and compiled at first use. Each step reads its outputs, so it waits for the whole step before.
     let start = Instant::now();
     for _ in 0..3 {
         trainer.step()?;

@@ -1,8 +1,8 @@
 //! Cost of dividing work between two threads of a pool: microseconds from the request until both empty halves are done.
 //!
-//! `cargo run --release -p taceva-network --example waking [-- REPEATS]`. Each row has the median and the ninth decile. The processor time
-//! is that of all threads minus that of the pause. The other thread looks for work for a while before it sleeps, so what counts is the
-//! pause since its last work. In a network, that is the time by which one half of a layer takes longer than the other.
+//! `cargo run --release -p taceva-network --example waking [-- REPEATS]`. Each row has the median and the ninth decile. Processor time is the sum
+//! over threads, without the pause. The other thread polls for work before it sleeps, so the cost depends on the pause since its last work. In a
+//! network, this pause is the difference in time between both halves of a layer.
 
 #![expect(
     clippy::print_stdout,
@@ -31,7 +31,7 @@ fn main() {
     }
 }
 
-/// Two halves of nothing, of which the other thread has one: this one waits until that has begun.
+/// Two empty halves, one of them for the other thread. Returns after that thread has begun its half.
 fn halves() {
     let begun = std::sync::atomic::AtomicBool::new(false);
     let order = std::sync::atomic::Ordering::Release;

@@ -19,7 +19,7 @@ use crate::picture::Picture;
 /// use taceva_network::{Architecture, Depth, Picture};
 /// let input = Picture { height: 64, width: 64, channels: 3 };
 /// let architecture = Architecture::residual(Depth::Eighteen, input, 6);
-/// // As many as torchvision's resnet18 with six outputs.
+/// The same number as torchvision's resnet18 with six outputs.
 /// assert_eq!(architecture.parameters()?, 11_179_590);
 /// # Ok::<(), taceva_network::NetworkError>(())
 /// ```
@@ -37,7 +37,7 @@ pub struct Architecture {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Body {
-    /// A stem of 7 × 7 and pooling, four stages of residual blocks, the mean over pixels.
+    /// A stem of 7 × 7 with pooling, four stages of residual blocks, then the mean over pixels.
     ///
     /// # Reference
     /// K. He, X. Zhang, S. Ren, J. Sun, "Deep residual learning for image recognition", CVPR 2016; layers and names are those
@@ -85,7 +85,7 @@ impl Depth {
     }
 }
 
-/// Most values of any picture in a network, so that offsets fit into 32 bits.
+/// Most values of any picture in a network, so offsets fit into 32 bits.
 const PICTURE_MAX: usize = 1 << 28;
 
 impl Architecture {
@@ -137,7 +137,7 @@ impl Architecture {
         let features = self.pooling().features(picture) as u128;
         count += (features + 1) * self.outputs as u128;
         usize::try_from(count).map_err(|_| NetworkError::Architecture {
-            reason: format!("{count} parameters are too many"),
+            reason: format!("{count} parameters, which exceed the address space"),
         })
     }
 
@@ -149,7 +149,7 @@ impl Architecture {
         let refuse = |reason: String| Err(NetworkError::Architecture { reason });
         if self.input.is_empty() || self.outputs == 0 {
             return refuse(format!(
-                "input pictures of {} and {} outputs, expected sizes and outputs above 0",
+                "input pictures of {} and {} outputs; expected sizes and outputs above 0",
                 self.input, self.outputs
             ));
         }

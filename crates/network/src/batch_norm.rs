@@ -25,7 +25,7 @@ pub(crate) struct BatchNorm {
     pub(crate) running_variance: Aligned,
 }
 
-/// Moments of one batch, and normalisation by them as one factor and one addend per channel.
+/// Moments of one batch, and the factor and addend per channel that normalise by them.
 #[derive(Clone, Debug)]
 pub(crate) struct Moments {
     pub(crate) mean: Aligned,

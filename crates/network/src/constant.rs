@@ -1,6 +1,6 @@
 //! Run-time numbers as compile-time constants.
 
-/// Evaluates `$call` with `$number` as the constant `$constant`. Compiled once for each of `$known`, so that accumulators are registers.
+/// Evaluates `$call` with `$number` as the constant `$constant`. The call is compiled once for each of `$known`, so accumulators stay in registers.
 macro_rules! with_constant {
     ($constant:ident = $number:expr, one of [$($known:literal),+] => $call:expr) => {
         match $number {
@@ -8,7 +8,7 @@ macro_rules! with_constant {
                 const $constant: usize = $known;
                 $call
             })+
-            _ => unreachable!("beyond what was compiled"),
+            _ => unreachable!("a number outside the compiled list"),
         }
     };
 }

@@ -69,8 +69,7 @@ impl Convolution {
 
 /// Offset in 32 bits, as stored in tables of pixels.
 fn offset(value: usize) -> u32 {
-    u32::try_from(value)
-        .expect("a picture has fewer numbers than 2^32, as the architecture was checked")
+    u32::try_from(value).expect("Architecture::check limits a picture to 2^28 values")
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use crate::picture::Picture;
 #[non_exhaustive]
 pub enum NetworkError {
     /// The architecture is invalid.
-    #[error("a network cannot be built: {reason}")]
+    #[error("invalid network architecture: {reason}")]
     Architecture {
         /// The fault.
         reason: String,

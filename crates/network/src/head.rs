@@ -79,7 +79,7 @@ impl Head {
         for features in features.chunks_exact(self.features()) {
             let rows = self.weights.chunks_exact(self.features());
             into.extend(rows.zip(&*self.bias).map(|(row, bias)| {
-                // Eight independent sums, so that additions do not wait for each other.
+                // Eight independent sums, so additions do not wait for each other.
                 let mut sums = [0.0_f64; 8];
                 let (row, rest) = row.as_chunks::<8>();
                 let (seen, seen_rest) = features.as_chunks::<8>();

@@ -10,7 +10,7 @@ use crate::labels::Labels;
 pub enum Loss {
     /// (output − label)².
     SquaredError,
-    /// Half the squared distance up to `delta`, beyond it delta · (|distance| − delta / 2).
+    /// Half the squared distance up to `delta`; beyond it, delta · (|distance| − delta / 2).
     ///
     /// # Reference
     /// P. J. Huber, "Robust estimation of a location parameter", Ann. Math. Statist. 35, 1964.
@@ -28,7 +28,7 @@ impl Loss {
     /// # Shapes
     /// `outputs`, `gradient`: `[samples, width]`.
     /// # Panics
-    /// If a distance is applied to classes, or cross entropy to numbers. [`Trainer`](crate::Trainer) rejects both.
+    /// If a distance loss is applied to classes, or cross entropy to numbers. [`Trainer`](crate::Trainer) rejects both.
     pub fn measure(
         self,
         outputs: &[f64],

@@ -1,7 +1,6 @@
-//! Instruction sets. All sets with fused multiply-add give the same bits. The portable one also rounds products, so its last digits
-//! differ.
+//! Instruction sets. All sets with fused multiply-add give the same bits. The portable set rounds each product too, so its last digits differ.
 //!
-//! Selected as in `taceva-metrics`, whose operations differ. Each crate proves which instructions its own `simd/` may run.
+//! The selection equals that of `taceva-metrics`. Each crate has its own `simd/`, which proves that the CPU has the instructions.
 
 use taceva_core::Isa;
 

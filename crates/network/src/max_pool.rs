@@ -1,5 +1,4 @@
-//! Max pooling over 3 × 3 pixels with stride 2, fused with normalisation and ReLU. Neither the normalised pictures nor their
-//! gradients are ever stored.
+//! Max pooling over 3 × 3 pixels with stride 2, fused with normalisation and ReLU. The normalised pictures and their gradients are never stored.
 
 mod backward;
 mod forward;
@@ -27,8 +26,8 @@ pub(crate) const fn output(input: Picture) -> Picture {
     }
 }
 
-/// Rows (or columns) of window `position` in a picture of `length` rows. A row outside the picture is replaced by the nearest row
-/// of the window, because loops of fixed length stay in registers.
+/// Rows (or columns) of window `position` in a picture of `length` rows. The nearest row of the window replaces a row outside the picture, because
+/// loops of fixed length stay in registers.
 #[inline(always)]
 fn window(position: usize, length: usize) -> [usize; KERNEL] {
     let middle = position * STRIDE;
@@ -39,8 +38,8 @@ fn window(position: usize, length: usize) -> [usize; KERNEL] {
     ]
 }
 
-/// Windows that contain row (or column) `at`, each with the position of `at` in it, in a picture with `windows` windows. Without a
-/// second window, its position is [`NOWHERE`] and its index arbitrary but valid.
+/// Windows that contain row (or column) `at`, each with the position of `at` in it, in a picture with `windows` windows. A missing second window has
+/// position [`NOWHERE`] and an arbitrary valid index.
 #[inline(always)]
 fn windows(at: usize, windows: usize) -> [(u32, usize); 2] {
     let before = at / STRIDE;
@@ -53,7 +52,7 @@ fn windows(at: usize, windows: usize) -> [(u32, usize); 2] {
     }
 }
 
-/// Window position that no output comes from.
+/// Window position of a missing window; no output has it.
 const NOWHERE: u32 = 1 << 8;
 
 /// Index of a position in a window.

@@ -111,7 +111,7 @@ impl Network {
     /// [`NetworkError::Architecture`] if the CPU lacks `isa`.
     pub fn on(mut self, isa: Isa) -> Result<Network, NetworkError> {
         self.machine = Machine::with(isa).ok_or_else(|| NetworkError::Architecture {
-            reason: format!("this machine does not have {isa}"),
+            reason: format!("this CPU lacks the instruction set {isa}"),
         })?;
         Ok(self)
     }

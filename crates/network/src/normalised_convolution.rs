@@ -94,8 +94,8 @@ impl Normed {
         update.update(self.slot + 2, &mut self.norm.bias, &sums.bias);
     }
 
-    /// Computes the gradient of the convolution's output from the gradient of the normalisation's output. `Gate::Output` zeroes the
-    /// latter where masked. Passes the gradients of gain and bias to `back.update`.
+    /// Computes the gradient of the convolution's output from the gradient of the normalisation's output. `Gate::Output` zeroes the masked values of
+    /// the second gradient. Passes the gradients of gain and bias to `back.update`.
     pub(crate) fn norm_backward(
         &mut self,
         space: &mut NormedSpace,

@@ -28,7 +28,7 @@ impl Picture {
                 expected,
             });
         }
-        // No early exit, so that the compiler vectorises the loop.
+        // No early exit, so the compiler vectorises the loop.
         let all = |picture: &[f32]| {
             picture
                 .iter()
@@ -48,7 +48,7 @@ impl Picture {
     }
 }
 
-/// Memory layout of a picture, with a border of zeros, so that loops need no bounds tests.
+/// Memory layout of a picture, with a border of zeros, so loops need no bounds checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Layout {
     pub(crate) picture: Picture,

@@ -23,7 +23,7 @@ pub struct Predictor {
     machine: Machine,
     input: Planes,
     stages: Vec<Folded>,
-    /// Number of leading stages passed by a few pictures at a time.
+    /// Number of leading stages that process a few pictures at a time.
     light: usize,
     scratch: Scratch,
     head: Head,
@@ -47,7 +47,7 @@ impl Network {
         self.predictor_in(ConvolutionForm::Winograd)
     }
 
-    /// Prepares prediction in one form for any number of pictures, so that a prediction does not depend on the other pictures of a call.
+    /// Prepares prediction in `form` for any number of pictures. A prediction therefore does not depend on the other pictures of a call.
     /// [`ConvolutionForm::Mixed`] is fastest for single pictures, as from a live sensor.
     pub fn predictor_in(&self, form: ConvolutionForm) -> Predictor {
         let mut layout = self.architecture.stages()[0].input_layout(self.architecture.input);
@@ -56,7 +56,7 @@ impl Network {
         let mut stages = Vec::new();
         for (position, (plan, stage)) in self.planned().enumerate() {
             let output = plan.output(layout.picture);
-            // At least one pixel even after the last stage, so that a block's output has the layout of its input.
+            // At least one pixel even after the last stage, so a block's output has the layout of its input.
             let next = plans.get(position + 1);
             let border = next.map_or(1, |next| next.input_layout(output).border);
             stages.push(Folded::new(stage, layout, border, form));
@@ -100,8 +100,8 @@ impl Predictor {
     /// # Shapes
     /// `pictures`: `[samples, height, width, channels]`; `into`: `[samples, outputs]`, allocated by the caller.
     /// # Errors
-    /// [`NetworkError`] if a length differs, a value is not finite, or memory is short for the transformed weights. They are computed at
-    /// the first call.
+    /// [`NetworkError`] if a length differs, a value is not finite, or memory is too small for the transformed weights. The first call computes these
+    /// weights.
     pub fn predict(&mut self, pictures: &[f32], into: &mut [f64]) -> Result<(), NetworkError> {
         let (picture, outputs) = (self.input(), self.outputs());
         picture.check_prediction(pictures, outputs, into)?;
@@ -142,7 +142,7 @@ impl Predictor {
         let numbers: usize = layers.iter().map(|layer| layer.missing()).sum();
         for layer in layers {
             let prepared = layer.prepare(self.machine);
-            // Reports the total of all weights, not of the one that failed.
+            // Reports the total of all weights, although only one allocation failed.
             prepared.map_err(|_| NetworkError::Memory {
                 bytes: numbers * size_of::<f32>(),
             })?;
@@ -193,8 +193,7 @@ fn pass_all(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Option<
     seen
 }
 
-/// Passes a few pictures at a time through all `stages`. Activations of early stages, large pictures with few weights, then stay in
-/// a cache.
+/// Passes a few pictures at a time through all `stages`. Early stages have large pictures and few weights; their activations then stay in cache.
 fn pass_few_at_a_time(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Planes {
     let layout = stages.last().map_or(pass.input.layout(), Folded::output);
     let few = (PICTURES_IN_CACHE / (layout.len() * size_of::<f32>())).max(1);

@@ -58,13 +58,13 @@ impl Samples<'_> {
         match (self.labels, loss) {
             (Labels::Values(_), Loss::CrossEntropy) => Err(NetworkError::Recipe {
                 name: "loss",
-                found: "cross entropy of numbers".into(),
-                expected: "squared error or Huber's loss; classes have cross entropy",
+                found: "cross entropy for numbers".into(),
+                expected: "squared error or Huber's loss for numbers; cross entropy is for classes",
             }),
             (Labels::Classes(_), Loss::SquaredError | Loss::Huber { .. }) => {
                 Err(NetworkError::Recipe {
                     name: "loss",
-                    found: "a distance of classes".into(),
+                    found: "a distance loss for classes".into(),
                     expected: "cross entropy",
                 })
             }

@@ -17,7 +17,8 @@ pub enum Schedule {
         /// Factor of each change.
         factor: f64,
     },
-    /// Rises from 1/25 of the full rate along half a cosine for the share `rise` of all steps, then falls to 1/10,000 of the start.
+    /// Rises from 1/25 of the full rate along half a cosine for the share `rise` of all steps. Falls to 1/10,000 of the start rate over the other
+    /// steps.
     ///
     /// # Reference
     /// L. N. Smith, N. Topin, "Super-convergence", 2019; limits and shape as in PyTorch's `OneCycleLR`.
@@ -28,7 +29,7 @@ pub enum Schedule {
 }
 
 impl Schedule {
-    /// Ratio of the rate at step `step`, counted from 0, of `steps` to the full rate.
+    /// Ratio of the rate at step `step` of `steps`, counted from 0, to the full rate.
     ///
     /// ```
     /// use taceva_network::Schedule;

@@ -46,7 +46,7 @@ impl Scratch {
         match self.spare.iter().rposition(|room| length <= room.len()) {
             Some(position) => Planes::within(self.spare.remove(position), layout, count),
             None => {
-                // Backward, pictures grow towards the input: a buffer too small now is soon too small for all pictures.
+                // In the backward pass, pictures grow towards the input. A buffer that is too small now will not fit later pictures either.
                 self.spare.pop();
                 Planes::zeros(layout.picture, layout.border, count)
             }

@@ -1,15 +1,15 @@
 //! Division of one picture among threads of the pool, for parts too short to wake a thread for each.
 //!
-//! An idle thread of the pool sleeps after about ten microseconds and takes twenty or more to wake (`examples/waking.rs` measures it).
-//! A layer takes about a hundred. Helper threads therefore spin while pictures are predicted, for a limited time. A thread that waits
-//! for a part spins too and runs other parts.
+//! An idle thread of the pool sleeps after about ten microseconds and takes twenty or more to wake (`examples/waking.rs` measures it). A layer takes
+//! about a hundred microseconds. Helper threads therefore spin while pictures are predicted, for a limited time. A thread that waits for a part also
+//! spins, and runs other parts meanwhile.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::Yield;
 
-/// Most threads for one picture: a layer has not enough work for more.
+/// Most threads for one picture. A layer has too little work for more.
 const MOST: usize = 8;
 
 /// Failed searches for work after which a thread may sleep: several times the duration of a layer.
@@ -64,11 +64,11 @@ impl Awake {
             let (is_over, begun) = (Arc::clone(&is_over), Arc::clone(&begun));
             rayon::spawn(move || {
                 begun.fetch_add(1, Ordering::Relaxed);
-                // This thread picked up a job meant for a helper, and has its own work.
+                // This thread picked up a helper's job, but has its own work.
                 if rayon::current_thread_index() == home {
                     return;
                 }
-                // Waits until all have begun; otherwise the first helper would take the jobs of the next.
+                // Waits until all helpers have begun; otherwise the first helper would take the jobs of the others.
                 for _ in 0..PATIENCE {
                     if begun.load(Ordering::Relaxed) >= others {
                         break;
@@ -88,8 +88,8 @@ impl Drop for Awake {
     }
 }
 
-/// Runs available work until `is_over`, or until none was found for a while. Without this limit, threads that wait for
-/// each other's work would wait forever.
+/// Runs available work until `is_over`, or until none was found for a while. Without this limit, threads that wait for each other's work would wait
+/// forever.
 fn look_for_work(is_over: impl Fn() -> bool) {
     let mut in_vain = 0;
     while in_vain < PATIENCE && !is_over() {

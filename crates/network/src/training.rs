@@ -1,4 +1,4 @@
-//! Training, one step at a time: a caller can inspect, save or stop between any two.
+//! Training in single steps. A caller can inspect, save or stop between any two.
 
 mod augmentation;
 mod breakage;
@@ -153,7 +153,7 @@ impl<'a> Trainer<'a> {
         })
     }
 
-    /// Present network and optimiser state. After a number that is not finite, returns the best network without optimiser state: later
+    /// Present network and optimiser state. After a number that was not finite, returns the best network without optimiser state, because later
     /// values may not be finite.
     fn snapshot(&self) -> Result<Snapshot, NetworkError> {
         match (&self.best, self.state.broken) {
@@ -173,7 +173,7 @@ impl<'a> Trainer<'a> {
         &self.state
     }
 
-    /// Steps per epoch: the number of whole batches. Each epoch leaves over other samples.
+    /// Steps per epoch: the number of whole batches. Each epoch skips different samples.
     pub fn steps_per_epoch(&self) -> u64 {
         (self.training.count(&self.architecture) / self.recipe.batch) as u64
     }
@@ -263,7 +263,7 @@ impl<'a> Trainer<'a> {
 
     /// Random draws for one purpose.
     fn draws(&self, purpose: u64) -> Draws {
-        // Weights are drawn from the seed by slot. Purposes are numbers beyond all slots.
+        // Weights use draws of the seed by slot. Purposes use numbers above all slots.
         Draws::new(self.recipe.seed).of(u64::MAX - purpose)
     }
 

@@ -1,7 +1,6 @@
 //! Consumers of gradients.
 
-/// Receives the gradient of each parameter as soon as it is computed, while cached. The backward pass no longer needs the
-/// parameter's old value.
+/// Receives the gradient of each parameter as soon as it is computed, while in cache. The backward pass no longer needs the parameter's old value.
 ///
 /// An optimiser updates the parameter; a test stores the gradient.
 pub(crate) trait Update {

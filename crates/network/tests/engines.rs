@@ -1,4 +1,4 @@
-//! A training that goes from one engine to another.
+//! Moves a training from one engine to another.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::common::small::{architecture, recipe, sums, values};
 use taceva_network::{Batch, ConvolutionForm, Engine, Moments, Network, NetworkError, Trainer};
 
-/// An engine that computes nothing and says when it is gone.
+/// Engine that computes nothing and sets a flag on drop.
 #[derive(Debug)]
 struct Watched(Network, Arc<AtomicBool>);
 

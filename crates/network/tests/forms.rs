@@ -55,7 +55,7 @@ fn all_forms_predict_alike_and_none_depends_on_the_pictures_beside() {
 
 #[test]
 fn fewer_pictures_than_threads_are_divided_among_these_and_keep_their_bits() {
-    // One channel and three, odd sizes, and one whose last maps are 1 × 1.
+    // One channel and three, odd sizes, and one picture whose last maps are 1 × 1.
     let inputs = [picture(61, 45, 1), picture(39, 70, 3), picture(20, 20, 1)];
     for (input, form) in inputs.into_iter().flat_map(|i| FORMS.map(|form| (i, form))) {
         let network = filled(&Architecture::residual(Depth::Ten, input, 2), 9);
@@ -64,7 +64,7 @@ fn fewer_pictures_than_threads_are_divided_among_these_and_keep_their_bits() {
             let mut predictor = network.predictor_in(form);
             let mut found = vec![0.0; 2 * count];
             let pictures = &pictures[..count * input.len()];
-            // Twice, as the first call has rooms to make.
+            // Two calls, because the first one allocates buffers.
             for _ in 0..2 {
                 predictor.predict(pictures, &mut found).expect("finite");
             }

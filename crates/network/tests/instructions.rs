@@ -1,4 +1,4 @@
-//! Instruction sets selected by `TACEVA_ISA` change no bit of a training or prediction if products are fused. Nor do threads.
+//! `TACEVA_ISA` and the number of threads change no bit of a training or prediction, if the instruction set has fused multiply-add.
 
 use std::process::Command;
 
@@ -6,14 +6,14 @@ use crate::common::tiles::{picture, same_size};
 use crate::draws::{doubles, filled, singles};
 use taceva_network::{Architecture, ConvolutionForm, Depth, Isa, Labels, Recipe, Samples, Trainer};
 
-/// FNV-1a of numbers.
+/// FNV-1a hash of numbers.
 fn digest(numbers: impl Iterator<Item = u64>) -> u64 {
     numbers.fold(0xcbf2_9ce4_8422_2325, |digest, number| {
         (digest ^ number).wrapping_mul(0x0100_0000_01b3)
     })
 }
 
-/// One picture of odd sizes in every form, on 1, 2 and 3 threads: a digest of the bits of what is predicted.
+/// Digest of the bits of predictions for one picture of odd sizes, in every form, on 1, 2 and 3 threads.
 fn predicted() -> [u64; 3] {
     let input = picture(51, 45, 1);
     let network = filled(&Architecture::residual(Depth::Ten, input, 3), 9);
@@ -34,7 +34,7 @@ fn predicted() -> [u64; 3] {
     })
 }
 
-/// All weights of two trainings in every form, on 1, 2 and 3 threads: a digest of their bits.
+/// Prints a digest of all weights of two trainings in every form, on 1, 2 and 3 threads.
 #[test]
 #[ignore = "run for each instruction set by the other test"]
 #[expect(clippy::print_stdout, reason = "read by the other test")]

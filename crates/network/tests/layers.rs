@@ -1,4 +1,4 @@
-//! Every kind of layer against a plain network in double precision: its outputs, and its gradients by finite differences.
+//! Compares every kind of layer with a plain network in double precision: outputs, and gradients by finite differences.
 
 use crate::common::plain::{self, Moments, Tensors};
 use crate::draws::{doubles, filled, singles, unit};
@@ -6,7 +6,7 @@ use taceva_network::{
     Architecture, Body, Depth, Isa, Labels, Loss, Network, Picture, PlainLayer, Pooling, Samples,
 };
 
-/// Networks that together have every layer, every stride, odd and even sides, and both ways to features.
+/// Networks that together have every layer, every stride, odd and even sides, and both kinds of pooling.
 fn architectures() -> Vec<Architecture> {
     let layer = |channels, kernel, stride| PlainLayer {
         channels,
@@ -158,7 +158,7 @@ fn gradients_are_those_of_finite_differences() {
             );
         }
         for (number, tensor) in gradients[0].1.tensors.iter().enumerate() {
-            // A few of each tensor: each costs two passes of the plain network.
+            // Only a few values of each tensor: each costs two passes of the plain network.
             let count = if matches!(architecture.body, Body::Plain { .. }) {
                 6
             } else {
@@ -180,7 +180,7 @@ fn gradients_are_those_of_finite_differences() {
                     tensors.get_mut(&tensor.name).expect("the same names")[place] = kept;
                     loss
                 };
-                // Wide enough for double precision, narrow enough to cross few corners of what is cut at zero.
+                // The step is wide enough for double precision, and narrow enough to cross few corners of ReLU.
                 let step = 1e-6;
                 let slope = (beside(step) - beside(-step)) / (2.0 * step);
                 for (isa, found) in &gradients {

@@ -1,4 +1,4 @@
-//! Trainings of a thousand epochs: whatever the pictures, every number stays finite and errors do not grow.
+//! Trainings of a thousand epochs. For any pictures, every number stays finite and errors do not grow.
 
 use crate::common::plain::{self, Moments};
 use crate::common::tiles::{picture, same_size};
@@ -11,7 +11,7 @@ const INPUT: Picture = picture(6, 5, 1);
 const SAMPLES: usize = 16;
 const EPOCHS: u64 = 1000;
 
-/// Pictures of drawn numbers, some as they are and some changed.
+/// Random pictures, some of them altered.
 fn pictures() -> [(&'static str, Vec<f32>); 5] {
     let usual = singles(21, SAMPLES * INPUT.len());
     let changed = |change: &dyn Fn(usize, f32) -> f32| {
@@ -33,7 +33,7 @@ fn pictures() -> [(&'static str, Vec<f32>); 5] {
     ]
 }
 
-/// The largest error of predictions, over the largest of them.
+/// Largest error of predictions, relative to the largest prediction.
 fn error(network: &Network, form: ConvolutionForm, pictures: &[f32]) -> f64 {
     let tensors = plain::tensors(network);
     let architecture = network.architecture();
@@ -83,7 +83,7 @@ fn a_thousand_epochs_of_usual_constant_saturated_large_and_small_pictures_stay_f
             assert_eq!(losses.len() as u64, EPOCHS);
             let [first, last] = [losses[0], losses[losses.len() - 1]];
             assert!(last < first, "{what}, {form}: {first}, {last}");
-            // Roundings of three layers: early and late the same few last digits.
+            // Rounding errors of three layers stay equally small early and late.
             assert!(
                 errors.iter().all(|error| *error < 2e-6),
                 "{what}, {form}: {errors:?}"

@@ -1,4 +1,4 @@
-//! Memory that is short is said before anything is computed. One test in a program of its own, as the limit is one of the process.
+//! Reports too little memory before any computation. The test has its own program, because the limit applies to the whole process.
 
 #![cfg(target_os = "linux")]
 
@@ -12,10 +12,10 @@ use taceva_network::{
     Recipe, Samples, Trainer,
 };
 
-/// Bytes of the weights from 512 channels to 512 at 36 points, with a panel of nothing after each point of each panel.
+/// Bytes of the transformed weights from 512 channels to 512 at 36 points, with one unused panel after each point of each panel.
 const TRANSFORMED: usize = 32 * 36 * (512 + 1) * 16 * 4;
 
-/// The most that this process may have of memory beside what it has, with `beside` more bytes.
+/// Limits the memory of this process to its present size and `beside` more bytes.
 fn limit(beside: usize) {
     let state = std::fs::read_to_string("/proc/self/status").expect("Linux has it");
     let size = state.lines().find_map(|line| line.strip_prefix("VmSize:"));
@@ -59,10 +59,10 @@ fn transformed_weights_without_room_are_refused_with_their_bytes_and_no_other_fo
     let mut direct = network.predictor_in(ConvolutionForm::Direct);
     let mut transformed = network.predictor();
     let mut found = [0.0; 8];
-    // Threads begin, and have what they need, before memory is short.
+    // Threads start and allocate before memory is short.
     direct.predict(&pictures, &mut found).expect("room");
 
-    // Room for whatever else there is, which has no quarter of the weights.
+    // Leaves memory for other allocations, which are less than a quarter of the weights.
     limit(TRANSFORMED - (2 << 20));
     let short = NetworkError::Memory { bytes: TRANSFORMED };
     assert_eq!(

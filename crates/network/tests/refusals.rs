@@ -67,8 +67,8 @@ fn samples_that_cannot_be_learnt_from_are_refused_where_they_stand() {
         refusal(&entropy, samples),
         "training sample 0: class 2, expected 0 to 1"
     );
-    assert!(refusal(&recipe(), samples).starts_with("`loss`: a distance of classes"));
-    assert!(refusal(&entropy, values(&good)).starts_with("`loss`: cross entropy of numbers"));
+    assert!(refusal(&recipe(), samples).starts_with("`loss`: a distance loss for classes"));
+    assert!(refusal(&entropy, values(&good)).starts_with("`loss`: cross entropy for numbers"));
 }
 
 #[test]

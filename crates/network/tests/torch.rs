@@ -1,4 +1,4 @@
-//! Against PyTorch, with the same weights and pictures: `benches/peers/torch_golden.py` made the numbers.
+//! Comparison with PyTorch, with the same weights and pictures. `benches/peers/torch_golden.py` made the expected numbers.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ struct Golden {
 #[derive(Deserialize)]
 struct Batch {
     loss: f64,
-    /// The norm, and the product with draws less a half.
+    /// Norm of each gradient, and its scalar product with uniform draws minus ½.
     gradients: BTreeMap<String, [f64; 2]>,
 }
 
@@ -70,7 +70,7 @@ fn predictions_are_pytorch_s() {
             .iter()
             .fold(0.0_f64, |most, value| most.max(value.abs()));
         for (found, expected) in found.iter().zip(expected) {
-            // Single precision through up to 36 layers, running moments folded into weights.
+            // Rounding errors of single precision through up to 36 layers, with running moments folded into weights.
             let error = (found - expected).abs() / size;
             assert!(error < 2e-5, "{name}: {found}, PyTorch {expected}");
         }
@@ -114,7 +114,7 @@ fn losses_and_gradients_are_pytorch_s() {
             let draws = (0_u64..).map(|at| unit(seed, at) - 0.5);
             let product: f64 = values().zip(draws).map(|(value, draw)| value * draw).sum();
             let size = digest[0];
-            // The last stage has moments of eight numbers, which magnify roundings.
+            // Moments of the last stage average eight numbers, which magnifies rounding errors.
             assert!(
                 (norm - size).abs() < 1e-3 * size,
                 "{name} {expected_name}: norm {norm}, PyTorch {size}"
@@ -180,7 +180,7 @@ fn two_hundred_steps_go_as_pytorch_s() {
                 .expect("finite")
                 .expect("a step is left")
                 .loss;
-            // Some times as far as PyTorch's own single precision strays, as roundings are others.
+            // Rounding differs from PyTorch's, so the limit is four times the deviation of PyTorch's own single precision.
             let error = (found - expected).abs() / course.losses[0];
             assert!(
                 error < 4.0 * course.stray + 1e-6,

@@ -1,4 +1,4 @@
-//! Promises of trainings: the same bits in one run or in parts, and the best epoch at the end.
+//! Guarantees of trainings: the same bits in one run or in parts, and the best epoch at the end.
 
 use crate::common::small::{PICTURE, architecture, recipe, sums, values};
 use crate::draws::{doubles, singles};
@@ -52,7 +52,7 @@ fn something_is_learnt_and_the_best_epoch_is_kept() {
     let least = losses.iter().copied().fold(f64::INFINITY, f64::min);
     let best = usize::try_from(trained.state.best.expect("measured")).expect("few");
     assert_eq!(losses[best].to_bits(), least.to_bits());
-    // Predicting the mean has a loss of about a half minus what is cut off.
+    // A constant prediction of the mean has a loss of about a half, less the reduction by Huber's loss.
     assert!(least < 0.1 && losses[0] > 2.0 * least, "{losses:?}");
 
     let mut found = vec![0.0; 128];
@@ -195,7 +195,7 @@ fn predictions_do_not_depend_on_what_is_predicted_beside_them() {
 
 #[test]
 fn classes_are_learnt_too() {
-    // Bright above or bright below.
+    // Pictures are bright in the upper half or in the lower half, by class.
     let mut pictures = singles(5, 64 * PICTURE.len());
     let classes: Vec<u32> = (0..64).map(|sample| sample % 2).collect();
     for (picture, class) in pictures.chunks_exact_mut(PICTURE.len()).zip(&classes) {
@@ -236,7 +236,7 @@ fn classes_are_learnt_too() {
 #[test]
 fn patience_ends_a_training() {
     let (training, validation) = (sums(1, 32), sums(2, 8));
-    // So high a rate that nothing gets better for long.
+    // At such a high rate, the loss does not improve for long.
     let recipe = Recipe {
         epochs: 200,
         rate: 0.3,
@@ -309,7 +309,7 @@ fn a_loss_that_is_not_finite_names_its_step_and_leaves_the_best() {
 #[test]
 fn a_training_that_broke_keeps_its_best_and_breaks_again_wherever_it_is_gone_on_with() {
     let (training, validation) = (sums(1, 16), sums(2, 8));
-    // Each step overshoots a hundredfold: the first epochs are finite, the tenth or so is not.
+    // Each step overshoots a hundredfold. The first epochs are finite; about the tenth is not.
     let recipe = Recipe {
         epochs: 50,
         rate: 10.0,

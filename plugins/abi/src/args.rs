@@ -4,7 +4,7 @@ use crate::text::Text;
 
 /// `taceva_arg`: one argument.
 ///
-/// The value is given as text and, for a number, as a number too: a driver reads whichever it needs.
+/// A number is given both as text and as a number. A driver may read either.
 ///
 /// ```
 /// use taceva_abi::{Arg, Text};
@@ -18,9 +18,9 @@ pub struct Arg {
     pub key: Text,
     /// Value as text, for every type.
     pub text: Text,
-    /// The value of a whole number; 0 or 1 for a flag.
+    /// Value of a whole number; 0 or 1 for a flag.
     pub whole: i64,
-    /// The value of a number, in the unit that the manifest declares.
+    /// Value of a number, in the unit that the manifest declares.
     pub number: f64,
     /// [`Arg::TEXT`], [`Arg::WHOLE`], [`Arg::NUMBER`] or [`Arg::FLAG`].
     pub kind: u32,
@@ -29,13 +29,13 @@ pub struct Arg {
 }
 
 impl Arg {
-    /// A text, a path or one of some choices.
+    /// A text, a path or a choice.
     pub const TEXT: u32 = 1;
     /// A whole number.
     pub const WHOLE: u32 = 2;
     /// A number.
     pub const NUMBER: u32 = 3;
-    /// On or off.
+    /// A flag: on or off.
     pub const FLAG: u32 = 4;
 }
 
@@ -45,14 +45,14 @@ impl Arg {
 /// use taceva_abi::{Arg, Args, Text};
 /// let items = [Arg { key: Text::from("fast"), text: Text::from("true"), whole: 1, number: 0.0, kind: Arg::FLAG, reserved: 0 }];
 /// let args = Args { items: items.as_ptr(), count: items.len() };
-/// // SAFETY: `items` lives and has that many.
+/// // SAFETY: `items` lives and has `count` elements.
 /// let read = unsafe { std::slice::from_raw_parts(args.items, args.count) };
 /// assert_eq!(read[0].kind, Arg::FLAG);
 /// ```
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Args {
-    /// The first argument; NULL only if `count` is 0.
+    /// First argument; NULL only if `count` is 0.
     pub items: *const Arg,
     /// Number of arguments.
     pub count: usize,

@@ -1,4 +1,4 @@
-//! The calls of a changer.
+//! Calls of a changer.
 
 use core::ffi::c_void;
 
@@ -9,7 +9,7 @@ use crate::text::{TakeText, Text};
 
 /// `taceva_changer_calls`, since minor 2.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::{ChangerCalls, DeviceCalls};
@@ -20,9 +20,9 @@ use crate::text::{TakeText, Text};
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ChangerCalls {
-    /// The calls that every device has; the table begins with them.
+    /// Calls that every device has. The table begins with them.
     pub device: DeviceCalls,
-    /// `[owner & open]` Brings the item `name` into place; `take` receives the name of the item in place, once nothing moves.
+    /// `[owner & open]` Brings the item `name` into place. `take` receives the name of the item in place, after the motion has ended.
     pub bring: Option<
         unsafe extern "C" fn(
             *mut c_void,

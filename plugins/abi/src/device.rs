@@ -28,7 +28,7 @@ pub struct Stamp {
 
 /// `taceva_rig`: the devices that are opened together, opaque.
 ///
-/// Only the plugin knows its contents; a host keeps the pointer that `open_rig` wrote and passes it back.
+/// Only the plugin knows its contents. A host keeps the pointer that `open_rig` wrote and passes it back.
 ///
 /// ```
 /// use taceva_abi::Rig;
@@ -53,21 +53,21 @@ pub struct Rig {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct DeviceCalls {
-    /// The size of the whole table of the kind, in bytes.
+    /// Size of the whole table of the kind, bytes.
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
     /// `[owner & open]` Stops the device and frees it; the last call.
     pub close: Option<unsafe extern "C" fn(handle: *mut c_void)>,
-    /// `[any & open]` A blocked call returns `INTERRUPTED` within 50 ms.
+    /// `[any & open]` A blocked call returns `INTERRUPTED` within 50 ms. No effect without one.
     pub interrupt: Option<unsafe extern "C" fn(handle: *mut c_void)>,
-    /// `[owner & open]` A table of calls on the device, or NULL.
+    /// `[owner & open]` Returns a table of calls on the device, or NULL.
     pub extension: Option<unsafe extern "C" fn(handle: *mut c_void, id: Text) -> *const c_void>,
 }
 
 /// `taceva_device`: an open device, filled in by `open`.
 ///
-/// Frozen: the caller has room for exactly this.
+/// Frozen: the caller has memory for exactly this size.
 ///
 /// ```
 /// use taceva_abi::Device;
@@ -77,15 +77,15 @@ pub struct DeviceCalls {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Device {
-    /// The plugin's own handle of the device, passed with every call.
+    /// Plugin's own handle of the device, passed with every call.
     pub handle: *mut c_void,
-    /// The table of its kind; lives as long as the library.
+    /// Table of its kind. Lives as long as the library.
     pub calls: *const DeviceCalls,
 }
 
 /// `taceva_factory`: the drivers of one kind, numbered from 0.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::Factory;
@@ -95,14 +95,14 @@ pub struct Device {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Factory {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
     /// Number of drivers of this kind in the plugin.
     pub drivers: u32,
-    /// `[any]` Writes the `[[provides]]` table of the manifest for the arguments; NULL is for any arguments. No device is touched.
+    /// `[any]` Writes the `[[provides]]` table of the manifest for the arguments. NULL requests it for any arguments. Accesses no device.
     pub describe:
         Option<unsafe extern "C" fn(u32, *const Args, TakeText, *mut c_void, *mut Error) -> Status>,
-    /// `[any]` Lists the present devices, each by the arguments that select it.
+    /// `[any]` Lists the connected devices, each by the arguments that select it.
     pub discover: Option<unsafe extern "C" fn(u32, TakeText, *mut c_void, *mut Error) -> Status>,
     /// `[any]` Opens a device; nothing moves and no light changes.
     pub open:

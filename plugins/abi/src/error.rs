@@ -1,14 +1,14 @@
-//! The message of a failure, in the caller's memory.
+//! Message of a failure, in the caller's memory.
 
 use core::ffi::c_char;
 use core::mem::size_of;
 
-/// Bytes of a message, its NUL included.
+/// Length of a message with its NUL, bytes.
 pub const MESSAGE_SIZE: usize = 504;
 
 /// `taceva_error`.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::{Error, Status};
@@ -23,21 +23,21 @@ pub const MESSAGE_SIZE: usize = 504;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Error {
-    /// In: the size of this struct, in bytes.
+    /// In: size of this struct, bytes.
     pub size: u32,
-    /// Out: the device's own number, 0 for none.
+    /// Out: error number of the device, 0 for none.
     pub vendor_code: i32,
-    /// Out: UTF-8 with a final NUL, cut if it does not fit.
+    /// Out: UTF-8 with a final NUL, truncated if it does not fit.
     pub message: [c_char; MESSAGE_SIZE],
     /// Out, since minor 1: the [`FaultNumber`] for which the device stopped by itself. A plugin writes it only if `size` covers it.
     pub fault: FaultNumber,
 }
 
-/// `taceva_fault`: the fault for which a device stopped by itself. Nothing moves after it until a person has looked.
+/// `taceva_fault`: fault for which a device stopped by itself. Nothing moves after it until a person has looked.
 ///
-/// A number rather than an enum: a plugin may write any. An unlisted number with the same upper 16 bits counts as
-/// [`SERVO`](FaultNumber::SERVO), never as none. No text begins with these bits, so a message of an old plugin that overran into this field
-/// is no fault.
+/// A number rather than an enum, because a plugin may write any number. An unlisted number with the same upper 16 bits counts as
+/// [`SERVO`](FaultNumber::SERVO), never as no fault. No text begins with these bits, so a message of an old plugin that overran into this field is no
+/// fault.
 ///
 /// ```
 /// use taceva_abi::{Error, FaultNumber};
@@ -78,7 +78,7 @@ impl Error {
         }
     }
 
-    /// Writes a message, cut between two characters if it does not fit.
+    /// Writes a message. Truncates it between two characters if it does not fit.
     pub fn write(&mut self, message: &str) {
         let mut end = message.len().min(MESSAGE_SIZE - 1);
         while !message.is_char_boundary(end) {
@@ -90,7 +90,7 @@ impl Error {
         self.message[end] = 0;
     }
 
-    /// The bytes of the message, up to its NUL; all bytes without one.
+    /// Bytes of the message up to its NUL; all bytes without a NUL.
     pub fn bytes(&self) -> impl Iterator<Item = u8> + '_ {
         self.message
             .iter()

@@ -1,4 +1,4 @@
-//! Models that are fitted and predict. All arrays are the caller's, contiguous, sample by sample.
+//! Models that are fitted and predict. All arrays belong to the caller and are contiguous, sample by sample.
 
 use core::ffi::c_void;
 
@@ -7,9 +7,9 @@ use crate::error::Error;
 use crate::status::Status;
 use crate::text::{TakeText, Text};
 
-/// `taceva_training_set`: samples to learn from; every number is finite.
+/// `taceva_training_set`: training samples. Every number is finite.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::{Text, TrainingSet};
@@ -32,7 +32,7 @@ use crate::text::{TakeText, Text};
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct TrainingSet {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
     /// Columns of the targets.
     pub channels: u32,
@@ -40,9 +40,9 @@ pub struct TrainingSet {
     pub samples: u64,
     /// Rows of one sample's features; 1 for a flat list.
     pub height: u32,
-    /// Columns; the length of a flat list.
+    /// Columns of one sample's features; the length of a flat list.
     pub width: u32,
-    /// Numbers at each place.
+    /// Values per row and column.
     pub depth: u32,
     /// Reserved, 0.
     pub reserved: u32,
@@ -50,9 +50,9 @@ pub struct TrainingSet {
     pub features: *const f32,
     /// `[samples, channels]`
     pub targets: *const f64,
-    /// `[samples]`: the contact point of each; NULL if unknown.
+    /// `[samples]`: contact point of each sample; NULL if unknown.
     pub groups: *const u32,
-    /// `[channels]`
+    /// `[channels]`: such as `Px` and `Fz`.
     pub channel_names: *const Text,
 }
 
@@ -72,7 +72,7 @@ pub type Progress = Option<unsafe extern "C" fn(context: *mut c_void, done: f64)
 
 /// `taceva_regressor_calls`.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::RegressorCalls;
@@ -82,13 +82,13 @@ pub type Progress = Option<unsafe extern "C" fn(context: *mut c_void, done: f64)
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct RegressorCalls {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]`
+    /// `[owner & open]` Closes the model; the last call.
     pub close: Option<unsafe extern "C" fn(*mut c_void)>,
-    /// `[any & open]` Writes `[samples, channels]`. Touches neither array if the lengths do not match the model's shape.
+    /// `[any & open]` Writes `[samples, channels]`. Accesses neither array if the lengths do not match the model's shape.
     pub predict: Option<
         unsafe extern "C" fn(
             *const c_void,
@@ -100,7 +100,7 @@ pub struct RegressorCalls {
             *mut Error,
         ) -> Status,
     >,
-    /// `[any & open]` The model as bytes; `OUT_OF_RANGE` with the required length if they do not fit.
+    /// `[any & open]` Writes the model as bytes; `OUT_OF_RANGE` with the required length if they do not fit.
     pub save: Option<
         unsafe extern "C" fn(*const c_void, into: *mut u8, length: *mut u64, *mut Error) -> Status,
     >,
@@ -108,7 +108,7 @@ pub struct RegressorCalls {
 
 /// `taceva_regressor`: a fitted model, filled in by `fit` or `load`.
 ///
-/// Frozen: the caller has room for exactly this.
+/// Frozen: the caller has memory for exactly this size.
 ///
 /// ```
 /// use taceva_abi::Regressor;
@@ -118,15 +118,15 @@ pub struct RegressorCalls {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Regressor {
-    /// The plugin's own handle of the model, passed with every call.
+    /// Plugin's own handle of the model, passed with every call.
     pub handle: *mut c_void,
-    /// Lives as long as the library.
+    /// Table of its calls. Lives as long as the library.
     pub calls: *const RegressorCalls,
 }
 
 /// `taceva_estimator_factory`.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::EstimatorFactory;
@@ -136,7 +136,7 @@ pub struct Regressor {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct EstimatorFactory {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
     /// Number of estimators in the plugin.
     pub estimators: u32,
@@ -155,7 +155,7 @@ pub struct EstimatorFactory {
             *mut Error,
         ) -> Status,
     >,
-    /// `[any]` Loads the bytes of `save`; hostile bytes are rejected.
+    /// `[any]` Loads the bytes of `save`. Rejects other bytes.
     pub load: Option<
         unsafe extern "C" fn(
             u32,

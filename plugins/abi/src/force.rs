@@ -1,4 +1,4 @@
-//! The calls of a force transducer.
+//! Calls of a force transducer.
 
 use core::ffi::c_void;
 
@@ -8,7 +8,7 @@ use crate::status::Status;
 
 /// `taceva_wrench`: force and torque on the gel.
 ///
-/// Frozen: the caller has room for exactly this.
+/// Frozen: the caller has memory for exactly this size.
 ///
 /// ```
 /// use taceva_abi::Wrench;
@@ -18,15 +18,15 @@ use crate::status::Status;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Wrench {
-    /// The force along x, y and z, in N.
+    /// Force along x, y and z, N.
     pub force_n: [f64; 3],
-    /// The torque about x, y and z, in N·mm.
+    /// Torque about x, y and z, N·mm.
     pub torque_n_mm: [f64; 3],
 }
 
 /// `taceva_force_calls`.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::{DeviceCalls, ForceCalls};
@@ -37,11 +37,11 @@ pub struct Wrench {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ForceCalls {
-    /// The calls that every device has; the table begins with them.
+    /// Calls that every device has. The table begins with them.
     pub device: DeviceCalls,
-    /// `[owner & open]` Idempotent.
+    /// `[owner & open]` Starts the readings; idempotent.
     pub start: Option<unsafe extern "C" fn(*mut c_void, timeout_ns: u64, *mut Error) -> Status>,
-    /// `[owner & started]` The next reading.
+    /// `[owner & started]` Waits for the next reading.
     pub read: Option<
         unsafe extern "C" fn(
             *mut c_void,
@@ -51,6 +51,6 @@ pub struct ForceCalls {
             *mut Error,
         ) -> Status,
     >,
-    /// `[owner & open]` Idempotent.
+    /// `[owner & open]` Stops the readings; idempotent.
     pub stop: Option<unsafe extern "C" fn(*mut c_void, *mut Error) -> Status>,
 }

@@ -4,9 +4,9 @@ use core::ffi::c_void;
 
 use crate::text::Text;
 
-/// `taceva_host`; it outlives everything that a plugin makes.
+/// `taceva_host`: table that outlives all objects of a plugin.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use std::ffi::c_void;
@@ -27,21 +27,21 @@ use crate::text::Text;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Host {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
-    /// The minor version that the host knows.
+    /// Minor version of the interface that the host knows.
     pub abi_minor: u32,
-    /// Passed with every call.
+    /// Context, passed with every call.
     pub context: *mut c_void,
-    /// `[any]` Takes a line of the log.
+    /// `[any]` Logs a line.
     pub log: Option<unsafe extern "C" fn(*mut c_void, level: i32, target: Text, message: Text)>,
-    /// `[any]` The time of `CLOCK_MONOTONIC`, in ns.
+    /// `[any]` Returns the time of `CLOCK_MONOTONIC`, ns.
     pub now_ns: Option<unsafe extern "C" fn(*mut c_void) -> u64>,
 }
 
-/// Severity of a line of the log.
+/// Level of a log line.
 ///
-/// Crosses the boundary as a number; an unlisted number counts as [`Level::Debug`].
+/// Passed as a number. An unlisted number counts as [`Level::Debug`].
 ///
 /// ```
 /// use taceva_abi::Level;
@@ -52,12 +52,12 @@ pub struct Host {
 #[repr(i32)]
 #[non_exhaustive]
 pub enum Level {
-    /// Something failed.
+    /// A failure.
     Error = 1,
-    /// Something is odd.
+    /// An unexpected condition.
     Warn = 2,
-    /// Something happened.
+    /// An event.
     Info = 3,
-    /// Detail for debugging.
+    /// Details for debugging.
     Debug = 4,
 }

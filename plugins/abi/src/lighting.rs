@@ -1,4 +1,4 @@
-//! The calls of a lighting.
+//! Calls of a lighting.
 
 use core::ffi::c_void;
 
@@ -9,7 +9,7 @@ use crate::text::Text;
 
 /// `taceva_lighting_calls`.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::{DeviceCalls, LightingCalls};
@@ -20,9 +20,9 @@ use crate::text::Text;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct LightingCalls {
-    /// The calls that every device has; the table begins with them.
+    /// Calls that every device has. The table begins with them.
     pub device: DeviceCalls,
-    /// `[owner & open]` Sets a scene; returns once it is steady.
+    /// `[owner & open]` Sets a scene. Returns once the light is steady.
     pub set: Option<
         unsafe extern "C" fn(*mut c_void, scene: Text, timeout_ns: u64, *mut Error) -> Status,
     >,

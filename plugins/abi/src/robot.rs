@@ -1,4 +1,4 @@
-//! The calls of a robot.
+//! Calls of a robot.
 
 use core::ffi::c_void;
 
@@ -6,7 +6,7 @@ use crate::device::{DeviceCalls, Stamp};
 use crate::error::Error;
 use crate::status::Status;
 
-/// `taceva_pose`: the tip in the sensor's frame, m and a unit quaternion.
+/// `taceva_pose`: pose of the tip in the frame of the sensor, m and a unit quaternion.
 ///
 /// Frozen: it is part of other structs.
 ///
@@ -18,25 +18,25 @@ use crate::status::Status;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Pose {
-    /// Along x, in m.
+    /// Position along x, m.
     pub x: f64,
-    /// Along y, in m.
+    /// Position along y, m.
     pub y: f64,
-    /// Along z, into the gel, in m.
+    /// Position along z, into the gel, m.
     pub z: f64,
-    /// The real part of the unit quaternion.
+    /// Real part of the unit quaternion.
     pub qw: f64,
-    /// About x.
+    /// Component about x.
     pub qx: f64,
-    /// About y.
+    /// Component about y.
     pub qy: f64,
-    /// About z.
+    /// Component about z.
     pub qz: f64,
 }
 
 /// `taceva_motion`.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::{Motion, Pose};
@@ -47,19 +47,19 @@ pub struct Pose {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct Motion {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// The pose to move to.
+    /// Target pose.
     pub target: Pose,
-    /// The speed of the tip along its path, in m/s.
+    /// Speed of the tip along its path, m/s.
     pub speed_m_per_s: f64,
 }
 
 /// `taceva_robot_calls`.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::{DeviceCalls, RobotCalls};
@@ -70,9 +70,9 @@ pub struct Motion {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct RobotCalls {
-    /// The calls that every device has; the table begins with them.
+    /// Calls that every device has. The table begins with them.
     pub device: DeviceCalls,
-    /// `[owner & open]`
+    /// `[owner & open]` Reads the pose.
     pub pose: Option<
         unsafe extern "C" fn(
             *mut c_void,
@@ -82,11 +82,11 @@ pub struct RobotCalls {
             *mut Error,
         ) -> Status,
     >,
-    /// `[owner & open]` Returns when accepted; may leave the motion to `wait`.
+    /// `[owner & open]` Returns once the motion is accepted. May leave the motion itself to `wait`.
     pub move_to: Option<
         unsafe extern "C" fn(*mut c_void, *const Motion, token: *mut u64, *mut Error) -> Status,
     >,
-    /// `[owner & open]` Waits until the tip rests at the target of the motion that `move_to` accepted.
+    /// `[owner & open]` Waits until the tip rests at the target of the accepted motion.
     pub wait: Option<
         unsafe extern "C" fn(
             *mut c_void,
@@ -96,9 +96,9 @@ pub struct RobotCalls {
             *mut Error,
         ) -> Status,
     >,
-    /// `[any & open]` Stops the tip, which rests within 50 ms, and latches; idempotent.
+    /// `[any & open]` Stops the tip within 50 ms, and latches; idempotent.
     pub halt: Option<unsafe extern "C" fn(*mut c_void, *mut Error) -> Status>,
-    /// `[owner & open]`
+    /// `[owner & open]` Ends the halt.
     pub clear_halt:
         Option<unsafe extern "C" fn(*mut c_void, timeout_ns: u64, *mut Error) -> Status>,
 }

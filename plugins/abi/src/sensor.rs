@@ -1,4 +1,4 @@
-//! The calls of a sensor.
+//! Calls of a sensor.
 
 use core::ffi::c_void;
 
@@ -8,7 +8,7 @@ use crate::status::Status;
 
 /// Storage format of one pixel.
 ///
-/// A number rather than an enum, so that a later interface can add a format, which an older host rejects.
+/// A number rather than an enum, so a later interface can add a format. An older host rejects it.
 ///
 /// ```
 /// use taceva_abi::PixelFormat;
@@ -19,13 +19,13 @@ use crate::status::Status;
 pub struct PixelFormat(pub u32);
 
 impl PixelFormat {
-    /// One byte a pixel.
+    /// One byte per pixel.
     pub const GRAY8: PixelFormat = PixelFormat(1);
-    /// Two bytes a pixel, little-endian.
+    /// Two bytes per pixel, little-endian.
     pub const GRAY16: PixelFormat = PixelFormat(2);
-    /// Three bytes a pixel.
+    /// Three bytes per pixel.
     pub const RGB8: PixelFormat = PixelFormat(3);
-    /// Three numbers a pixel, of two bytes each, little-endian.
+    /// Three numbers of two bytes per pixel, little-endian.
     pub const RGB16: PixelFormat = PixelFormat(4);
 }
 
@@ -34,7 +34,7 @@ pub const FRAME_DROPPED: u32 = 1;
 
 /// `taceva_frame`: a picture, row by row from the top, without padding.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::{Frame, PixelFormat, Stamp};
@@ -60,39 +60,39 @@ pub const FRAME_DROPPED: u32 = 1;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Frame {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
     /// Storage format of one pixel.
     pub format: PixelFormat,
-    /// Pixels a row.
+    /// Pixels per row.
     pub width: u32,
     /// Rows of pixels.
     pub height: u32,
-    /// [`FRAME_DROPPED`].
+    /// [`FRAME_DROPPED`], or 0.
     pub flags: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// The device's count of frames; a gap is a loss.
+    /// Frame number of the device. A gap means lost frames.
     pub sequence: u64,
-    /// Stamp, valid at the middle of the exposure if known.
+    /// Stamp of the frame. It is valid at the middle of the exposure, if known.
     pub stamp: Stamp,
-    /// In: the caller's buffer, or NULL.
+    /// In: buffer of the caller, or NULL.
     pub buffer: *mut u8,
-    /// In: its length.
+    /// In: length of the buffer, bytes.
     pub buffer_length: u64,
-    /// Out: the pixels, in `buffer` or lent.
+    /// Out: pixels, in `buffer` or in lent memory.
     pub data: *const u8,
-    /// Out: the length of `data`, in bytes.
+    /// Out: length of `data`, bytes.
     pub length: u64,
-    /// Out: `[any]` gives lent memory back and sets itself to NULL.
+    /// Out: `[any]` releases lent memory and sets itself to NULL. NULL if nothing was lent.
     pub release: Option<unsafe extern "C" fn(frame: *mut Frame)>,
-    /// For the plugin's own use while the frame is lent.
+    /// For use by the plugin while it lends the frame.
     pub private_data: *mut c_void,
 }
 
 /// `taceva_sensor_calls`.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::{DeviceCalls, SensorCalls};
@@ -103,18 +103,18 @@ pub struct Frame {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct SensorCalls {
-    /// The calls that every device has; the table begins with them.
+    /// Calls that every device has. The table begins with them.
     pub device: DeviceCalls,
-    /// Most frames that may be lent at once; 0 for a sensor that never lends.
+    /// Most frames lent at once; 0 for a sensor that never lends.
     pub max_lent: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` Idempotent.
+    /// `[owner & open]` Starts the frames; idempotent.
     pub start: Option<unsafe extern "C" fn(*mut c_void, timeout_ns: u64, *mut Error) -> Status>,
-    /// `[owner & started]` The next frame.
+    /// `[owner & started]` Waits for the next frame.
     pub capture: Option<
         unsafe extern "C" fn(*mut c_void, *mut Frame, timeout_ns: u64, *mut Error) -> Status,
     >,
-    /// `[owner & open]` Idempotent.
+    /// `[owner & open]` Stops the frames; idempotent.
     pub stop: Option<unsafe extern "C" fn(*mut c_void, *mut Error) -> Status>,
 }

@@ -2,7 +2,7 @@
 
 /// `taceva_status`: 0, or a negative number from the closed list of failures.
 ///
-/// A number rather than an enum: a plugin may return any, and an unlisted one is an error of the interface.
+/// A number rather than an enum, because a plugin may return any number. An unlisted one is an error of the interface.
 ///
 /// ```
 /// use taceva_abi::Status;
@@ -30,9 +30,9 @@ impl Status {
     pub const UNSUPPORTED: Status = Status(-6);
     /// An argument of the caller is wrong.
     pub const INVALID_ARGUMENT: Status = Status(-7);
-    /// Malformed data from the device.
+    /// The device sent malformed data.
     pub const PROTOCOL: Status = Status(-8);
-    /// Beyond a limit of the device.
+    /// A value beyond a limit of the device.
     pub const OUT_OF_RANGE: Status = Status(-9);
     /// `interrupt` or `halt` ended the call.
     pub const INTERRUPTED: Status = Status(-10);
@@ -42,7 +42,7 @@ impl Status {
     pub const ABI: Status = Status(-12);
     /// No more data will come.
     pub const END_OF_STREAM: Status = Status(-13);
-    /// A bug of the plugin, caught; the handle is dead.
+    /// A caught bug of the plugin. The handle is dead.
     pub const PANICKED: Status = Status(-14);
     /// A detected bug.
     pub const INTERNAL: Status = Status(-15);

@@ -21,20 +21,20 @@ use core::str::Utf8Error;
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Text {
-    /// The first byte; NULL only if `length` is 0.
+    /// First byte; NULL only if `length` is 0.
     pub data: *const c_char,
-    /// The length of the text, in bytes.
+    /// Length of the text, bytes.
     pub length: usize,
 }
 
-// SAFETY: a `Text` in a constant points to constant text; any other is read only if its maker guarantees the bytes.
+// SAFETY: a `Text` in a constant points to constant text. Any other is read only if its creator guarantees the bytes.
 unsafe impl Sync for Text {}
 
 impl Text {
-    /// No text.
+    /// Empty text.
     pub const EMPTY: Text = Text::from("");
 
-    /// Borrows `text`; valid for its lifetime.
+    /// Borrows `text`. The result is valid for its lifetime.
     pub const fn from(text: &str) -> Text {
         Text {
             data: text.as_ptr().cast(),
@@ -42,17 +42,17 @@ impl Text {
         }
     }
 
-    /// The text that is borrowed; NULL is empty.
+    /// Borrowed text; empty for NULL.
     ///
     /// # Errors
     /// [`Utf8Error`] if it is not UTF-8.
     /// # Safety
-    /// Unless it is NULL, `data` points to `length` bytes that stay unchanged during `'a`.
+    /// `data` is NULL, or points to `length` bytes that stay unchanged during `'a`.
     pub unsafe fn to_str<'a>(self) -> Result<&'a str, Utf8Error> {
         if self.data.is_null() {
             return Ok("");
         }
-        // SAFETY: promised by the caller.
+        // SAFETY: guaranteed by the caller.
         let bytes = unsafe { core::slice::from_raw_parts(self.data.cast::<u8>(), self.length) };
         core::str::from_utf8(bytes)
     }
@@ -64,12 +64,12 @@ impl Text {
 /// use std::ffi::c_void;
 /// use taceva_abi::{TakeText, Text};
 /// unsafe extern "C" fn count(context: *mut c_void, _: Text) {
-///     // SAFETY: `context` is what was handed over beside this function.
+///     // SAFETY: `context` is the pointer that was passed with this function.
 ///     unsafe { *context.cast::<u32>() += 1 };
 /// }
 /// let take: TakeText = Some(count);
 /// let mut texts = 0_u32;
-/// // SAFETY: as the function wants it.
+/// // SAFETY: `context` points to a `u32`, as `count` requires.
 /// unsafe { take.expect("set")((&raw mut texts).cast(), Text::from("one")) };
 /// assert_eq!(texts, 1);
 /// ```

@@ -1,4 +1,4 @@
-/* A changer without a carousel: it holds two specimens and needs 100 ms to bring the other one into place. */
+/* A simulated changer with two specimens. Bringing the other one into place takes 100 ms. */
 #include <stdlib.h>
 #include <taceva/changer.h>
 
@@ -12,7 +12,7 @@ static const char *const HELD[HOLDS] = {"sphere of radius 4 mm", "line grating o
 
 typedef struct {
   waiting waiting;
-  int place; /* of the specimen in position; HOLDS: none */
+  int place; /* index of the specimen in place; HOLDS: none */
 } changer;
 
 static void close_changer(void *handle) {
@@ -26,11 +26,11 @@ static void interrupt_changer(void *handle) { waiting_interrupt(&((changer *)han
 static taceva_status bring(void *handle, taceva_text name, uint64_t timeout_ns, taceva_take_text take, void *context, taceva_error *error) {
   changer *it = handle;
   int place = 0;
-  if (!take) return failed(error, TACEVA_INVALID_ARGUMENT, "nobody takes the name");
+  if (!take) return failed(error, TACEVA_INVALID_ARGUMENT, "`take` is NULL");
   while (place < HOLDS && !is(name, HELD[place])) place += 1;
-  if (place == HOLDS) return failed(error, TACEVA_INVALID_ARGUMENT, "it holds nothing of that name");
+  if (place == HOLDS) return failed(error, TACEVA_INVALID_ARGUMENT, "the changer has no item of this name");
   if (place != it->place) {
-    it->place = HOLDS; /* between two places, also after a call that was cut short */
+    it->place = HOLDS; /* between two places, also after an interrupted call */
     taceva_status status = wait_until(&it->waiting, host->now_ns(host->context) + CHANGE_NS, timeout_ns, error);
     if (status != TACEVA_OK) return status;
     it->place = place;

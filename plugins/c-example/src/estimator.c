@@ -1,4 +1,4 @@
-/* An estimator that predicts the mean of each channel. Its bytes: "mean", the number of channels, the means; all little-endian. */
+/* An estimator that predicts the mean of each channel. A saved model is "mean", the number of channels and the means, all little-endian. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +31,7 @@ static taceva_status predict(const void *handle, const float *features, uint64_t
   const model *it = handle;
   (void)features, (void)features_length;
   if (into_length % it->channels != 0 || into_length / it->channels != samples)
-    return failed(error, TACEVA_INVALID_ARGUMENT, "room for other channels than the model has");
+    return failed(error, TACEVA_INVALID_ARGUMENT, "the lengths do not match the channels of the model");
   for (uint64_t at = 0; at < into_length; at++) into[at] = it->means[at % it->channels];
   return TACEVA_OK;
 }
@@ -40,7 +40,7 @@ static taceva_status save(const void *handle, uint8_t *into, uint64_t *length, t
   const model *it = handle;
   uint64_t room = into ? *length : 0;
   *length = HEAD + 8u * it->channels;
-  if (room < *length) return failed(error, TACEVA_OUT_OF_RANGE, "it needs more room");
+  if (room < *length) return failed(error, TACEVA_OUT_OF_RANGE, "the buffer is too short");
   memcpy(into, "mean", 4);
   put(into + 4, it->channels, 4);
   for (uint32_t channel = 0; channel < it->channels; channel++) {
@@ -76,12 +76,12 @@ taceva_status fit_mean(uint32_t estimator, const taceva_args *settings, const ta
   return TACEVA_OK;
 }
 
-/* The bytes may be a stranger's: each number is checked before it is used. */
+/* The bytes may be untrusted, so each number is checked before use. */
 taceva_status load_mean(uint32_t estimator, const uint8_t *bytes, uint64_t length, taceva_regressor *regressor, taceva_error *error) {
   if (estimator != 0) return failed(error, TACEVA_NOT_FOUND, "there is one estimator");
-  if (length < HEAD || memcmp(bytes, "mean", 4) != 0) return failed(error, TACEVA_PROTOCOL, "these bytes are no model of means");
+  if (length < HEAD || memcmp(bytes, "mean", 4) != 0) return failed(error, TACEVA_PROTOCOL, "the bytes are not a model of this estimator");
   uint64_t channels = get(bytes + 4, 4);
-  if (channels == 0 || channels > CHANNELS_MAX || length != HEAD + 8 * channels) return failed(error, TACEVA_PROTOCOL, "a model of another length");
+  if (channels == 0 || channels > CHANNELS_MAX || length != HEAD + 8 * channels) return failed(error, TACEVA_PROTOCOL, "the model has the wrong length");
   model *made = calloc(1, sizeof *made);
   if (!made) return failed(error, TACEVA_INTERNAL, "no memory");
   made->channels = (uint32_t)channels;
@@ -90,7 +90,7 @@ taceva_status load_mean(uint32_t estimator, const uint8_t *bytes, uint64_t lengt
     memcpy(&made->means[channel], &bits, sizeof bits);
     if (!isfinite(made->means[channel])) {
       free(made);
-      return failed(error, TACEVA_PROTOCOL, "a mean that is no number");
+      return failed(error, TACEVA_PROTOCOL, "a mean is not finite");
     }
   }
   regressor->handle = made;

@@ -1,4 +1,4 @@
-/* A force transducer on which something of a weight of one's choice rests: Fz alone, a reading every 5 ms. */
+/* A simulated force transducer under a constant load that the user sets. It measures only Fz, every 5 ms. */
 #include <stdlib.h>
 #include <string.h>
 #include <taceva/ext/numbered.h>
@@ -49,10 +49,10 @@ static taceva_status next(transducer *it, uint64_t timeout_ns, taceva_error *err
 
 static taceva_status read_force(void *handle, taceva_wrench *wrench, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error) {
   transducer *it = handle;
-  if (!wrench || !stamp) return failed(error, TACEVA_INVALID_ARGUMENT, "no place for the reading");
+  if (!wrench || !stamp) return failed(error, TACEVA_INVALID_ARGUMENT, "`wrench` or `stamp` is NULL");
   taceva_status status = next(it, timeout_ns, error);
   if (status != TACEVA_OK) return status;
-  if (it->load_n >= RANGE_N) return failed(error, TACEVA_OUT_OF_RANGE, "50 N or more");
+  if (it->load_n >= RANGE_N) return failed(error, TACEVA_OUT_OF_RANGE, "the load is 50 N or more");
   memset(wrench, 0, sizeof *wrench);
   wrench->force_n[2] = it->load_n - it->zero_n;
   stamp->valid_ns = stamp->received_ns = it->readings * PERIOD_NS;
@@ -68,11 +68,11 @@ static taceva_status zero(void *handle, uint64_t timeout_ns, taceva_error *error
 
 static const taceva_tare_calls tare_calls = {sizeof tare_calls, 0, zero};
 
-/* The number of the last reading. It is counted here because nothing is measured; a real plugin passes on the device's own number. */
+/* Number of the last reading. The simulation counts its readings; a real plugin returns the number from the device. */
 static taceva_status sequence(void *handle, uint64_t *number, taceva_error *error) {
   transducer *it = handle;
-  if (!number) return failed(error, TACEVA_INVALID_ARGUMENT, "no place for the number");
-  if (it->readings == 0) return failed(error, TACEVA_NOT_FOUND, "nothing was read yet");
+  if (!number) return failed(error, TACEVA_INVALID_ARGUMENT, "`sequence` is NULL");
+  if (it->readings == 0) return failed(error, TACEVA_NOT_FOUND, "no reading yet");
   *number = it->readings;
   return TACEVA_OK;
 }
@@ -96,7 +96,7 @@ taceva_status open_force(uint32_t driver, const taceva_args *args, taceva_rig *r
   if (!it) return failed(error, TACEVA_INTERNAL, "no memory");
   waiting_open(&it->waiting);
   it->load_n = 1.0;
-  /* The host checked it against the manifest: `load`, a number from 0 to 60 N. */
+  /* `load`, 0 to 60 N, checked by the host against the manifest. */
   for (size_t at = 0; args && at < args->count; at++) it->load_n = args->items[at].number;
   device->handle = it;
   device->calls = &calls.device;

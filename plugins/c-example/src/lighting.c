@@ -1,4 +1,4 @@
-/* A light without a lamp: two scenes, set at once. */
+/* A simulated light with two scenes that are set at once. */
 #include <stdlib.h>
 #include <taceva/lighting.h>
 
@@ -18,7 +18,7 @@ static taceva_status set(void *handle, taceva_text scene, uint64_t timeout_ns, t
   return TACEVA_OK;
 }
 
-/* No call of it waits, so there is nothing to interrupt. */
+/* No call waits, so `interrupt` is NULL. */
 static const taceva_lighting_calls calls = {{sizeof calls, 0, close_lamp, NULL, NULL}, set};
 
 taceva_status open_lighting(uint32_t driver, const taceva_args *args, taceva_rig *rig, taceva_device *device, taceva_error *error) {

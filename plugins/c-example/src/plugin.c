@@ -1,4 +1,4 @@
-/* What the library exports: one constant, and from there everything else. */
+/* Exported constant of the library, with access to all its functions. */
 #include <taceva/estimator.h>
 
 #include "text.h"
@@ -19,7 +19,7 @@ static taceva_status init(const taceva_host *of, taceva_error *error) {
   return TACEVA_OK;
 }
 
-/* As below [[provides]] of plugin.toml: a host refuses a difference. */
+/* Same text as below [[provides]] of plugin.toml; a host rejects any difference. */
 static const char SENSOR[] =
     "kind = \"sensor\"\nkey = \"bar\"\ntitle = \"a bar that walks\"\nsource = \"simulated\"\n"
     "frame = { width = 64, height = 48, format = \"gray8\" }\nrate_hz = 100\ngel = { opaque = true, markers = false }\n";
@@ -44,7 +44,7 @@ static taceva_status describe(uint32_t number, const char *table, taceva_take_te
   return TACEVA_OK;
 }
 
-/* The factory of a kind with one driver, which `open` opens. */
+/* Factory of a kind with one driver, which `open` opens. */
 #define FACTORY(name, table, open)                                                                                       \
   static taceva_status describe_##name(uint32_t driver, const taceva_args *args, taceva_take_text take, void *context,   \
                                        taceva_error *error) {                                                            \

@@ -1,4 +1,4 @@
-/* A robot without an arm: its tip goes along a straight line at the speed that is asked for, in slices of 2 ms. */
+/* A simulated robot. Its tip moves along a straight line at the requested speed, in slices of 2 ms. */
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 typedef struct {
   waiting waiting;
   atomic_int is_halted; /* set from any thread, and kept until `clear_halt` */
-  atomic_int is_interrupted; /* set from any thread; `wait` clears it when it begins */
+  atomic_int is_interrupted; /* set from any thread; cleared at the start of `wait` */
   taceva_pose at;
   taceva_motion accepted;
   int is_accepted;
@@ -35,35 +35,35 @@ static void stamp_now(taceva_stamp *stamp) { stamp->valid_ns = stamp->received_n
 
 static taceva_status pose(void *handle, taceva_pose *into, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error) {
   (void)timeout_ns;
-  if (!into || !stamp) return failed(error, TACEVA_INVALID_ARGUMENT, "no place for the pose");
+  if (!into || !stamp) return failed(error, TACEVA_INVALID_ARGUMENT, "`pose` or `stamp` is NULL");
   *into = ((robot *)handle)->at;
   stamp_now(stamp);
   return TACEVA_OK;
 }
 
-/* Accepts a motion, which `wait` makes. Places are in m: the workspace is 40 x 20 x 20 mm. */
+/* Accepts a motion, which `wait` executes. Positions are in m. The workspace is 40 x 20 x 20 mm. */
 static taceva_status move_to(void *handle, const taceva_motion *motion, uint64_t *token, taceva_error *error) {
   robot *it = handle;
-  if (!motion || motion->size < sizeof *motion || !token) return failed(error, TACEVA_INVALID_ARGUMENT, "a motion of another size");
+  if (!motion || motion->size < sizeof *motion || !token) return failed(error, TACEVA_INVALID_ARGUMENT, "`motion` or `token` is NULL, or `motion` is too short");
   const taceva_pose *to = &motion->target;
   double turn = to->qw * to->qw + to->qx * to->qx + to->qy * to->qy + to->qz * to->qz;
   if (!isfinite(to->x) || !isfinite(to->y) || !isfinite(to->z) || !(fabs(turn - 1) < 1e-6))
     return failed(error, TACEVA_INVALID_ARGUMENT, "expected a finite place and a unit quaternion");
   if (!isfinite(motion->speed_m_per_s) || motion->speed_m_per_s <= 0) return failed(error, TACEVA_INVALID_ARGUMENT, "expected a speed above 0");
   if (atomic_load(&it->is_halted)) return failed(error, TACEVA_INTERRUPTED, "it is halted");
-  if (fabs(to->x) > 0.02 || fabs(to->y) > 0.01 || fabs(to->z) > 0.01) return failed(error, TACEVA_OUT_OF_RANGE, "outside the workspace");
-  if (motion->speed_m_per_s > SPEED_MAX_M_PER_S) return failed(error, TACEVA_OUT_OF_RANGE, "more than 100 mm/s");
+  if (fabs(to->x) > 0.02 || fabs(to->y) > 0.01 || fabs(to->z) > 0.01) return failed(error, TACEVA_OUT_OF_RANGE, "the target is outside the workspace");
+  if (motion->speed_m_per_s > SPEED_MAX_M_PER_S) return failed(error, TACEVA_OUT_OF_RANGE, "the speed exceeds 100 mm/s");
   it->accepted = *motion;
   it->is_accepted = 1;
   *token = ++it->token;
   return TACEVA_OK;
 }
 
-/* Moves the tip. Whenever this ends the tip stands still, here after one slice at most. */
+/* Moves the tip. The tip stands still whenever this call ends, here after at most one slice. */
 static taceva_status wait_for(void *handle, uint64_t token, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error) {
   robot *it = handle;
-  if (!stamp) return failed(error, TACEVA_INVALID_ARGUMENT, "no place for the stamp");
-  if (!it->is_accepted || token != it->token) return failed(error, TACEVA_INVALID_ARGUMENT, "no such motion was accepted");
+  if (!stamp) return failed(error, TACEVA_INVALID_ARGUMENT, "`stamp` is NULL");
+  if (!it->is_accepted || token != it->token) return failed(error, TACEVA_INVALID_ARGUMENT, "no motion with this token was accepted");
   it->is_accepted = 0;
   atomic_store(&it->is_interrupted, 0);
   taceva_pose from = it->at, to = it->accepted.target;
@@ -88,7 +88,7 @@ static taceva_status wait_for(void *handle, uint64_t token, taceva_stamp *stamp,
   return TACEVA_OK;
 }
 
-/* From any thread, while `wait` moves the tip. */
+/* Called from any thread, also while `wait` moves the tip. */
 static taceva_status halt(void *handle, taceva_error *error) {
   robot *it = handle;
   (void)error;

@@ -1,4 +1,4 @@
-/* A sensor without a camera: gray pictures of a bright bar that walks over the gel, a hundred a second. */
+/* A simulated sensor: 100 gray pictures per second of a bright bar that moves over the gel. */
 #include <stdlib.h>
 #include <string.h>
 #include <taceva/sensor.h>
@@ -15,7 +15,7 @@ typedef struct {
   waiting waiting;
   int is_started;
   uint64_t due_ns, frames;
-  pthread_mutex_t lent; /* `release` may come from any thread, even after `close`: the last one out frees */
+  pthread_mutex_t lent; /* `release` may be called from any thread, even after `close`; the last of both frees the memory */
   uint32_t out, is_closed;
 } sensor;
 
@@ -61,7 +61,7 @@ static void release(taceva_frame *frame) {
   leave(it);
 }
 
-/* Memory for a picture: the host's, or ours, which it gives back. */
+/* Memory for a picture: the buffer of the host, or lent memory of the plugin. */
 static uint8_t *pixels_for(sensor *it, taceva_frame *frame) {
   if (frame->buffer) return frame->buffer;
   pthread_mutex_lock(&it->lent);
@@ -73,13 +73,13 @@ static uint8_t *pixels_for(sensor *it, taceva_frame *frame) {
 
 static taceva_status capture(void *handle, taceva_frame *frame, uint64_t timeout_ns, taceva_error *error) {
   sensor *it = handle;
-  if (!frame || frame->size < sizeof *frame) return failed(error, TACEVA_ABI, "a frame of another size");
+  if (!frame || frame->size < sizeof *frame) return failed(error, TACEVA_ABI, "`frame` is NULL or too short");
   if (!it->is_started) return failed(error, TACEVA_INVALID_ARGUMENT, "it is not started");
   if (frame->buffer && frame->buffer_length < LENGTH) return failed(error, TACEVA_INVALID_ARGUMENT, "expected a buffer of 3072 bytes");
   taceva_status status = wait_until(&it->waiting, it->due_ns, timeout_ns, error);
   if (status != TACEVA_OK) return status;
   uint8_t *pixels = pixels_for(it, frame);
-  if (!pixels) return failed(error, TACEVA_BUSY, "two frames are out already");
+  if (!pixels) return failed(error, TACEVA_BUSY, "two frames are lent already");
   uint64_t bar = it->frames % WIDTH;
   for (size_t at = 0; at < LENGTH; at++) pixels[at] = at % WIDTH == bar ? 250 : 40;
   it->frames += 1;
@@ -87,7 +87,7 @@ static taceva_status capture(void *handle, taceva_frame *frame, uint64_t timeout
   frame->format = TACEVA_GRAY8;
   frame->width = WIDTH, frame->height = HEIGHT;
   frame->flags = 0, frame->sequence = it->frames;
-  /* What is simulated has a clock of its own; a camera would say `host->now_ns` at the middle of the exposure. */
+  /* A simulation has its own clock; a camera uses `host->now_ns` at the middle of the exposure. */
   frame->stamp.valid_ns = frame->stamp.received_ns = it->frames * PERIOD_NS;
   frame->data = pixels, frame->length = LENGTH;
   return TACEVA_OK;

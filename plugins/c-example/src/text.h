@@ -1,4 +1,4 @@
-/* Texts of the interface, which end at their length and not at a 0. */
+/* Texts of the interface. They have a length and no final NUL. */
 #ifndef TEXT_H
 #define TEXT_H
 

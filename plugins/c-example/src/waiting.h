@@ -1,4 +1,4 @@
-/* Waiting that another thread can end, and the two ways in which every call of this plugin fails. */
+/* Waits that another thread can interrupt, and the error message of a failed call. */
 #ifndef WAITING_H
 #define WAITING_H
 
@@ -7,9 +7,9 @@
 #include <taceva/plugin.h>
 #include <time.h>
 
-extern const taceva_host *host; /* what `init` was given */
+extern const taceva_host *host; /* the argument of `init` */
 
-/* One device, one pending call. */
+/* Wait of one device, with one pending call. */
 typedef struct {
   pthread_mutex_t lock;
   pthread_cond_t bell;
@@ -40,7 +40,7 @@ static inline void waiting_close(waiting *it) {
   pthread_mutex_destroy(&it->lock);
 }
 
-/* From any thread. Where no call is pending nothing happens, and the next call is none of its business. */
+/* Interrupts the pending call, from any thread. Without one, it has no effect, not even on the next call. */
 static inline void waiting_interrupt(waiting *it) {
   pthread_mutex_lock(&it->lock);
   if (it->is_pending) {
@@ -50,7 +50,7 @@ static inline void waiting_interrupt(waiting *it) {
   pthread_mutex_unlock(&it->lock);
 }
 
-/* Waits until `due_ns`, but no longer than `timeout_ns`. */
+/* Waits until `due_ns`, at most `timeout_ns`. */
 static inline taceva_status wait_until(waiting *it, uint64_t due_ns, uint64_t timeout_ns, taceva_error *error) {
   uint64_t now_ns = host->now_ns(host->context);
   uint64_t latest_ns = timeout_ns < UINT64_MAX - now_ns ? now_ns + timeout_ns : UINT64_MAX;

@@ -1,4 +1,4 @@
-//! Promises of changers.
+//! Promises of changers: guarantees that every changer must keep.
 
 use std::time::Instant;
 
@@ -8,7 +8,7 @@ use crate::promise::{Unmet, answered, broken, expect, refused, skipped};
 use crate::report::Report;
 use crate::trial::{Alarm, Promise, Trial, Tried, report, was_within};
 
-/// Tries a changer, which moves each of its items into place.
+/// Tests a changer. It moves each of its items into place.
 pub fn changer(factory: &dyn Factory<dyn Changer>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }
@@ -18,7 +18,7 @@ pub(crate) const PROMISES: &[Promise<dyn Changer>] = &[
         let declared = declared(tried)?;
         let changer = tried.open()?;
         expect(changer.holds() == declared, || {
-            format!("holds {:?}, declares {declared:?}", changer.holds())
+            format!("has the items {:?}, declares {declared:?}", changer.holds())
         })
     }),
     ("changer/brings-each-thing", brings_each),
@@ -32,20 +32,20 @@ type Subject<'a> = Tried<'a, dyn Changer>;
 fn declared<'a>(tried: &'a Subject<'_>) -> Result<&'a [String], Unmet> {
     match tried.descriptor.facts() {
         Facts::Changer(facts) => Ok(&facts.holds),
-        other => Err(broken(format!("declares a {}", other.kind()))),
+        other => Err(broken(format!("declares itself a {}", other.kind()))),
     }
 }
 
-/// The changer and its items; skipped without any item.
+/// Opens the changer and lists its items. Skips the promise without any item.
 fn holding(tried: &Subject<'_>) -> Result<(Box<dyn Changer>, Vec<String>), Unmet> {
     let changer = tried.open()?;
     match changer.holds().to_vec() {
-        holds if holds.is_empty() => Err(skipped("the changer holds nothing with these arguments")),
+        holds if holds.is_empty() => Err(skipped("with these arguments, the changer has no items")),
         holds => Ok((changer, holds)),
     }
 }
 
-/// Two rounds, so that each item comes after another and after itself.
+/// Two rounds, so each item follows another and itself.
 fn brings_each(tried: &Subject<'_>) -> Result<(), Unmet> {
     tried.may_move()?;
     let (mut changer, holds) = holding(tried)?;
@@ -76,7 +76,7 @@ fn passed_deadline(tried: &Subject<'_>) -> Result<(), Unmet> {
         let brought = tried.at_once(doing, || changer.bring(name, Deadline::PASSED))?;
         answered(doing, brought, ErrorKind::Timeout)?;
     }
-    // The changer is usable afterwards.
+    // The changer still works afterwards.
     changer.bring(&holds[0], tried.trial.deadline)?;
     Ok(())
 }
@@ -100,7 +100,7 @@ fn interrupt(tried: &Subject<'_>) -> Result<(), Unmet> {
             tried.trial.acts_within,
         )?;
     }
-    // An interrupt ends one call, and no other.
+    // An interrupt ends only one call.
     changer.bring(&holds[0], tried.trial.deadline)?;
     Ok(())
 }

@@ -1,4 +1,4 @@
-//! Promises of force transducers, which must be unloaded meanwhile.
+//! Promises of force transducers. The transducer must be unloaded during the test.
 
 use taceva_core::{Axis, Factory, ForceFacts, ForceTransducer, Wrench, check_wrench};
 
@@ -7,7 +7,7 @@ use crate::report::Report;
 use crate::stream::{self, Stream, as_declared, started};
 use crate::trial::{Promise, Trial, Tried, report};
 
-/// Tries a force transducer.
+/// Tests a force transducer.
 pub fn force(factory: &dyn Factory<dyn ForceTransducer>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }
@@ -36,7 +36,7 @@ fn facts<'a>(tried: &'a Subject<'_>) -> Result<&'a ForceFacts, Unmet> {
     facts.ok_or_else(|| broken("does not declare itself a force transducer"))
 }
 
-/// Finite numbers on the declared axes within the declared range, and 0 on all others.
+/// Numbers are finite and within the declared range on the declared axes, and 0 on all others.
 fn measures(tried: &Subject<'_>) -> Result<(), Unmet> {
     let facts = facts(tried)?;
     let mut transducer = started(tried)?;
@@ -55,7 +55,7 @@ fn measures(tried: &Subject<'_>) -> Result<(), Unmet> {
             let is_force = matches!(axis, Axis::Fx | Axis::Fy | Axis::Fz);
             if let Some(most) = facts.force_max.filter(|_| is_force) {
                 expect(value.abs() < most.0, || {
-                    format!("{name} is {value} N, expected an error from {most} on")
+                    format!("{name} is {value} N, expected an error at {most} or more")
                 })?;
             }
         }
@@ -81,7 +81,7 @@ fn tares(tried: &Subject<'_>) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// Each reading has its own number if the driver declares numbers, and none otherwise.
+/// Each reading has a new number if the driver declares numbers, and no number otherwise.
 fn numbers(tried: &Subject<'_>) -> Result<(), Unmet> {
     let declared = facts(tried)?.numbered;
     let mut transducer = started(tried)?;

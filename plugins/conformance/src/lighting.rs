@@ -1,4 +1,4 @@
-//! Promises of lightings, and of sensors that set the light around them.
+//! Promises of lightings, and of sensors that control their lighting.
 
 use taceva_core::{Deadline, ErrorKind, Factory, Facts, Lighting};
 
@@ -6,7 +6,7 @@ use crate::promise::{Unmet, answered, broken, expect, refused};
 use crate::report::Report;
 use crate::trial::{Promise, Trial, Tried, report};
 
-/// Tries a lighting.
+/// Tests a lighting.
 pub fn lighting(factory: &dyn Factory<dyn Lighting>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }
@@ -29,13 +29,16 @@ pub(crate) const PROMISES: &[Promise<dyn Lighting>] = &[
 fn declared<'a>(tried: &'a Tried<'_, dyn Lighting>) -> Result<&'a [String], Unmet> {
     match tried.descriptor.facts() {
         Facts::Lighting(facts) => Ok(&facts.scenes),
-        other => Err(broken(format!("declares a {}", other.kind()))),
+        other => Err(broken(format!("declares itself a {}", other.kind()))),
     }
 }
 
 pub(crate) fn has_scenes(lighting: &dyn Lighting, declared: &[String]) -> Result<(), Unmet> {
     expect(lighting.scenes() == declared, || {
-        format!("has {:?}, declares {declared:?}", lighting.scenes())
+        format!(
+            "has the scenes {:?}, declares {declared:?}",
+            lighting.scenes()
+        )
     })
 }
 

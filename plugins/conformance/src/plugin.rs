@@ -1,8 +1,8 @@
-//! Promises of a plugin, each checked in a confined process of its own with a time limit. One process tries the harmless ones together
-//! first, since a start may take seconds; if it fails, they run alone.
+//! Promises of a plugin. Each is checked in a separate confined process with a time limit. A start may take seconds, so one process first tries all
+//! harmless checks together. If it fails, they run separately.
 //!
-//! A check runs beside the plugin, in the child, and calls the functions of its tables as a host would, and as no host should. Whatever it
-//! does to its process, the other checks continue. A trusted plugin is checked as it runs: in an unconfined process.
+//! A check runs in the child, in the plugin's process. It calls the functions of the plugin's tables as a host would, and as no host should. The
+//! other checks continue even if it damages its process. A trusted plugin is checked in an unconfined process, as in normal use.
 
 mod changer_table;
 mod driver;
@@ -64,7 +64,7 @@ pub(crate) enum Of {
     Estimator,
 }
 
-/// The test of a check: of a bare table, or of a device as every driver of its kind is tested.
+/// Test of a check: on a bare table, or on a device like any driver of its kind.
 #[derive(Clone, Copy)]
 pub(crate) enum Test {
     Table(fn(&Subject) -> Result<(), Unmet>),
@@ -96,7 +96,7 @@ impl std::fmt::Debug for Check {
     }
 }
 
-/// Every check, group by group.
+/// All checks, by group.
 pub fn checks() -> Vec<Check> {
     [
         library::CHECKS.to_vec(),
@@ -131,7 +131,7 @@ pub fn checks() -> Vec<Check> {
     .concat()
 }
 
-/// Promises of a kind, and those of its table. The latter replace promises of the same name, for which the host would answer instead of the
+/// Promises of a kind, and those of its table. A promise of the table replaces one with the same name, because the host would answer in place of the
 /// plugin.
 fn of_kind<D: ?Sized>(
     kind: DriverKind,
@@ -149,14 +149,14 @@ fn of_kind<D: ?Sized>(
     of_devices.chain(table.iter().copied()).collect()
 }
 
-/// Serves as the child of a host and exits, if this process was started as one; such a child runs checks too.
+/// Serves as the child of a host and exits, if this process was started as one. Such a child also runs checks.
 ///
 /// A program that checks plugins calls this instead of [`taceva_host::main_if_child`].
 pub fn main_if_child() {
     taceva_host::main_if_child_examining(run);
 }
 
-/// The same as [`taceva_host::serve_as_child`], with checks of the module.
+/// As [`taceva_host::serve_as_child`], with checks of the module.
 pub fn serve_as_child(import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>) -> i32 {
     taceva_host::serve_as_child(import, Some(run))
 }
@@ -166,11 +166,11 @@ pub fn serve_as_child(import: impl FnOnce(&ModuleToImport) -> Result<Linked, Str
 pub struct CheckRequest {
     /// Seed of all random draws.
     pub seed: u64,
-    /// Prefixes of the names of the checks to run; empty for all.
+    /// Name prefixes of the checks to run; empty for all checks.
     pub only: Vec<String>,
-    /// Arguments of drivers by their keys; other drivers are opened with their defaults.
+    /// Arguments of drivers, by key. Other drivers are opened with their defaults.
     pub arguments: BTreeMap<DriverKey, String>,
-    /// True if real robots and changers may be moved.
+    /// True if real robots and changers may move.
     pub moves: bool,
     /// Time limit of one check.
     pub limit: Duration,
@@ -188,7 +188,7 @@ impl Default for CheckRequest {
     }
 }
 
-/// In the message of a device that did not open.
+/// Part of the message of a device that did not open.
 const NOT_OPENED: &str = ": cannot open the device: ";
 
 /// Result of a check.
@@ -196,7 +196,7 @@ const NOT_OPENED: &str = ": cannot open the device: ";
 pub struct CheckResult {
     /// Name of the check.
     pub check: &'static str,
-    /// Checked driver or estimator; `None` for the plugin as a whole.
+    /// Driver or estimator that was checked; `None` for the plugin as a whole.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub subject: Option<String>,
     /// Outcome of the check.
@@ -206,23 +206,23 @@ pub struct CheckResult {
     pub took_s: f64,
 }
 
-/// Runs the checks of `request` on `plugin`, and calls `tell` with each result.
+/// Runs the checks of `request` on `plugin`. Calls `tell` with each result.
 ///
 /// # Errors
-/// [`DriverError`] if its library cannot be read.
+/// [`DriverError`] if the plugin's library cannot be read.
 pub fn check(
     host: &PluginHost,
     plugin: &Plugin,
     request: &CheckRequest,
     tell: &mut dyn FnMut(CheckResult),
 ) -> Result<(), DriverError> {
-    // A plugin that cannot run at all breaks no promise: its user gets the reason once.
+    // A plugin that cannot run at all breaks no promise. Its user gets the reason once.
     let examination = host.examination(plugin)?;
     let is_wanted = |check: &Check| {
         let mut only = request.only.iter();
         request.only.is_empty() || only.any(|begin| check.name.starts_with(begin))
     };
-    // First check by driver and cause of a failure, so that each cause fails one check.
+    // First failed check by driver and cause, so each cause fails only one check.
     let mut causes: BTreeMap<(Option<String>, String), &'static str> = BTreeMap::new();
     let wanted: Vec<Check> = checks().into_iter().filter(is_wanted).collect();
     let held = held_together(&examination, request, &wanted, plugin);
@@ -289,10 +289,10 @@ fn made(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> Outcom
     };
     let call = call.lock().unwrap_or_else(PoisonError::into_inner);
     let outcome = ended(hung_in(*error, &call));
-    // A plugin may take a withheld resource for a missing one, which would be no failure.
+    // A plugin may report a withheld resource as missing, which would not count as a failure.
     match &outcome {
-        // Its arguments name something that is not allowed, so host names were not resolved for it either: one cause, whatever the plugin
-        // noticed.
+        // Its arguments name a resource without permission, so host names were not resolved either. This counts as one cause, for any report of the
+        // plugin.
         Outcome::Failed(why) | Outcome::Skipped(why)
             if lacks_bound && (why.starts_with(NO_DEVICE) || why.contains(NOT_OPENED)) =>
         {
@@ -306,7 +306,7 @@ fn made(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> Outcom
     }
 }
 
-/// Log that stores in `call` the call that a check is in.
+/// Log that stores the pending call of a check in `call`.
 fn noting(call: &Arc<Mutex<String>>) -> Log {
     let call = Arc::clone(call);
     Box::new(move |_, target, message| {
@@ -316,7 +316,7 @@ fn noting(call: &Arc<Mutex<String>>) -> Log {
     })
 }
 
-/// Error of a check that was killed, with the call that did not return, if known.
+/// Error of a check that was killed. Names the hanging call, if known.
 fn hung_in(error: ChildError, call: &str) -> ChildError {
     match error {
         ChildError::Gone {
@@ -355,7 +355,7 @@ fn ended(error: ChildError) -> Outcome {
     }
 }
 
-/// Keys of the drivers or estimators of a check; a single `None` for the plugin as a whole.
+/// Driver or estimator keys of a check; a single `None` for the plugin as a whole.
 fn subjects<'a>(check: &Check, plugin: &'a Plugin) -> Vec<Option<&'a DriverKey>> {
     if check.of == Of::Plugin {
         return vec![None];

@@ -4,12 +4,12 @@ use std::fmt;
 
 use taceva_core::{DriverError, ErrorKind, ModelError, Stamp};
 
-/// Reason why a promise was not shown to hold.
+/// Reason why a promise is not shown to hold.
 #[derive(Debug)]
 pub(crate) enum Unmet {
     /// The driver broke it.
     Broken(String),
-    /// The promise could not be tried, or does not apply to this driver.
+    /// The promise could not be tested, or does not apply to this driver.
     Skipped(String),
 }
 
@@ -25,17 +25,17 @@ impl From<ModelError> for Unmet {
     }
 }
 
-/// A broken promise.
+/// Reason of a broken promise.
 pub(crate) fn broken(why: impl Into<String>) -> Unmet {
     Unmet::Broken(why.into())
 }
 
-/// A promise that was not tried.
+/// Reason of a promise that was not tested.
 pub(crate) fn skipped(why: impl Into<String>) -> Unmet {
     Unmet::Skipped(why.into())
 }
 
-/// Breaks the promise with `why` unless `holds`.
+/// Fails with `why` unless `holds`.
 pub(crate) fn expect(holds: bool, why: impl FnOnce() -> String) -> Result<(), Unmet> {
     if holds { Ok(()) } else { Err(broken(why())) }
 }
@@ -58,7 +58,7 @@ impl Kinded for ModelError {
     }
 }
 
-/// Breaks the promise unless `result` is an error of one of `kinds`.
+/// Fails unless `result` is an error of one of `kinds`.
 pub(crate) fn refused<T, E: Kinded>(
     doing: &str,
     result: Result<T, E>,
@@ -74,7 +74,7 @@ pub(crate) fn refused<T, E: Kinded>(
     Err(broken(format!("{doing} {found}, expected {expected}")))
 }
 
-/// Breaks the promise unless `result` is a success or an error of kind `otherwise`.
+/// Fails unless `result` is a success or an error of kind `otherwise`.
 pub(crate) fn answered<T>(
     doing: &str,
     result: Result<T, DriverError>,
@@ -86,7 +86,7 @@ pub(crate) fn answered<T>(
     }
 }
 
-/// Breaks the promise unless times are finite and increase, and each is received no earlier than it is valid.
+/// Fails unless times are finite and increasing, and no reception time is before its valid time.
 pub(crate) fn in_order(stamps: &[Stamp]) -> Result<(), Unmet> {
     for Stamp {
         valid_s,

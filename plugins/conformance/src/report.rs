@@ -5,16 +5,16 @@ use std::fmt;
 use serde::Serialize;
 use taceva_core::DriverKey;
 
-/// The promises of a suite, in their order.
+/// Promises of a suite, in order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
-    /// The driver that was tried.
+    /// Tested driver.
     pub driver: DriverKey,
-    /// The outcome of each promise.
+    /// Outcome of each promise.
     pub promises: Vec<Tested>,
 }
 
-/// One promise that was tested.
+/// One tested promise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tested {
     /// Name: the kind, and the promise.
@@ -31,7 +31,7 @@ pub enum Outcome {
     Passed,
     /// The promise is broken, for this reason.
     Failed(String),
-    /// The promise was not tried or does not apply, for this reason.
+    /// The promise was not tested or does not apply, for this reason.
     Skipped(String),
 }
 
@@ -46,13 +46,13 @@ impl Report {
             && !some(|outcome| matches!(outcome, Outcome::Failed(_)))
     }
 
-    /// The outcome of the promise called `name`.
+    /// Outcome of the promise `name`.
     pub fn outcome(&self, name: &str) -> Option<&Outcome> {
         let tested = self.promises.iter().find(|tested| tested.name == name);
         tested.map(|tested| &tested.outcome)
     }
 
-    /// The names of the promises that are broken.
+    /// Names of the broken promises.
     pub fn failures(&self) -> Vec<&'static str> {
         let failed = |tested: &&Tested| matches!(tested.outcome, Outcome::Failed(_));
         let failed = self.promises.iter().filter(failed);

@@ -1,4 +1,4 @@
-//! Promises of robots. A trial moves a robot by [`Trial::travel`] away from the gel and back; no promise presses the gel.
+//! Promises of robots. A trial moves a robot by [`Trial::travel`] away from the gel and back. No promise presses the gel.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,7 +15,7 @@ use crate::report::Report;
 use crate::stream::as_declared;
 use crate::trial::{Promise, Trial, Tried, report, was_within};
 
-/// Tries a robot, which moves.
+/// Tests a robot. The robot moves.
 pub fn robot(factory: &dyn Factory<dyn Robot>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }
@@ -36,7 +36,7 @@ pub(crate) const PROMISES: &[Promise<dyn Robot>] = &[
 
 type Subject<'a> = Tried<'a, dyn Robot>;
 
-/// Poses are near each other and in the workspace, and their stamps never decrease. A passed deadline returns a pose at once.
+/// Poses agree and are in the workspace, and their stamps never decrease. A passed deadline returns a pose at once.
 fn poses(tried: &Subject<'_>) -> Result<(), Unmet> {
     let mut robot = tried.open()?;
     let (first, mut last) = robot.pose(tried.trial.deadline)?;
@@ -121,14 +121,14 @@ fn refuses_outside(tried: &Subject<'_>) -> Result<(), Unmet> {
 fn refuses_too_fast(tried: &Subject<'_>) -> Result<(), Unmet> {
     tried.may_move()?;
     let Some(greatest) = facts(tried)?.speed_max else {
-        return Err(skipped("it declares no greatest speed"));
+        return Err(skipped("it declares no maximum speed"));
     };
     let mut robot = tried.open()?;
     let course = Course::of(tried, &mut *robot)?;
     let too_fast = speed(2.0 * greatest.mm_per_s())?;
     let moved = robot.move_to(course.away, too_fast, tried.trial.deadline);
     refused(
-        "moving at twice its greatest speed",
+        "moving at twice its maximum speed",
         moved,
         &[ErrorKind::OutOfRange],
     )?;
@@ -146,7 +146,7 @@ fn timeout_stops(tried: &Subject<'_>) -> Result<(), Unmet> {
     })?;
     refused("moving without time", moved, &[ErrorKind::Timeout])?;
     stands(tried, &mut *robot)?;
-    // Long enough to begin, and far too short to arrive.
+    // Long enough to begin the motion, and far too short to arrive.
     let slow = speed(tried.trial.travel.0)?;
     let moved = robot.move_to(
         course.away,
@@ -177,7 +177,7 @@ fn latches_halt(tried: &Subject<'_>) -> Result<(), Unmet> {
     }
     for _ in 0..2 {
         let moved = robot.move_to(course.away, course.speed, deadline);
-        // A requested halt needs no acknowledgement; a fault would.
+        // A requested halt needs no acknowledgement, unlike a fault.
         let fault = moved.as_ref().err().and_then(DriverError::fault);
         expect(fault.is_none(), || {
             "moving after a requested halt names a fault, expected none".to_owned()
@@ -199,7 +199,7 @@ fn halts_from_another_thread(tried: &Subject<'_>) -> Result<(), Unmet> {
     let course = Course::of(tried, &mut *robot)?;
     let handle = robot.halt_handle();
     let moving = AtomicBool::new(false);
-    // Set once the halt has returned: the time of its call, and its result.
+    // Set after the halt has returned: the time of its call, and its result.
     let halted = OnceLock::new();
     let moved = thread::scope(|scope| {
         scope.spawn(|| {
@@ -246,7 +246,7 @@ fn halts_from_another_thread(tried: &Subject<'_>) -> Result<(), Unmet> {
     course.still_home(tried, &mut *robot)
 }
 
-/// Halts from four threads all succeed, and the handle of a dropped robot stops no other.
+/// Halts from four threads all succeed. The handle of a dropped robot stops no other robot.
 fn halts_from_all_sides(tried: &Subject<'_>) -> Result<(), Unmet> {
     let mut robot = tried.open()?;
     let handle = robot.halt_handle();
@@ -298,14 +298,14 @@ fn guards_as_declared(tried: &Subject<'_>) -> Result<(), Unmet> {
     course.still_home(tried, &mut *robot)
 }
 
-/// A short way out of the gel, with its speed.
+/// A short path away from the gel, with its speed.
 struct Course {
     home: Pose,
     away: Pose,
     speed: Speed,
 }
 
-/// Speed of a trial, mm/s, if the robot can reach it.
+/// Default speed of a trial, mm/s, if the robot can reach it.
 const UNHURRIED: f64 = 5.0;
 
 impl Course {
@@ -319,7 +319,7 @@ impl Course {
             .filter(|workspace| !workspace.contains(&away.position))
         {
             return Err(broken(format!(
-                "{} of travel away from {:?} leaves the workspace, whose least corner is {:?}",
+                "{} of travel away from {:?} leaves the workspace, whose lower corner is {:?}",
                 tried.trial.travel, home.position, workspace.least
             )));
         }
@@ -331,7 +331,7 @@ impl Course {
         })
     }
 
-    /// Breaks the promise unless the robot is back at its first pose.
+    /// Fails unless the robot is back at its first pose.
     fn still_home(&self, tried: &Subject<'_>, robot: &mut dyn Robot) -> Result<(), Unmet> {
         near(tried, &robot.pose(tried.trial.deadline)?.0, &self.home)
     }
@@ -346,7 +346,7 @@ fn facts<'a>(tried: &'a Subject<'_>) -> Result<&'a RobotFacts, Unmet> {
     facts.ok_or_else(|| broken("does not declare itself a robot"))
 }
 
-/// Breaks the promise unless the two poses are within the robot's repeatability: six standard deviations of a difference, or 0.1 mm.
+/// Fails unless the two poses agree within the robot's repeatability: six standard deviations of a difference, or 0.1 mm.
 fn near(tried: &Subject<'_>, found: &Pose, expected: &Pose) -> Result<(), Unmet> {
     const UNKNOWN_MM: f64 = 0.1;
     const ROUNDING_MM: f64 = 1e-6;

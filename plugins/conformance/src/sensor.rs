@@ -8,7 +8,7 @@ use crate::report::Report;
 use crate::stream::{self, capture, started};
 use crate::trial::{Promise, Trial, Tried, report};
 
-/// Tries a sensor.
+/// Tests a sensor.
 pub fn sensor(factory: &dyn Factory<dyn Sensor>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }
@@ -69,7 +69,7 @@ fn refuses_other_buffers(tried: &Subject<'_>) -> Result<(), Unmet> {
 
 #[expect(
     clippy::redundant_closure,
-    reason = "the function itself is of one lifetime, and any is asked for"
+    reason = "the function has one lifetime, but the argument requires any"
 )]
 fn same_frames(tried: &Subject<'_>) -> Result<(), Unmet> {
     stream::repeats(tried, |sensor, deadline| capture(sensor, deadline))

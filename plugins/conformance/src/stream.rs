@@ -1,4 +1,4 @@
-//! Promises of devices that are started and then give items: frames of a sensor, readings of a transducer.
+//! Promises of devices that are started and then yield items: frames of a sensor, or readings of a transducer.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -12,7 +12,7 @@ use crate::trial::{Alarm, Tried, was_within};
 
 /// A device that yields a sequence of items.
 pub(crate) trait Stream {
-    /// The name of an item.
+    /// Name of an item.
     const ITEM: &'static str;
     /// Number of items that a promise examines.
     const COUNT: usize;
@@ -81,7 +81,7 @@ pub(crate) fn capture(
     Ok((stamp, pixels))
 }
 
-/// The device, started.
+/// Opens the device and starts it.
 pub(crate) fn started<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<Box<D>, Unmet> {
     let mut device = tried.open()?;
     device.begin(tried.trial.deadline)?;
@@ -92,7 +92,7 @@ fn next<D: Stream + ?Sized>(tried: &Tried<'_, D>, device: &mut D) -> Result<Stam
     tried.reading(device.next(tried.trial.deadline))
 }
 
-/// [`Stream::COUNT`] items come, and the device stops.
+/// The device yields [`Stream::COUNT`] items, and stops.
 pub(crate) fn gives<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     let mut device = started(tried)?;
     for _ in 0..D::COUNT {
@@ -107,7 +107,7 @@ pub(crate) fn stamps<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unm
     in_order(&stamps.collect::<Result<Vec<_>, _>>()?)
 }
 
-/// Before the start, an item is delivered or refused. The device works afterwards.
+/// Before the start, an item is delivered or rejected. The device works afterwards.
 pub(crate) fn before_start<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     let mut device = tried.open()?;
     let doing = format!("a {} before the start", D::ITEM);
@@ -141,7 +141,7 @@ pub(crate) fn any_order<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), 
     in_order(&stamps)
 }
 
-/// A dropped device releases its resources in every state.
+/// Dropping a device releases its resources in every state.
 pub(crate) fn dropped<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     drop(tried.open()?);
     drop(started(tried)?);
@@ -155,7 +155,7 @@ pub(crate) fn dropped<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Un
     Ok(())
 }
 
-/// With a passed deadline, a wait ends at once and the device keeps working.
+/// With a passed deadline, a wait ends at once, and the device keeps working.
 pub(crate) fn passed_deadline<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     keeps(tried, 5, Duration::ZERO)
 }
@@ -189,7 +189,7 @@ fn keeps<D: Stream + ?Sized>(
     Ok(())
 }
 
-/// An interrupt from another thread ends a wait in time, and the device goes on afterwards.
+/// An interrupt from another thread ends a wait in time, and the device keeps working.
 pub(crate) fn interrupt<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     let mut device = started(tried)?;
     let alarm = Alarm::set(device.interrupter())?;
@@ -199,7 +199,7 @@ pub(crate) fn interrupt<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), 
         let waited = device.next(long);
         let ended = Instant::now();
         match waited {
-            // The item came by itself. The next call must work, whether or not the interrupt met this one.
+            // The item came before the interrupt. The next call must work, whether or not the interrupt reached this one.
             Ok(_) if alarm.rang().is_none() => begun = ended,
             Ok(_) => break,
             Err(error) if error.kind() == ErrorKind::Interrupted => {
@@ -215,7 +215,7 @@ pub(crate) fn interrupt<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), 
     Ok(())
 }
 
-/// The same items come for the same arguments, from a simulation.
+/// A simulation yields the same items for the same arguments.
 pub(crate) fn repeats<D: Stream + ?Sized, T: PartialEq>(
     tried: &Tried<'_, D>,
     item: fn(&mut D, Deadline) -> Result<T, DriverError>,
@@ -233,7 +233,7 @@ pub(crate) fn repeats<D: Stream + ?Sized, T: PartialEq>(
     })
 }
 
-/// Passes for an ability that is present and declared, and skips one that is neither. Breaks the promise if the two differ.
+/// Passes for an ability that is present and declared, and skips one that is neither. Fails if only one of both is true.
 pub(crate) fn as_declared(ability: &str, declared: bool, has: bool) -> Result<(), Unmet> {
     match (has, declared) {
         (true, true) => Ok(()),

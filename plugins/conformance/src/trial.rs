@@ -1,4 +1,4 @@
-//! Trial of a driver: its settings, and the device that is opened repeatedly.
+//! Trial of a driver: its settings, and the repeatedly opened device.
 
 use std::sync::{Arc, mpsc};
 use std::thread;
@@ -15,22 +15,22 @@ use crate::report::{Outcome, Report, Tested};
 /// Settings of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// Arguments of opening, as written behind the colon of a selector.
+    /// Arguments for opening, in the form after the colon of a selector.
     pub arguments: String,
-    /// Deadline of calls that should succeed, in the time of the device.
+    /// Deadline of calls that should succeed, on the clock of the device.
     pub deadline: Deadline,
-    /// Time limit of a call that should return at once, on the clock of the machine.
+    /// Time limit of a call that should return at once, on the clock of this machine.
     pub at_once: Duration,
-    /// Time limit for an interrupt or a halt to act.
+    /// Time limit for the effect of an interrupt or a halt.
     pub acts_within: Duration,
     /// Distance that a robot moves away from the gel.
     pub travel: Millimetre,
-    /// False skips promises that move a robot or a changer.
+    /// False if promises that move a robot or a changer are skipped.
     pub moves: bool,
 }
 
 impl Trial {
-    /// A trial with `arguments`: 1 s for calls that should succeed, 0.5 s for calls that should return at once, 0.5 mm of travel.
+    /// Creates a trial with `arguments`: 1 s for calls that should succeed, 0.5 s for calls that should return at once, 0.5 mm of travel.
     pub fn with_arguments(arguments: impl Into<String>) -> Trial {
         Trial {
             arguments: arguments.into(),
@@ -56,12 +56,12 @@ pub(crate) type Promise<D> = (&'static str, fn(&Tried<'_, D>) -> Result<(), Unme
 pub(crate) struct Tried<'a, D: ?Sized> {
     factory: &'a dyn Factory<D>,
     args: Args,
-    /// The driver's description of itself with these arguments.
+    /// Description of the driver for these arguments.
     pub(crate) descriptor: Descriptor,
     pub(crate) trial: &'a Trial,
 }
 
-/// Tests every promise. A panic of the driver breaks only the promise under test.
+/// Tests every promise. A panic of the driver breaks only the tested promise.
 pub(crate) fn report<D: ?Sized>(
     factory: &dyn Factory<D>,
     trial: &Trial,
@@ -96,7 +96,7 @@ pub(crate) fn report<D: ?Sized>(
 }
 
 impl<'a, D: ?Sized> Tried<'a, D> {
-    /// The driver of `factory`, described with the arguments of `trial`.
+    /// Driver of `factory`, described for the arguments of `trial`.
     pub(crate) fn new(factory: &'a dyn Factory<D>, trial: &'a Trial) -> Result<Self, Unmet> {
         let of_trial = factory.descriptor();
         let args = of_trial.args(&trial.arguments);
@@ -114,14 +114,14 @@ impl<'a, D: ?Sized> Tried<'a, D> {
         })
     }
 
-    /// The device, opened in a rig of its own.
+    /// Opens the device in its own rig.
     pub(crate) fn open(&self) -> Result<Box<D>, Unmet> {
         let is_real = self.descriptor.source() == DriverSource::Real;
         let opened = self.factory.open(&self.args, &mut Rig::new());
         opened.map_err(|error| unopened(error, is_real))
     }
 
-    /// A reading that should be there; a recording may have ended.
+    /// Required reading. Skips the promise if a recording has ended.
     pub(crate) fn reading<T>(&self, read: Result<T, DriverError>) -> Result<T, Unmet> {
         let is_recording = self.descriptor.source() == DriverSource::Recorded;
         read.map_err(|error| match error.kind() {
@@ -146,12 +146,12 @@ impl<'a, D: ?Sized> Tried<'a, D> {
         Err(skipped("it would move a real device; `--move` allows it"))
     }
 
-    /// The result of `call`, if it returns at once.
+    /// Result of `call`. Fails unless it returns at once.
     pub(crate) fn at_once<T>(&self, doing: &str, call: impl FnOnce() -> T) -> Result<T, Unmet> {
         self.in_time(doing, Duration::ZERO, call)
     }
 
-    /// The result of `call`, if it returns within `given` plus the limit of an immediate call.
+    /// Result of `call`. Fails unless it returns within `given` plus the limit of an immediate call.
     pub(crate) fn in_time<T>(
         &self,
         doing: &str,
@@ -165,10 +165,10 @@ impl<'a, D: ?Sized> Tried<'a, D> {
     }
 }
 
-/// Beginning of the reason for which a promise was skipped that needs a device.
-pub(crate) const NO_DEVICE: &str = "no device is there";
+/// Beginning of the reason for skipping a promise that needs a device.
+pub(crate) const NO_DEVICE: &str = "no device is connected";
 
-/// Reason that a device did not open. If a real device is absent, promises are skipped.
+/// Reason why a device did not open. If a real device is missing, promises are skipped.
 pub(crate) fn unopened(error: DriverError, is_real: bool) -> Unmet {
     match error.kind() {
         ErrorKind::NotFound | ErrorKind::Disconnected if is_real => {
@@ -178,14 +178,14 @@ pub(crate) fn unopened(error: DriverError, is_real: bool) -> Unmet {
     }
 }
 
-/// Breaks the promise if `took` exceeds `most`.
+/// Fails if `took` exceeds `most`.
 pub(crate) fn was_within(doing: &str, took: Duration, most: Duration) -> Result<(), Unmet> {
     expect(took <= most, || {
         format!("{doing} took {took:?}, expected at most {most:?}")
     })
 }
 
-/// An interrupt from another thread, 20 ms after this is made.
+/// An interrupt from another thread, 20 ms after [`Alarm::set`].
 pub(crate) struct Alarm {
     rung: mpsc::Receiver<Instant>,
 }
@@ -199,18 +199,18 @@ impl Alarm {
             thread::sleep(Duration::from_millis(20));
             let now = Instant::now();
             interrupt.interrupt();
-            // No receiver is left if the promise is broken already.
+            // No receiver exists if the promise is already broken.
             let _ = sender.send(now);
         });
         Ok(Alarm { rung })
     }
 
-    /// The moment of the interrupt, once that has returned.
+    /// Time of the interrupt, if it has returned.
     pub(crate) fn rang(&self) -> Option<Instant> {
         self.rung.try_recv().ok()
     }
 
-    /// The moment of the interrupt, waited for.
+    /// Waits for the interrupt to return, and returns its time.
     pub(crate) fn wait(&self) -> Result<Instant, Unmet> {
         let rung = self.rung.recv_timeout(Duration::from_secs(10));
         rung.map_err(|_| broken("the interrupt did not return within 10 s"))

@@ -1,6 +1,6 @@
-//! A program that opens its own simulated bench in a child process: `cargo run -p taceva-host --example serve_bench`.
+//! Opens this program's own simulated bench in a child process: `cargo run -p taceva-host --example serve_bench`.
 //!
-//! As a host child, it serves its linked drivers. A plugin's library would be loaded at the same point.
+//! As a host child, it serves its linked drivers. A plugin library would be loaded at the same point.
 
 #[path = "../tests/support/built_in.rs"]
 mod built_in;
@@ -38,7 +38,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let patience = Deadline::after(Duration::from_secs(1));
     sensor.start(patience)?;
     let info = sensor.frame_info();
-    let mut bytes = vec![0; info.byte_len().ok_or("a frame beyond the address space")?];
+    let mut bytes = vec![
+        0;
+        info.byte_len()
+            .ok_or("the frame exceeds the address space")?
+    ];
     let stamp = sensor.capture(FrameMut::new(info, &mut bytes)?, patience)?;
     println!(
         "a frame of {info} at {:?}, the first pixel is {:?}",

@@ -1,4 +1,4 @@
-//! Calls of library functions: statuses become errors, messages are kept, and texts and tables are checked and copied.
+//! Calls of library functions. Converts statuses to errors, keeps messages, checks and copies texts and tables.
 
 mod arguments;
 pub mod pending_call;
@@ -81,7 +81,7 @@ pub fn call(run: impl FnOnce(&mut abi::Error) -> abi::Status) -> Result<(), Fail
         .checked_sub(1)
         .and_then(|at| ErrorKind::ALL.get(at));
     let Some(&kind) = known else {
-        let message = format!("status {}, which the interface does not define", status.0);
+        let message = format!("unknown status {}", status.0);
         return Err(Failure::new(ErrorKind::Abi, message));
     };
     let bytes: Vec<u8> = error.bytes().collect();
@@ -102,7 +102,7 @@ pub fn call(run: impl FnOnce(&mut abi::Error) -> abi::Status) -> Result<(), Fail
     })
 }
 
-/// Converts a fault number. An unknown fault number counts as [`Fault::Servo`], since no motion follows it either.
+/// Converts a fault number. An unknown fault number counts as [`Fault::Servo`], because it too ends the motion.
 fn fault(number: abi::FaultNumber) -> Option<Fault> {
     match number {
         number if !number.is_fault() => None,
@@ -159,7 +159,7 @@ mod tests {
         let arm = DriverKey::fixed("org.example.arm/arm");
         for (number, expected) in [
             (0, None),
-            // The end of a message that ran on.
+            // The end of a truncated message.
             (u32::from_le_bytes(*b"end\0"), None),
             (
                 abi::FaultNumber::EMERGENCY_STOP.0,

@@ -60,11 +60,11 @@ impl PluginConfig {
     /// Reads the settings from the file at `path`. A missing file gives the default settings.
     ///
     /// # Errors
-    /// [`ConfigError`] for a file that cannot be read, or with a mistake.
+    /// [`ConfigError`] for a file that cannot be read or has a mistake.
     pub fn read(path: &Path) -> Result<PluginConfig, ConfigError> {
         let text = match fs::read_to_string(path) {
             Ok(text) => text,
-            // A home that is not a folder has no settings either.
+            // A home that is not a folder has no settings file either.
             Err(error)
                 if matches!(
                     error.kind(),
@@ -108,7 +108,7 @@ impl PluginConfig {
 
     /// Source of the trust that lets `plugin` run in this process; `None` if it is not trusted.
     ///
-    /// Trust in the settings does not apply to plugins beside a scene, since the author of a scene can put any plugin there, under any id.
+    /// Trust in the settings does not apply to plugins beside a scene: the author of a scene can put any plugin there, under any id.
     pub fn trust(&self, plugin: &Plugin) -> Option<Trust> {
         let id = plugin.id();
         let settings = self.trust_in_process.contains(id) && plugin.place != Place::Project;

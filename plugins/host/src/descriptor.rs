@@ -4,13 +4,13 @@ use std::fmt::Debug;
 
 use taceva_core::{ArgSpec, Args, Descriptor, Facts};
 
-/// True if `args` set an argument of `descriptor` that can change its facts.
+/// True if `args` set an argument of `descriptor` that may change its facts.
 pub(crate) fn changes_facts(descriptor: &Descriptor, args: &Args) -> bool {
     let mut arguments = descriptor.arguments().iter();
     arguments.any(|argument| argument.changes_facts && argument.is_set_by(args))
 }
 
-/// Like [`difference`], for a library's description with `args`. Facts are not compared if `args` may change them.
+/// As [`difference`], for a library's description with `args`. Facts are not compared if `args` may change them.
 pub(crate) fn difference_with(
     manifest: &Descriptor,
     library: &Descriptor,
@@ -28,7 +28,7 @@ pub(crate) fn difference_with(
         .or_else(rest)
 }
 
-/// First difference between `manifest` and `library`: its name and both values. Titles and help texts are not compared.
+/// First difference between `manifest` and `library`, as its name and both values. Titles and help texts are not compared.
 pub(crate) fn difference(manifest: &Descriptor, library: &Descriptor) -> Option<[String; 3]> {
     let source = [manifest, library].map(Descriptor::source);
     differ("source", source)

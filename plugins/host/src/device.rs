@@ -1,11 +1,10 @@
-//! Devices of a library in this process, as device traits of core.
+//! Devices of a library in this process, behind the device traits of core.
 
 mod bench;
 mod changer;
 mod force;
 mod handle;
 mod lighting;
-mod pace;
 mod rig;
 mod robot;
 mod sensor;

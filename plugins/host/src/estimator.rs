@@ -2,7 +2,7 @@
 
 #![expect(
     unsafe_code,
-    reason = "models are fitted and asked through the plugin's functions"
+    reason = "models are fitted and called through the plugin's functions"
 )]
 
 mod listener;

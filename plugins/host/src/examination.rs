@@ -1,4 +1,4 @@
-//! Examination of a plugin: a child runs code of this program on the plugin instead of serving it.
+//! Examination of a plugin: a child examines the plugin with code of this program instead of serving it.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -16,7 +16,7 @@ use crate::host::code::ReadCode;
 use crate::library::Log;
 use crate::search::Plugin;
 
-/// A plugin whose code was read, ready to be examined in children.
+/// A plugin whose code was read and can be examined in children.
 pub struct Examination<'a> {
     host: &'a PluginHost,
     plugin: &'a Plugin,
@@ -46,7 +46,7 @@ pub enum ExaminationError {
         error: Box<ChildError>,
         /// Needs that the user does not allow.
         withheld: Withheld,
-        /// True if arguments may name the withheld needs.
+        /// True if arguments may name a withheld need.
         lacks_bound: bool,
     },
 }
@@ -55,7 +55,7 @@ impl PluginHost {
     /// Reads the code of `plugin` for examinations.
     ///
     /// # Errors
-    /// [`DriverError`] if the plugin cannot be run at all.
+    /// [`DriverError`] if the plugin cannot run at all.
     pub fn examination<'a>(&'a self, plugin: &'a Plugin) -> Result<Examination<'a>, DriverError> {
         let whole = plugin.id().as_driver();
         let code = plugin.read(&whole)?;
@@ -68,8 +68,8 @@ impl PluginHost {
         })
     }
 
-    /// Needs granted to an examination of `driver`, as for a device opened with `arguments`. Also returns the arguments with host names
-    /// replaced by addresses.
+    /// Needs granted to an examination of `driver`, as for a device opened with `arguments`. Also returns the arguments, with addresses in place of
+    /// host names.
     fn grant_of(
         &self,
         plugin: &Plugin,
@@ -102,11 +102,11 @@ impl PluginHost {
 }
 
 impl Examination<'_> {
-    /// Runs the [`Examiner`](crate::Examiner) of the child's program on the order that `encode` makes of the arguments. Returns the child's
-    /// output.
+    /// Runs the [`Examiner`](crate::Examiner) of the child's program on the order that `encode` makes from the arguments. Returns the output of the
+    /// child.
     ///
     /// # Errors
-    /// [`ExaminationError`] if the child was not started, or if it did not end with a session.
+    /// [`ExaminationError`] if the child was not started, or ended without a session.
     pub fn run(
         &self,
         order: ExaminationOrder<'_>,
@@ -124,7 +124,7 @@ impl Examination<'_> {
         let mut spec = spec.map_err(|error| unready(&error))?;
         spec.files
             .push(in_memory(&encode(arguments)).map_err(|error| unready(&error))?);
-        // An examination provokes crashes, which must not put the plugin into quarantine.
+        // An examination provokes crashes. They must not put the plugin into quarantine.
         spec.quarantine = None;
         spec.confinement.needs = grant.reached.iter().cloned().collect();
         if let Some(why) = no_port(&spec.confinement.needs) {

@@ -1,5 +1,5 @@
-//! Needs granted to a device: those that its manifest declares for its arguments and the user allows. Also the command that allows the
-//! rest.
+//! Needs granted to a device: the needs that its manifest declares for its arguments and the user allows. Also the command that allows the other
+//! needs.
 
 use std::collections::BTreeSet;
 use std::error::Error;
@@ -12,7 +12,7 @@ use crate::config::{Delivery, PluginConfig};
 use crate::manifest::{DeclaredNeed, Need};
 use crate::search::{Place, Plugin};
 
-/// Error message for a device whose arguments name a resource that the plugin may not reach.
+/// Error message for a device whose arguments name a resource without the user's permission.
 pub const NOT_ALLOWED: &str = "its user has not allowed the resources in its arguments";
 
 /// Needs granted to a session.
@@ -27,7 +27,7 @@ pub(crate) struct Grant {
 }
 
 impl Grant {
-    /// True if a withheld need may be one that the device's arguments name.
+    /// True if the arguments of the device may name a withheld need.
     pub(crate) fn lacks_bound(&self) -> bool {
         self.is_bound && !self.withheld.needs().is_empty()
     }
@@ -42,7 +42,7 @@ pub struct Withheld {
     /// Folder of a plugin that is not installed.
     folder: Option<String>,
     needs: BTreeSet<Need>,
-    /// True if the manifest of a confined plugin declares no needs, so that no permission would help.
+    /// True if the manifest of a confined plugin declares no needs. A permission would then have no effect.
     asks_for_nothing: bool,
 }
 
@@ -199,7 +199,7 @@ impl PluginConfig {
     }
 }
 
-/// Replaces host names in `args` that a need is bound to by addresses, since a confined plugin cannot resolve names.
+/// Replaces host names in `args` by addresses if a need is bound to them, because a confined plugin cannot resolve names.
 ///
 /// # Errors
 /// [`DriverError`] of `driver` for a name that cannot be resolved.
@@ -226,7 +226,7 @@ pub(crate) fn resolved(
         }
         let failed = |why: String| {
             let why = format!(
-                "`{key}`: cannot resolve the address of `{}`: {why}",
+                "`{key}`: cannot resolve the host name `{}`: {why}",
                 taceva_core::shown(name)
             );
             DriverError::new(ErrorKind::NotFound, driver, "open the device").because(why)
@@ -236,7 +236,7 @@ pub(crate) fn resolved(
             .map_err(|error| failed(error.to_string()))?
             .map(|address| address.ip())
             .collect();
-        // Prefer IPv4: laboratory devices with both kinds of address answer on it.
+        // IPv4 first: laboratory devices with both kinds of address answer on it.
         addresses.sort_by_key(IpAddr::is_ipv6);
         let first = addresses
             .first()

@@ -61,10 +61,10 @@ impl Children {
 /// A session and the digest of its library.
 type Started = (Arc<dyn Session>, Sha256Digest);
 
-/// Isolation tried so far, by the child's needs and, for Python, by interpreter and profile.
+/// Isolation tried so far, by the child's needs. For Python also by interpreter and profile.
 type Tried = BTreeMap<(BTreeSet<Need>, Option<(PathBuf, Profile)>), Keeping>;
 
-/// Plugins of a program: found, configured, and run in the process that the user's settings choose.
+/// Plugins of a program, with their settings. Each runs in the process that the user's settings choose.
 pub struct PluginHost {
     plugins: Plugins,
     config: PluginConfig,
@@ -116,13 +116,13 @@ impl PluginHost {
         &self.config
     }
 
-    /// Needs that `plugin` always has and its user does not allow.
+    /// Needs that `plugin` always has and the user does not allow.
     pub fn withheld(&self, plugin: &Plugin) -> Withheld {
         self.config.grant(plugin).withheld
     }
 
-    /// Needs of a device of `driver` with `arguments`, `key=value;key=value`, that the user does not allow. `None` if no plugin has the
-    /// driver, or the arguments are invalid.
+    /// Needs of a device of `driver` that the user does not allow, for `arguments` as `key=value;key=value`. `None` if no plugin has the driver, or
+    /// the arguments are invalid.
     pub fn withheld_from(&self, driver: &str, arguments: &str) -> Option<Withheld> {
         let mut drivers = self.plugins.iter().flat_map(|plugin| {
             let drivers = plugin.manifest.drivers();
@@ -175,7 +175,7 @@ impl PluginHost {
         })
     }
 
-    /// Starts a session of the plugin `id`, in this process if it is a trusted library, otherwise in a child.
+    /// Starts a session of the plugin `id`. A trusted library runs in this process, any other plugin in a child.
     ///
     /// # Errors
     /// [`DriverError`] of `driver` if the plugin is missing, cannot be loaded, or contradicts its manifest.
@@ -202,7 +202,7 @@ impl PluginHost {
         started.map(|(session, _)| session)
     }
 
-    /// Starts a session of `plugin`; also returns the digest of its library.
+    /// Starts a session of `plugin`. Also returns the digest of its library.
     fn start(&self, plugin: &Plugin, driver: &DriverKey) -> Result<Started, DriverError> {
         self.start_within(plugin, driver, &self.config.grant(plugin), None)
     }
@@ -272,7 +272,7 @@ impl PluginHost {
     ) -> Result<Started, DriverError> {
         const DOING: &str = "load the plugin";
         let code = plugin.read(driver)?;
-        // A trusted plugin that is not a library runs in a separate process too.
+        // A trusted plugin that is not a library also runs in a separate process.
         let is_trusted = self.config.trust(plugin).is_some();
         let mut spec = plugin.child(&code, driver, &self.children, is_trusted)?;
         spec.log = Some(self.log_of(plugin));
@@ -281,7 +281,7 @@ impl PluginHost {
         }
         let log = self.log_of(plugin);
         spec.ended = Some(Box::new(move |fate, usage| {
-            // Any other end is reported to the caller of a device.
+            // The caller of a device receives the report of any other end.
             if fate.is_unheard() {
                 let why = format!("closed late: {fate}; recordings are not affected");
                 log(Level::Warn, "host", &why);
@@ -342,7 +342,7 @@ impl PluginHost {
             return Ok((Arc::clone(library), *digest));
         }
         let library = plugin.library().ok_or_else(|| {
-            let why = "it is written in Python and runs only in a process of its own";
+            let why = "it is written in Python and can run only in a separate process";
             DriverError::new(ErrorKind::Unsupported, driver, "load the plugin").because(why)
         })?;
         let image =

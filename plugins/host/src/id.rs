@@ -7,8 +7,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use taceva_core::{DriverKey, DriverKeyError};
 
-/// Name of a plugin in reverse DNS, `org.example.digit`: at least two words joined by `.`. Each word has lower-case letters, digits and
-/// `-`, and begins with a letter.
+/// Name of a plugin in reverse DNS, such as `org.example.digit`: at least two words joined by `.`. A word has lower-case letters, digits and `-`, and
+/// begins with a letter.
 ///
 /// ```
 /// use taceva_host::PluginId;
@@ -38,7 +38,7 @@ impl PluginId {
         format!("{self}/{key}").parse()
     }
 
-    /// Key of the plugin as a whole, for errors of no particular driver.
+    /// Key of the plugin as a whole, for errors without a particular driver.
     pub fn as_driver(&self) -> DriverKey {
         let key = self.0.parse();
         key.expect("every id is a word of a driver key")

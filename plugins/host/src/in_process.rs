@@ -1,4 +1,4 @@
-//! Plugin in this process: a trusted one in the host, any other in a confined child.
+//! Plugin in this process: a trusted plugin in the host, any other in a confined child.
 
 use std::sync::Arc;
 
@@ -32,7 +32,7 @@ impl InProcess {
         Ok(InProcess { rig })
     }
 
-    /// Opens a sensor as a type that can lend its frames.
+    /// Opens a sensor as a type that can lend frames.
     ///
     /// # Errors
     /// As [`Session::sensor`].
@@ -44,7 +44,7 @@ impl InProcess {
         self.open_device(driver, args)
     }
 
-    /// Opens a device of kind `D`. The library describes it with these arguments.
+    /// Opens a device of kind `D`. The library describes the device for these arguments.
     fn open_device<D: PluginDevice>(
         &self,
         driver: &DriverKey,

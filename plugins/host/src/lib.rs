@@ -33,7 +33,7 @@ pub use child::{
     Isolation, ModuleToImport, Patience, Quarantine, Quarantined, main_if_child,
     main_if_child_examining, main_if_child_with, serve_as_child,
 };
-// For the fuzzer alone.
+// Only for fuzzing.
 #[cfg(target_os = "linux")]
 #[doc(hidden)]
 pub use child::read_any_message;

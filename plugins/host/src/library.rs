@@ -1,4 +1,4 @@
-//! Loaded library: read as data, initialised, compared with its manifest. Never unloaded.
+//! Loaded library: read as data, compared with its manifest, initialised. It is never unloaded.
 
 #![expect(
     unsafe_code,
@@ -41,7 +41,7 @@ use crate::call::{call, table};
 use crate::id::PluginId;
 use crate::manifest::Manifest;
 
-/// Flag that keeps the library's code mapped: its threads and thread-locals may outlive every handle.
+/// Flag that keeps the library's code mapped, because its threads and thread-locals may outlive every handle.
 const RTLD_NODELETE: i32 = if cfg!(target_os = "linux") {
     0x1000
 } else {
@@ -63,7 +63,7 @@ pub struct Library {
     entries: BTreeMap<DriverKey, Entry>,
 }
 
-// SAFETY: what is kept is constant data of the library and functions that the interface allows from any thread ([any]).
+// SAFETY: the fields are constant data of the library, and functions that the interface allows from any thread ([any]).
 unsafe impl Send for Library {}
 // SAFETY: as above.
 unsafe impl Sync for Library {}
@@ -71,10 +71,10 @@ unsafe impl Sync for Library {}
 impl Library {
     /// Loads `image`, compares it with `manifest` and initialises it. `log` receives the plugin's log lines.
     ///
-    /// Constructors of the library run before any check. Load only trusted libraries here, others in a confined child.
+    /// Constructors of the library run before any check. Load only trusted libraries here, and others in a confined child.
     ///
     /// # Errors
-    /// [`LoadError`] if the file is not loadable, not a plugin, of another version, or contradicts the manifest.
+    /// [`LoadError`] if the file cannot be loaded, is not a plugin, is of another version, or contradicts the manifest.
     pub fn load(image: &Image, manifest: &Manifest, log: Log) -> Result<Arc<Library>, LoadError> {
         Library::begin(image, Some(manifest), log)
     }
@@ -112,7 +112,7 @@ impl Library {
             plugin,
             entries: BTreeMap::new(),
         };
-        // From here on a failure drops `library`, which reverts `init`.
+        // From here on, a failure drops `library`, which calls `deinit`.
         library.entries = entry::entries(&library, manifest).map_err(failed)?;
         Ok(Arc::new(library))
     }
@@ -175,7 +175,7 @@ impl Library {
         if factory.is_null() {
             return Ok(None);
         }
-        // SAFETY: for these ids the interface promises a `taceva_factory`.
+        // SAFETY: the interface specifies a `taceva_factory` for these ids.
         let read = unsafe { table::<abi::Factory>(factory) };
         read.map(Some)
             .map_err(|failure| LoadProblem::Table(failure.message()))
@@ -186,7 +186,7 @@ impl Library {
         if factory.is_null() {
             return Ok(None);
         }
-        // SAFETY: for this id the interface promises a `taceva_estimator_factory`.
+        // SAFETY: the interface specifies a `taceva_estimator_factory` for this id.
         let read = unsafe { table::<abi::EstimatorFactory>(factory) };
         read.map(Some)
             .map_err(|failure| LoadProblem::Table(failure.message()))
@@ -196,7 +196,7 @@ impl Library {
 impl Drop for Library {
     fn drop(&mut self) {
         if let Some(deinit) = self.plugin.deinit {
-            // SAFETY: [once, last], after a successful `init`: every device and every rig holds the library, so none is open any more.
+            // SAFETY: [once, last], after a successful `init`: every device and every rig holds the library, so all are closed.
             unsafe { deinit() };
         }
     }
@@ -213,26 +213,26 @@ fn open(image: &Image) -> Result<*const abi::Plugin, LoadProblem> {
     let memory = image.try_clone().map_err(LoadProblem::File)?;
     let name = format!("/proc/self/fd/{}", memory.as_raw_fd());
     let message = |error: libloading::Error| {
-        // The loader's message contains a meaningless descriptor number.
+        // The loader's message contains a meaningless descriptor number, which is replaced.
         let words = std::error::Error::source(&error).map(ToString::to_string);
         let words = words.unwrap_or_else(|| error.to_string());
         crate::text::shown(&words.replace(&name, "the library"))
     };
     LOADED.fetch_add(1, Ordering::Relaxed);
-    // SAFETY: its constructors are foreign code; the caller has decided that they may run in this process.
+    // SAFETY: its constructors are foreign code, and the caller allows them to run in this process.
     let loaded = unsafe { Loaded::open(Some(&name), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE) };
     let loaded = match loaded {
         Ok(loaded) => loaded,
         Err(error) => return Err(refused(&File::from(memory), message(error))),
     };
-    // Never close the descriptor: the loader identifies the library by its path.
+    // The descriptor stays open, because the loader identifies the library by its path.
     let _ = memory.into_raw_fd();
     let name_of_symbol = abi::ENTRY_SYMBOL.to_bytes_with_nul();
-    // SAFETY: only the address is taken; what lies there is checked before it is used.
+    // SAFETY: only the address is read; the table there is checked before use.
     let symbol = unsafe { loaded.get::<*const abi::Plugin>(name_of_symbol) };
     let symbol = symbol.map_err(|error| LoadProblem::Symbol(message(error)))?;
     let address = *symbol;
-    // Never unloaded.
+    // Forgets the handle, so the library is never unloaded.
     std::mem::forget(loaded);
     Ok(address)
 }
@@ -284,7 +284,7 @@ fn read(symbol: *const abi::Plugin, mapped: Option<&Mapped>) -> Result<abi::Plug
     unsafe {
         std::ptr::copy_nonoverlapping(symbol.cast::<u8>(), copy.as_mut_ptr().cast::<u8>(), known);
     }
-    // SAFETY: it holds numbers, texts without bytes and optional functions where it is 0.
+    // SAFETY: zero bytes are valid for its numbers, empty texts and optional functions.
     Ok(unsafe { copy.assume_init() })
 }
 
@@ -326,6 +326,6 @@ fn text(
     if said.length > 0 && (said.data.is_null() || !is_readable) {
         return Err(LoadProblem::Address { what });
     }
-    // SAFETY: mapped as far as it says, in constants of a library that is never unloaded.
+    // SAFETY: mapped for its stated length, in constants of a library that is never unloaded.
     unsafe { said.to_str() }.map_err(|_| LoadProblem::Text { what })
 }

@@ -1,4 +1,4 @@
-//! Manifest of a plugin: all data for listing and planning. Reading it runs no code of the plugin.
+//! Manifest of a plugin, with all data for listing and planning. Reading it runs no code of the plugin.
 
 mod argument;
 mod error;
@@ -84,13 +84,13 @@ pub struct Manifest {
     pub id: PluginId,
     /// Display name.
     pub name: String,
-    /// Version, which the library must state too.
+    /// Version; the library must state the same.
     pub version: String,
     /// Licence.
     pub license: String,
     /// Interface version of the plugin.
     pub abi: AbiVersion,
-    /// Resources outside the plugin that it needs.
+    /// Outside resources that the plugin needs.
     pub needs: BTreeSet<DeclaredNeed>,
     /// Drivers and estimators, in the order of the manifest.
     pub provides: Vec<Provided>,
@@ -165,11 +165,12 @@ impl Manifest {
             let problem = format!("{} bytes, expected at most {BYTES_MAX}", text.len());
             return Err(ManifestError::whole(problem));
         }
-        // Check the version first, since a newer manifest may have unknown keys.
+        // The version is checked first, because a newer manifest may have unknown keys.
         if let Ok(Versioned { manifest_version }) = toml::from_str(text) {
             let version = *manifest_version.get_ref();
             if version != VERSION {
-                let problem = format!("`manifest_version`: {version}, this TacEva reads {VERSION}");
+                let problem =
+                    format!("`manifest_version`: {version}, but this TacEva reads {VERSION}");
                 return Err(ManifestError::at(text, &manifest_version.span(), problem));
             }
         }
@@ -178,7 +179,7 @@ impl Manifest {
         meant(written).map_err(|refused| ManifestError::at(text, &refused.span, refused.problem))
     }
 
-    /// Library for `platform`, as [`platform`] writes it; `None` if there is none.
+    /// Library for `platform`, which has the form of [`platform`]; `None` if there is none.
     pub fn library(&self, platform: &str) -> Option<&LibraryFile> {
         self.libraries.get(platform)
     }
@@ -262,7 +263,7 @@ fn meant(written: Written) -> Result<Manifest, Refused> {
         let key = table.key.clone();
         provides.push(table.provided(&id)?);
         if !keys.insert(key.get_ref().clone()) {
-            let problem = format!("`key`: two tables are called `{}`", key.get_ref());
+            let problem = format!("`key`: two tables have the key `{}`", key.get_ref());
             return Err(Refused::at(&key, problem));
         }
     }
@@ -274,7 +275,7 @@ fn meant(written: Written) -> Result<Manifest, Refused> {
         name,
         version,
         license,
-        // The package that runs a module builds its tables, with the interface version of that package.
+        // The package that runs a module builds its tables, so the module has the interface version of that package.
         abi: written.abi.unwrap_or(AbiVersion {
             major: ABI_MAJOR,
             minor: ABI_MINOR,
@@ -286,7 +287,7 @@ fn meant(written: Written) -> Result<Manifest, Refused> {
     })
 }
 
-/// Rejects a need whose arguments no single driver declares.
+/// Rejects a need unless one driver declares all its arguments.
 fn check_arguments(
     written: &Spanned<String>,
     needs: &BTreeSet<DeclaredNeed>,
@@ -323,7 +324,7 @@ fn code(written: &Written) -> Result<Code, Refused> {
         (None, Some(program)) => Ok((BTreeMap::new(), Some(program.get_ref().module()?))),
         (Some(_), Some(program)) => {
             let problem =
-                "`program`: a plugin is a library or a program, and `library` is given too";
+                "`program`: a plugin is a library or a program, but `library` is given too";
             Err(Refused::at(program, problem))
         }
         (None, None) => {
@@ -338,7 +339,7 @@ fn libraries(
 ) -> Result<BTreeMap<String, LibraryFile>, Refused> {
     if written.get_ref().is_empty() {
         let problem = format!(
-            "`library`: no platform, expected `{} = {{ path = … }}`",
+            "`library`: names no platform, expected `{} = {{ path = … }}`",
             platform()
         );
         return Err(Refused::at(written, problem));

@@ -2,7 +2,7 @@
 
 mod edit;
 
-/// Library's own statement of the manifest's contents. Unchecked until the resulting manifest is parsed.
+/// Contents of the manifest as the library states them. They are unchecked until the resulting manifest is parsed.
 ///
 /// ```
 /// use taceva_host::{LibraryFile, Offer};
@@ -26,6 +26,6 @@ pub struct Offer {
     pub version: String,
     /// Needs of the plugin; empty if it states none.
     pub needs: Vec<String>,
-    /// A `[[provides]]` table for each driver and estimator, without that header, and with `[[args]]` for `[[provides.args]]`.
+    /// One `[[provides]]` table for each driver and estimator, without that header. Its `[[provides.args]]` are called `[[args]]`.
     pub provides: Vec<String>,
 }

@@ -1,7 +1,7 @@
 //! Plugin package: a tar archive of the manifest, the digests of all other files, the libraries and the licences, in that order.
 //!
-//! The manifest determines the contents. Any other entry is rejected, so that nobody can add files to a package. Nothing is written outside
-//! the plugin's folder.
+//! The manifest determines the contents. Any other entry is rejected, so no file can be added to a package. Nothing is written outside the plugin's
+//! folder.
 
 mod read;
 mod write;
@@ -14,7 +14,7 @@ pub use self::write::pack;
 use crate::manifest::{Manifest, ManifestError};
 use crate::search::{MANIFEST, Plugin};
 
-/// File of the digests of all files but the manifest, in the format of `sha256sum --check`.
+/// Name of the file with the digests of all other files except the manifest, in the format of `sha256sum --check`.
 const DIGESTS: &str = "SHA256SUMS";
 /// Prefixes of licence file names.
 const LICENCES: [&str; 4] = ["LICENSE", "LICENCE", "COPYING", "NOTICE"];

@@ -1,4 +1,4 @@
-//! In-memory files sealed against changes.
+//! In-memory files that are sealed against changes.
 
 use std::os::fd::AsFd;
 use std::thread::sleep;
@@ -12,12 +12,12 @@ const ALL: SealFlags = SealFlags::WRITE
     .union(SealFlags::GROW)
     .union(SealFlags::SHRINK)
     .union(SealFlags::SEAL);
-/// Retry period for sealing. The kernel fails with `EBUSY` after 0.15 s while it uses a page itself, moving it or carrying it in a pipe.
-/// This happens when memory is short.
+/// Retry period for sealing. The kernel fails with `EBUSY` after 0.15 s while it uses a page itself: it moves the page, or a pipe holds it. This
+/// happens if memory is short.
 const PATIENCE: Duration = Duration::from_secs(5);
 const PAUSE: Duration = Duration::from_millis(2);
 
-/// Seals `memory` against every change, retrying while the kernel uses a page of it.
+/// Seals `memory` against every change. Retries while the kernel uses one of its pages.
 ///
 /// # Errors
 /// Error of the kernel; `EBUSY` after five seconds or if a writable mapping exists.

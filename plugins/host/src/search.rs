@@ -1,4 +1,4 @@
-//! Search for plugins by their manifests. Opens no library. Every rejected plugin is kept with its reason.
+//! Search for plugins by their manifests. It opens no library. Every rejected plugin is kept with its reason.
 
 mod environment;
 mod place;
@@ -84,14 +84,14 @@ pub struct Plugins {
 }
 
 impl Plugins {
-    /// Searches `path`. Plugins with the same id are all rejected, unless the folder of one is in `prefer` or only one was named for this
-    /// command ([`Place::Given`]).
+    /// Searches `path`. Plugins with the same id are all rejected, unless `prefer` lists the folder of one or the command line names exactly one
+    /// ([`Place::Given`]).
     pub fn search(path: SearchPath, prefer: &[PathBuf]) -> Plugins {
         Plugins::search_with(path, prefer, &[])
     }
 
-    /// Like [`search`](Plugins::search), and also searches the environments of `interpreters`. The first that answers runs Python plugins
-    /// from other places.
+    /// As [`search`](Plugins::search), and also searches the environments of `interpreters`. The first one that answers runs Python plugins from
+    /// other places.
     pub fn search_with(path: SearchPath, prefer: &[PathBuf], interpreters: &[PathBuf]) -> Plugins {
         let mut searching = Searching::default();
         for interpreter in interpreters {
@@ -138,7 +138,7 @@ impl Plugins {
                 trail.push_str(&format!("\n  looked in {} ({place})", shown(folder)));
             }
             for rejection in &self.rejections {
-                trail.push_str(&format!("\n  refused {rejection}"));
+                trail.push_str(&format!("\n  rejected {rejection}"));
             }
             NotFound {
                 id: id.to_owned(),
@@ -184,7 +184,7 @@ impl Plugins {
 
 /// Error for an unknown plugin id.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no plugin is called {id:?}, {help}{trail}")]
+#[error("no plugin has the id {id:?}, {help}{trail}")]
 pub struct NotFound {
     id: String,
     help: String,
@@ -208,14 +208,14 @@ impl Searching {
                     self.manifest(place, &manifest, None);
                 }
             }
-            // Only a folder from the command line must exist.
+            // Missing folders are ignored, except those from the command line.
             Err(Reason::Unreadable(error))
                 if error.kind() == io::ErrorKind::NotFound && place != Place::Given => {}
             Err(reason) => self.rejections.push(reason.of(folder, place)),
         }
     }
 
-    /// Manifest in `folder`, or else the manifests in its subfolders, sorted by path.
+    /// Manifest in `folder`; without one, the manifests in its subfolders, sorted by path.
     fn manifests(&mut self, folder: &Path) -> Result<Vec<PathBuf>, Reason> {
         if !folder.is_absolute() {
             return Err(Reason::Relative);
@@ -244,8 +244,8 @@ impl Searching {
         Ok(manifests)
     }
 
-    /// Reads a manifest, in the environment of the interpreter `within` or elsewhere. Returns the plugin's id; `None` if it was rejected or
-    /// seen before.
+    /// Reads a manifest, in the environment of the interpreter `within` or elsewhere. Returns the plugin's id; `None` if it was rejected or found
+    /// before.
     fn manifest(
         &mut self,
         place: Place,
@@ -339,7 +339,7 @@ impl Searching {
 }
 
 fn read(path: &Path) -> Result<String, Reason> {
-    // Checked before opening, since opening a pipe would block.
+    // Checked before opening, because opening a pipe would block.
     if !fs::metadata(path).map_err(Reason::Unreadable)?.is_file() {
         return Err(Reason::NotAFile);
     }

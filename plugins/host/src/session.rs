@@ -11,7 +11,7 @@ pub use taceva_core::{FitRequest, Saved, SavedRegressor};
 
 /// A loaded plugin and its open devices: one session per plugin and rig.
 ///
-/// Drivers and estimators are named by their full keys. Devices keep their resources alive, so the session may be dropped first.
+/// Drivers and estimators are named by their full keys. Open devices keep their resources alive, so the session may be dropped first.
 pub trait Session: Send + Sync {
     /// Offers and needs of the library, as in a manifest.
     ///
@@ -19,7 +19,7 @@ pub trait Session: Send + Sync {
     /// [`DriverError`] if the session has no library, or its statements do not fit a manifest.
     fn offer(&self) -> Result<Offer, DriverError>;
 
-    /// Library's description of `driver` with `args`. Touches no device.
+    /// Library's description of `driver` with `args`. Accesses no device.
     ///
     /// # Errors
     /// [`DriverError`] of kind `NotFound` for an unknown driver, `InvalidArgument` for contradictory arguments.

@@ -1,8 +1,8 @@
-//! Foreign text in messages: escaped by [`taceva_core::shown`] and cut to a maximum length.
+//! Foreign text in messages: escaped by [`taceva_core::shown`] and truncated to a maximum length.
 
 const CHARACTERS_MAX: usize = 200;
 
-/// Escapes control characters of `text` and cuts it after 200 characters.
+/// Escapes control characters of `text` and truncates it after 200 characters.
 pub(crate) fn shown(text: &str) -> String {
     match text.char_indices().nth(CHARACTERS_MAX) {
         Some((end, _)) => format!("{}…", taceva_core::shown(&text[..end])),

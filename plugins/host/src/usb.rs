@@ -1,4 +1,4 @@
-//! USB devices of manifests, listed without opening them or running code of a plugin.
+//! USB devices in manifests, listed without opening them or running plugin code.
 
 use nusb::{DeviceInfo, MaybeFuture as _};
 

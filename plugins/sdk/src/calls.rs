@@ -1,4 +1,4 @@
-//! Calls on an open device, kind by kind. Every function checks its arguments through [`guard`] and [`memory`](crate::memory).
+//! Calls on an open device, by kind. Every function checks its arguments through [`guard`] and [`memory`](crate::memory).
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -24,18 +24,18 @@ use crate::memory;
 pub(crate) trait Kind: 'static {
     /// Type behind a handle.
     type Opened: Any + Send;
-    /// The calls of its table.
+    /// Calls in the table of this kind.
     type Calls: 'static;
     const CALLS: &'static Self::Calls;
 
     /// Drivers of this kind.
     fn drivers(loaded: &Loaded) -> &Drivers<Self>;
 
-    /// Makes the handle of a device with these `facts`.
+    /// Creates the handle of a device with these `facts`.
     fn handle(device: Box<Self>, facts: &Facts) -> Handle<Self::Opened>;
 }
 
-/// Calls that every device has, for a table of type `T` and devices of type `O` behind its handles.
+/// Calls that every device has, for a table of type `T` and devices of type `O`.
 const fn device_calls<T, O: Any + Send>(
     extension: unsafe extern "C" fn(*mut c_void, Text) -> *const c_void,
 ) -> DeviceCalls {
@@ -55,7 +55,7 @@ unsafe extern "C" fn close(handle: *mut c_void) {
 }
 
 unsafe extern "C" fn interrupt<O: Any + Send>(handle: *mut c_void) {
-    // The call returns no status, so a failure cannot be reported.
+    // The call returns no status, so failures are ignored.
     drop(caught(|| {
         if let Ok(handle) = handles::find::<Handle<O>>(handle) {
             handle
@@ -75,14 +75,14 @@ unsafe fn call<O: Any + Send>(
     error: *mut Error,
     work: impl FnOnce(&mut O) -> Result<(), Failure>,
 ) -> Status {
-    // SAFETY: promised by the caller.
+    // SAFETY: guaranteed by the caller.
     unsafe { guard(error, || handles::find::<Handle<O>>(handle)?.call(work)) }
 }
 
-/// Returns the table `calls` if `id` is its `name` and the device `has` that ability; else NULL.
+/// Returns the table `calls` if `id` is its `name` and the device `has` that ability; otherwise NULL.
 ///
 /// # Safety
-/// `id` is lent for the call.
+/// `id` is borrowed for the call.
 unsafe fn extended<O: Any + Send, T>(
     handle: *mut c_void,
     id: Text,
@@ -91,7 +91,7 @@ unsafe fn extended<O: Any + Send, T>(
     has: impl FnOnce(&mut O) -> bool,
 ) -> *const c_void {
     let has = || {
-        // SAFETY: promised by the caller.
+        // SAFETY: guaranteed by the caller.
         if unsafe { memory::text("id", id) }? != name {
             return Ok(false);
         }

@@ -1,6 +1,6 @@
-//! Conversion between the numbers of the boundary and those of core; numbers that are not finite are rejected in both directions.
+//! Conversion between numbers of the plugin boundary and of core. Numbers that are not finite are rejected in both directions.
 //!
-//! Places are in m at the boundary and in mm in core. Forces are in N and torques in N·mm on both sides.
+//! Positions are in m at the boundary and in mm in core. Forces are in N and torques in N·mm on both sides.
 
 use std::time::Duration;
 
@@ -15,12 +15,12 @@ pub(crate) fn deadline(timeout_ns: u64) -> Deadline {
     Deadline::after(Duration::from_nanos(timeout_ns))
 }
 
-/// Nanoseconds, saturating after 584 years.
+/// Converts to nanoseconds. Saturates after 584 years.
 pub(crate) fn nanoseconds(time: Duration) -> u64 {
     u64::try_from(time.as_nanos()).unwrap_or(u64::MAX)
 }
 
-/// Requested pose and speed of a motion.
+/// Target pose and speed of a requested motion.
 pub(crate) fn motion(motion: &Motion) -> Result<(Pose, Speed), Failure> {
     let AbiPose {
         x,
@@ -37,7 +37,7 @@ pub(crate) fn motion(motion: &Motion) -> Result<(Pose, Speed), Failure> {
     };
     let target = target.to_pose().ok_or_else(|| {
         let message =
-            format!("the target {target:?}, expected finite numbers and a unit quaternion");
+            format!("the target is {target:?}, expected finite numbers and a unit quaternion");
         Failure::argument(message)
     })?;
     let speed = Speed::from_metres_per_second(motion.speed_m_per_s)
@@ -45,7 +45,7 @@ pub(crate) fn motion(motion: &Motion) -> Result<(Pose, Speed), Failure> {
     Ok((target, speed))
 }
 
-/// A pose of the device.
+/// Converts a pose reported by the device.
 pub(crate) fn pose(pose: &Pose) -> Result<AbiPose, Failure> {
     check_pose(pose).map_err(fault)?;
     let SiPose {
@@ -63,7 +63,7 @@ pub(crate) fn pose(pose: &Pose) -> Result<AbiPose, Failure> {
     })
 }
 
-/// A wrench of the device.
+/// Converts a wrench reported by the device.
 pub(crate) fn wrench(wrench: &Wrench) -> Result<AbiWrench, Failure> {
     check_wrench(wrench).map_err(fault)?;
     Ok(AbiWrench {
@@ -72,11 +72,11 @@ pub(crate) fn wrench(wrench: &Wrench) -> Result<AbiWrench, Failure> {
     })
 }
 
-/// A stamp of the device.
+/// Converts a stamp reported by the device.
 pub(crate) fn stamp(stamp: &Stamp) -> Result<AbiStamp, Failure> {
     let is_time = |time_s: f64| time_s.is_finite() && time_s >= 0.0;
     if !is_time(stamp.valid_s) || !stamp.received_s.is_none_or(is_time) {
-        let message = format!("the stamp {stamp:?} is not a time since the start of a clock");
+        let message = format!("the stamp is {stamp:?}, expected finite times of at least 0 s");
         return Err(Failure::device(message));
     }
     Ok(AbiStamp {

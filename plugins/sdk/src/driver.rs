@@ -1,4 +1,4 @@
-//! The drivers and estimators that a plugin provides.
+//! Drivers and estimators that a plugin provides.
 
 use taceva_core::{
     Builtin, Changer, DescriptorError, Factory, ForceTransducer, Lighting, Robot, Sensor,
@@ -6,9 +6,9 @@ use taceva_core::{
 
 use crate::estimator::EstimatorFactory;
 
-/// Driver or estimator that a plugin provides: the function that makes its factory.
+/// Driver or estimator that a plugin provides, as the function that makes its factory.
 ///
-/// [`export_plugin!`](crate::export_plugin) makes these from the lines that it is given.
+/// [`export_plugin!`](crate::export_plugin) creates these from its arguments.
 ///
 /// ```
 /// # use taceva_core::{Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory};
@@ -44,7 +44,7 @@ pub enum Driver {
     Made(Made),
 }
 
-/// Factory of a driver or an estimator made at run time, such as one described in another language.
+/// Factory of a driver or an estimator that is created at run time, such as one described in another language.
 ///
 /// ```
 /// # use taceva_core::{Args, Axes, Descriptor, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory, Facts, ForceFacts};
@@ -96,7 +96,7 @@ pub enum Made {
 /// ```
 pub type MakeEstimator = fn() -> Box<dyn EstimatorFactory>;
 
-/// A kind of driver or estimator that a plugin can provide, as [`export_plugin!`](crate::export_plugin) names it: `dyn Sensor` for one.
+/// A kind of driver or estimator that a plugin can provide, as named in [`export_plugin!`](crate::export_plugin): for example `dyn Sensor`.
 ///
 /// ```
 /// # use taceva_core::{Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory};
@@ -116,14 +116,14 @@ pub type MakeEstimator = fn() -> Box<dyn EstimatorFactory>;
 /// assert_eq!(drivers.len(), 1);
 /// ```
 pub trait Provide {
-    /// Function that makes its factory.
+    /// Function that makes the factory.
     type Make;
 
-    /// The driver with the factory of `make`.
+    /// Creates the driver whose factory `make` makes.
     fn provide(make: Self::Make) -> Driver;
 }
 
-/// Makes the factory of a driver of devices.
+/// Makes the factory of a device driver.
 ///
 /// ```
 /// # use taceva_core::{Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory};

@@ -1,4 +1,4 @@
-//! The drivers of a plugin once it is initialised.
+//! Drivers of an initialised plugin.
 
 use std::collections::BTreeSet;
 use std::sync::OnceLock;
@@ -10,10 +10,10 @@ use taceva_core::{
 
 use crate::failure::Failure;
 
-/// The drivers of one kind, by their number.
+/// Drivers of one kind, by number.
 pub(crate) type Drivers<D> = Vec<Box<dyn CoreFactory<D>>>;
 
-/// The drivers by kind, and the tables by which a host reaches them.
+/// Drivers by kind, and the tables through which a host calls them.
 pub(crate) struct Loaded {
     pub(crate) sensors: Drivers<dyn Sensor>,
     pub(crate) robots: Drivers<dyn Robot>,
@@ -21,12 +21,12 @@ pub(crate) struct Loaded {
     pub(crate) lightings: Drivers<dyn Lighting>,
     pub(crate) changers: Drivers<dyn Changer>,
     pub(crate) estimators: Vec<Box<dyn EstimatorFactory>>,
-    /// Parts of the drivers' keys before their last `/`.
+    /// Keys of the drivers up to their last `/`.
     pub(crate) prefixes: BTreeSet<String>,
     pub(crate) tables: Tables,
 }
 
-/// The table of each kind that the plugin has drivers of.
+/// Table of each kind for which the plugin has drivers.
 pub(crate) struct Tables {
     pub(crate) sensor: Option<Factory>,
     pub(crate) robot: Option<Factory>,
@@ -36,17 +36,17 @@ pub(crate) struct Tables {
     pub(crate) estimator: Option<EstimatorTable>,
 }
 
-/// A library holds one plugin, and loads it once.
+/// A library contains one plugin and loads it once.
 static LOADED: OnceLock<Loaded> = OnceLock::new();
 
-/// The drivers, once the plugin is initialised.
+/// Drivers of the plugin. Fails before the plugin is initialised.
 pub(crate) fn loaded() -> Result<&'static Loaded, Failure> {
     LOADED
         .get()
         .ok_or_else(|| Failure::argument("the plugin is not initialised"))
 }
 
-/// Keeps `drivers` for the life of the library. If two threads initialise it at once, both have loaded the same.
+/// Keeps `drivers` for the life of the library. Two threads that initialise it at once have loaded equal drivers.
 pub(crate) fn keep(drivers: Loaded) {
     LOADED.get_or_init(|| drivers);
 }

@@ -1,4 +1,4 @@
-//! The beginning and the end of a plugin, and the way to its drivers.
+//! Start and end of a plugin, and access to its drivers.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -25,7 +25,7 @@ use crate::{estimator, factory, host, memory};
 
 pub(crate) unsafe extern "C" fn init<E: Export>(host: *const Host, error: *mut Error) -> Status {
     let work = || {
-        // SAFETY: a host gives its table, which begins with its size, for the life of the plugin.
+        // SAFETY: a host passes its table, which begins with its size, for the life of the plugin.
         unsafe { memory::sized("host", host) }?;
         if loaded().is_err() {
             let drivers = load(E::drivers())
@@ -35,7 +35,7 @@ pub(crate) unsafe extern "C" fn init<E: Export>(host: *const Host, error: *mut E
         host::remember(host);
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { guard(error, work) }
 }
 
@@ -94,7 +94,7 @@ fn table<D: Kind + ?Sized>(drivers: usize) -> Option<Factory> {
     count(drivers).map(factory::table::<D>)
 }
 
-/// Number of drivers; `None` for none.
+/// Number of drivers; `None` for 0.
 fn count(drivers: usize) -> Option<u32> {
     u32::try_from(drivers).ok().filter(|count| *count > 0)
 }

@@ -1,8 +1,8 @@
-//! A crate that is a plugin.
+//! A crate that is exported as a plugin.
 
 use crate::driver::Driver;
 
-/// A crate that is a plugin; [`export_plugin!`](crate::export_plugin) implements it.
+/// A crate that is exported as a plugin. [`export_plugin!`](crate::export_plugin) implements this trait.
 ///
 /// ```
 /// use taceva_plugin::{Driver, Export, plugin};
@@ -22,9 +22,9 @@ pub trait Export {
     const ID: &'static str;
     /// Version of the plugin, as in the manifest.
     const VERSION: &'static str;
-    /// Needs outside the plugin, one per line, as `needs` of the manifest lists them. `taceva plugin manifest --write` writes them there.
+    /// Outside needs of the plugin, one per line, as in `needs` of the manifest. `taceva plugin manifest --write` copies them to the manifest.
     const NEEDS: &'static str = "";
 
-    /// Drivers and estimators that it provides.
+    /// Drivers and estimators that the plugin provides.
     fn drivers() -> Vec<Driver>;
 }

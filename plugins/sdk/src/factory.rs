@@ -18,7 +18,7 @@ use crate::memory;
 use crate::rig::with_rig;
 use crate::table::provides_table;
 
-/// The calls on `drivers` drivers.
+/// Table of calls on `drivers` drivers.
 pub(crate) fn table<D: Kind + ?Sized>(drivers: u32) -> Table {
     #[expect(clippy::cast_possible_truncation, reason = "forty bytes")]
     let size = size_of::<Table>() as u32;
@@ -38,7 +38,7 @@ fn driver<D: Kind + ?Sized>(number: u32) -> Result<&'static dyn Factory<D>, Fail
         .and_then(|number| drivers.get(number));
     let found = found.ok_or_else(|| {
         Failure::argument(format!(
-            "no driver {number}, expected less than {}",
+            "no driver has the number {number}, expected less than {}",
             drivers.len()
         ))
     })?;
@@ -64,14 +64,14 @@ unsafe extern "C" fn describe<D: Kind + ?Sized>(
             let described = factory.describe(&args);
             described.map_err(|error| Failure::argument(error.to_string()))?
         };
-        // SAFETY: the host's own function with its own context.
+        // SAFETY: the host passes its own function and context.
         unsafe { memory::hand(take, context, &provides_table(&descriptor)) }
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { guard(error, work) }
 }
 
-/// True if the host does not know the arguments yet: NULL, or none although one is required.
+/// True if the host does not know the arguments yet: it passes NULL, or none although one is required.
 ///
 /// # Safety
 /// As for [`args`].
@@ -79,7 +79,7 @@ unsafe fn is_before_any(given: *const AbiArgs, specs: &[ArgSpec]) -> Result<bool
     if given.is_null() {
         return Ok(true);
     }
-    // SAFETY: promised by the caller.
+    // SAFETY: guaranteed by the caller.
     let given = unsafe { memory::given("args", given) }?;
     let is_required = |spec: &ArgSpec| matches!(spec.presence, Presence::Required);
     Ok(given.count == 0 && specs.iter().any(is_required))
@@ -93,12 +93,12 @@ unsafe extern "C" fn discover<D: Kind + ?Sized>(
 ) -> Status {
     let work = || {
         for found in driver::<D>(number)?.discover()? {
-            // SAFETY: the host's own function with its own context.
+            // SAFETY: the host passes its own function and context.
             unsafe { memory::hand(take, context, &found.arguments) }?;
         }
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { guard(error, work) }
 }
 
@@ -110,7 +110,7 @@ unsafe extern "C" fn open<D: Kind + ?Sized>(
     error: *mut Error,
 ) -> Status {
     let work = || {
-        // SAFETY: the host's place for the device.
+        // SAFETY: the host provides memory for the device.
         let place = unsafe { memory::place("device", device) }?;
         let factory = driver::<D>(number)?;
         // SAFETY: the host lends its arguments for the call.
@@ -126,18 +126,18 @@ unsafe extern "C" fn open<D: Kind + ?Sized>(
         };
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { guard(error, work) }
 }
 
-/// Reads the given arguments and checks them once more against the declarations; NULL is an empty list.
+/// Reads the given arguments and checks them again against the declarations. NULL is an empty list.
 ///
 /// # Safety
-/// Unless it is NULL, `given` points to arguments that stay unchanged during the call.
+/// `given` is NULL, or points to arguments that stay unchanged during the call.
 pub(crate) unsafe fn args(given: *const AbiArgs, specs: &[ArgSpec]) -> Result<Args, Failure> {
     let mut pairs = Vec::new();
     if !given.is_null() {
-        // SAFETY: promised by the caller, for the list and for each text in it.
+        // SAFETY: guaranteed by the caller, for the list and for each text in it.
         unsafe {
             let given = memory::given("args", given)?;
             for arg in memory::list("args", given.items, given.count)? {

@@ -3,7 +3,7 @@
 use taceva_abi::{FaultNumber, MESSAGE_SIZE, Status};
 use taceva_core::{DriverError, ErrorKind, Fault, ModelError};
 
-/// Failure for the host: a status, and a message that needs no context but the call.
+/// Failure for the host: a status, and a message that is complete together with the name of the call.
 #[derive(Debug)]
 pub(crate) struct Failure {
     pub(crate) status: Status,
@@ -14,27 +14,26 @@ pub(crate) struct Failure {
 impl Failure {
     pub(crate) fn new(kind: ErrorKind, message: impl Into<String>) -> Failure {
         Failure {
-            // The numbers of the kinds are the negated statuses; a test of core verifies this.
+            // The numbers of the kinds are the negated statuses. A test of core verifies this.
             status: Status(-(kind as i32)),
             message: message.into(),
             fault: FaultNumber::NONE,
         }
     }
 
-    /// Failure by a wrong argument of the caller.
+    /// Failure because of a wrong argument of the caller.
     pub(crate) fn argument(message: impl Into<String>) -> Failure {
         Failure::new(ErrorKind::InvalidArgument, message)
     }
 
-    /// Failure by a fault of the device.
+    /// Failure because of a fault of the device.
     pub(crate) fn device(message: impl Into<String>) -> Failure {
         Failure::new(ErrorKind::DeviceFault, message)
     }
 }
 
 impl From<DriverError> for Failure {
-    /// Message with the operation and the reason, or the reason alone if both exceed the length of a message. The host knows the driver and
-    /// its call.
+    /// Message with the operation and the reason, or only the reason if both exceed the length of a message. The host knows the driver and the call.
     fn from(error: DriverError) -> Failure {
         let message = match std::error::Error::source(&error) {
             Some(reason) => {
@@ -44,7 +43,7 @@ impl From<DriverError> for Failure {
                     false => reason.to_string(),
                 }
             }
-            // The fault is reported beside the message.
+            // The fault is a separate field of the error, so it needs no message.
             None if error.fault().is_some() => String::new(),
             None => error.kind().to_string(),
         };
@@ -60,7 +59,7 @@ fn number(fault: Fault) -> FaultNumber {
         Fault::EmergencyStop => FaultNumber::EMERGENCY_STOP,
         Fault::Collision => FaultNumber::COLLISION,
         Fault::Boundary => FaultNumber::BOUNDARY,
-        // A fault newer than this crate is still a fault.
+        // A fault that this crate does not know is still reported as a fault.
         _ => FaultNumber::SERVO,
     }
 }

@@ -1,4 +1,4 @@
-//! The guard of every function that a host calls: no panic unwinds into the host, and every failure becomes a status.
+//! Guard of every function that a host calls. No panic unwinds into the host, and every failure becomes a status.
 
 #![expect(unsafe_code, reason = "the caller's memory for the message is written")]
 
@@ -9,10 +9,10 @@ use taceva_core::ErrorKind;
 
 use crate::failure::Failure;
 
-/// Runs `work` and returns its status. No panic unwinds into the host, and a failure leaves its message in `error`.
+/// Runs `work` and returns its status. No panic unwinds into the host. A failure leaves its message in `error`.
 ///
 /// # Safety
-/// `error` is NULL, or points to memory that belongs to the caller during the call and is as long as its `size` states.
+/// `error` is NULL, or points to memory of the length in its `size`, which belongs to the callee during the call.
 pub(crate) unsafe fn guard(
     error: *mut Error,
     work: impl FnOnce() -> Result<(), Failure>,
@@ -22,7 +22,7 @@ pub(crate) unsafe fn guard(
         Ok(Err(failure)) => failure,
         Err(panicked) => panicked,
     };
-    // SAFETY: promised by the caller.
+    // SAFETY: guaranteed by the caller.
     unsafe {
         write_message(error, &failure.message);
         write_fault(error, failure.fault);
@@ -30,9 +30,9 @@ pub(crate) unsafe fn guard(
     failure.status
 }
 
-/// Result of `work`, or its panic as a failure.
+/// Result of `work`. A panic becomes a failure.
 pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Failure> {
-    // A panic can leave only a handle half changed, and that handle is dead from then on.
+    // A panic can leave only one handle half changed, and that handle is dead from then on.
     taceva_core::caught(work).map_err(|message| {
         Failure::new(
             ErrorKind::Panicked,
@@ -41,13 +41,13 @@ pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Failure> {
     })
 }
 
-/// Writes `message` to the caller's error, cut between two characters if it does not fit.
+/// Writes `message` to the caller's error. Truncates it between two characters if it does not fit.
 unsafe fn write_message(error: *mut Error, message: &str) {
     const HEAD: usize = offset_of!(Error, message);
     if error.is_null() || !error.is_aligned() {
         return;
     }
-    // SAFETY: promised by the caller of `guard`; every error begins with its size.
+    // SAFETY: guaranteed by the caller of `guard`; every error begins with its size.
     let size = unsafe { (&raw const (*error).size).read() };
     let room = usize::try_from(size).unwrap_or(0).min(size_of::<Error>());
     if room <= HEAD {
@@ -57,7 +57,7 @@ unsafe fn write_message(error: *mut Error, message: &str) {
     while !message.is_char_boundary(end) {
         end -= 1;
     }
-    // SAFETY: `end` and the NUL behind it lie within the size that the error states.
+    // SAFETY: `end` and the NUL after it lie within the stated size of the error.
     unsafe {
         let place = (&raw mut (*error).message).cast::<u8>();
         place.copy_from_nonoverlapping(message.as_ptr(), end);
@@ -65,16 +65,16 @@ unsafe fn write_message(error: *mut Error, message: &str) {
     }
 }
 
-/// Writes `fault` to the caller's error, if that has room for it.
+/// Writes `fault` to the caller's error, if the error has space for it.
 unsafe fn write_fault(error: *mut Error, fault: FaultNumber) {
     const END: usize = offset_of!(Error, fault) + size_of::<FaultNumber>();
     if error.is_null() || !error.is_aligned() {
         return;
     }
-    // SAFETY: promised by the caller of `guard`; every error begins with its size.
+    // SAFETY: guaranteed by the caller of `guard`; every error begins with its size.
     let size = unsafe { (&raw const (*error).size).read() };
     if usize::try_from(size).is_ok_and(|size| size >= END) {
-        // SAFETY: it lies within the size that the error states.
+        // SAFETY: the field lies within the stated size of the error.
         unsafe { (&raw mut (*error).fault).write(fault) };
     }
 }
@@ -96,7 +96,7 @@ mod tests {
             (|| std::panic::panic_any(()), "a panic without a message"),
         ];
         for (panics, expected) in panics {
-            // SAFETY: the error is ours.
+            // SAFETY: the error belongs to this test.
             let status = unsafe {
                 guard(&raw mut error, || {
                     panics();
@@ -116,7 +116,7 @@ mod tests {
                 panic!("dropped");
             }
         }
-        // SAFETY: no error is given.
+        // SAFETY: NULL stands for no error.
         let status = unsafe { guard(std::ptr::null_mut(), || std::panic::panic_any(Bomb)) };
         assert_eq!(status, Status::PANICKED);
     }
@@ -128,7 +128,7 @@ mod tests {
             error.message.fill(1);
             error.size = size;
             let long = "é".repeat(400);
-            // SAFETY: the error is ours, and its size is never stated above the truth but for the last, which is cut.
+            // SAFETY: the error belongs to this test. Its stated size exceeds the real one only in the last case, which is limited.
             unsafe { guard(&raw mut error, || Err(Failure::argument(long))) };
             let written = error.message.iter().take_while(|byte| **byte != 1).count();
             let room = usize::try_from(size).expect("small").clamp(8, 512) - 8;
@@ -145,7 +145,7 @@ mod tests {
             let arm = taceva_core::DriverKey::fixed("org.example.arm/arm");
             let struck = taceva_core::DriverError::new(ErrorKind::DeviceFault, &arm, "move")
                 .with_fault(taceva_core::Fault::Collision);
-            // SAFETY: the error is ours, and as long as it says.
+            // SAFETY: the error belongs to this test and has its stated size.
             let status = unsafe { guard(&raw mut error, || Err(struck.into())) };
             assert_eq!((status, error.fault), (Status::DEVICE_FAULT, expected));
         }

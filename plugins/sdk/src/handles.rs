@@ -1,6 +1,6 @@
-//! Open devices, rigs and fitted models, by numbers that the host uses as handles.
+//! Open devices, rigs and fitted models. The host gets their numbers as handles.
 //!
-//! A handle is a number and never an address: a closed or unknown handle is rejected and never dereferenced.
+//! A handle is a number and never an address. A closed or unknown handle is rejected and never dereferenced.
 
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -27,14 +27,14 @@ pub(crate) fn keep(thing: impl Any + Send + Sync) -> *mut c_void {
     without_provenance_mut(number)
 }
 
-/// The thing behind a handle.
+/// Object of a handle.
 pub(crate) fn find<T: Any + Send + Sync>(handle: *const c_void) -> Result<Arc<T>, Failure> {
     let open = OPEN.read().unwrap_or_else(PoisonError::into_inner);
     let thing = open.get(&handle.addr()).map(Arc::clone);
     drop(open);
     thing
         .and_then(|thing| thing.downcast().ok())
-        .ok_or_else(|| Failure::argument("the handle is not open, or of another kind"))
+        .ok_or_else(|| Failure::argument("the handle is closed or of another kind"))
 }
 
 /// Removes a handle and drops its object. If a call on another thread still uses the object, that call drops it.
@@ -42,15 +42,15 @@ pub(crate) fn close(handle: *const c_void) {
     let mut open = OPEN.write().unwrap_or_else(PoisonError::into_inner);
     let thing = open.remove(&handle.addr());
     drop(open);
-    // A device that panics while it is dropped is gone all the same.
+    // A panic of the drop is ignored: the device is gone all the same.
     drop(caught(|| drop(thing)));
 }
 
-/// An open device, or one that is dead because it panicked.
+/// An open device, which is dead after a panic.
 pub(crate) struct Handle<T> {
     is_dead: AtomicBool,
     device: Mutex<T>,
-    /// Interrupt of a pending call and, below, halt of a motion; both are called without waiting for the device.
+    /// Interrupt of a pending call; below it, halt of a motion. Both are called without waiting for the device.
     pub(crate) interrupt: Option<Arc<dyn Interrupt>>,
     pub(crate) halt: Option<Arc<dyn Halt>>,
 }
@@ -65,18 +65,18 @@ impl<T> Handle<T> {
         }
     }
 
-    /// The same handle with an interrupt of pending calls.
+    /// Sets the interrupt of pending calls.
     pub(crate) fn interrupted_by(self, interrupt: Option<Arc<dyn Interrupt>>) -> Handle<T> {
         Handle { interrupt, ..self }
     }
 
-    /// The same handle with a halt of motions.
+    /// Sets the halt of motions.
     pub(crate) fn halted_by(self, halt: Arc<dyn Halt>) -> Handle<T> {
         let halt = Some(halt);
         Handle { halt, ..self }
     }
 
-    /// Runs `work` with exclusive access to the device. A panic kills this handle and no other.
+    /// Runs `work` with exclusive access to the device. A panic kills only this handle.
     pub(crate) fn call<R>(
         &self,
         work: impl FnOnce(&mut T) -> Result<R, Failure>,

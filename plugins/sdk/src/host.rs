@@ -12,23 +12,23 @@ use taceva_abi::{Host, Level, Text};
 /// The host, between `init` and `deinit`.
 static HOST: AtomicPtr<Host> = AtomicPtr::new(null_mut());
 
-/// Remembers the host.
+/// Stores the host.
 pub(crate) fn remember(host: *const Host) {
     HOST.store(host.cast_mut(), Ordering::Release);
 }
 
-/// Forgets the host: none of its functions is called afterwards.
+/// Forgets the host. None of its functions is called afterwards.
 pub(crate) fn forget() {
     HOST.store(null_mut(), Ordering::Release);
 }
 
 fn host() -> Option<&'static Host> {
     let host = HOST.load(Ordering::Acquire);
-    // SAFETY: `init` checked it, and a host outlives everything that a plugin makes until `deinit`, which forgets it.
+    // SAFETY: `init` checked the pointer. A host outlives all objects of the plugin until `deinit`, which forgets it.
     unsafe { host.as_ref() }
 }
 
-/// Writes a line to the log of the host. Does nothing if the driver is linked in.
+/// Writes a line to the host's log. Does nothing in a linked driver.
 ///
 /// ```
 /// taceva_plugin::log(taceva_plugin::Level::Warn, "the camera is warm");
@@ -38,13 +38,13 @@ pub fn log(level: Level, message: &str) {
         return;
     };
     let target = Text::from(env!("CARGO_PKG_NAME"));
-    // SAFETY: the host takes lines from any thread; both texts live for the call.
+    // SAFETY: the host accepts lines from any thread, and both texts live for the call.
     unsafe { log(host.context, level as i32, target, Text::from(message)) };
 }
 
-/// Time of the host's monotonic clock, which stamps of real devices use.
+/// Time of the host's monotonic clock. Real devices use it for stamps.
 ///
-/// Linked in, or before the plugin is initialised, the time counts from the first call.
+/// In a linked driver, or before the plugin is initialised, the time counts from the first call.
 ///
 /// ```
 /// let before = taceva_plugin::now();
@@ -53,7 +53,7 @@ pub fn log(level: Level, message: &str) {
 pub fn now() -> Duration {
     static FIRST: OnceLock<Instant> = OnceLock::new();
     match host().and_then(|host| Some((host, host.now_ns?))) {
-        // SAFETY: the host gives the time to any thread.
+        // SAFETY: the host allows this call from any thread.
         Some((host, now_ns)) => Duration::from_nanos(unsafe { now_ns(host.context) }),
         None => FIRST.get_or_init(Instant::now).elapsed(),
     }

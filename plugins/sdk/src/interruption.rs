@@ -1,4 +1,4 @@
-//! Waits that another thread can end.
+//! Waits that another thread can interrupt.
 
 use std::fmt;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use taceva_core::{DriverError, Halt, Interrupt};
 
-/// Ends the pending call of a device; the `interrupt_handle` of a sensor, a force transducer or a changer.
+/// Interrupts the pending call of a device: the `interrupt_handle` of a sensor, a force transducer or a changer.
 ///
 /// ```
 /// use std::{sync::Arc, thread, time::Duration};
@@ -33,7 +33,7 @@ struct Pending {
     is_interrupted: bool,
 }
 
-/// Error of a call that was interrupted.
+/// Error of an interrupted call.
 ///
 /// ```
 /// use taceva_core::{DriverError, DriverKey, ErrorKind};
@@ -53,7 +53,7 @@ impl fmt::Display for Interrupted {
 
 impl std::error::Error for Interrupted {}
 
-/// A call that can be interrupted, from its beginning until this is dropped.
+/// A call that can be interrupted, from its start until this value is dropped.
 ///
 /// ```
 /// use std::time::Duration;
@@ -88,10 +88,10 @@ impl Interruption {
 }
 
 impl InterruptibleCall<'_> {
-    /// Waits for `time`, or less if the call is interrupted.
+    /// Waits for `time`. Returns earlier if the call is interrupted.
     ///
     /// # Errors
-    /// [`Interrupted`] if the call was interrupted, before or during the wait.
+    /// [`Interrupted`] if the call was interrupted before or during the wait.
     pub fn rest(&self, time: Duration) -> Result<(), Interrupted> {
         let bell = &self.interruption.bell;
         let pending = self.interruption.pending();
@@ -126,9 +126,9 @@ impl Interrupt for Interruption {
     }
 }
 
-/// A latching halt, for the `halt_handle` of a robot without its own.
+/// A halt that latches: the `halt_handle` of a robot without its own.
 ///
-/// A motion that waits on it in steps ends within a step; a robot that moves by itself must be stopped too.
+/// A motion in steps that waits on this latch ends within one step. A robot that moves without further commands must also be stopped.
 ///
 /// ```
 /// use std::{sync::Arc, time::Duration};
@@ -152,10 +152,10 @@ impl HaltLatch {
         Arc::clone(self) as Arc<dyn Halt>
     }
 
-    /// Waits for `time`, or until it is halted.
+    /// Waits for `time`. Returns earlier if halted.
     ///
     /// # Errors
-    /// [`Interrupted`] if it is halted, since before or during the wait.
+    /// [`Interrupted`] if a halt occurs during the wait, or was in force before.
     pub fn rest(&self, time: Duration) -> Result<(), Interrupted> {
         let latch = self.latch();
         let (is_halted, _) = self
@@ -165,7 +165,7 @@ impl HaltLatch {
         if *is_halted { Err(Interrupted) } else { Ok(()) }
     }
 
-    /// Ends the halt; without one it does nothing.
+    /// Ends the halt. Does nothing without a halt.
     pub fn clear(&self) {
         *self.latch() = false;
     }

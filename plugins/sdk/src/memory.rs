@@ -1,4 +1,4 @@
-//! Pointers of the host, checked before they are read or written.
+//! Pointers from the host, checked before they are read or written.
 
 #![expect(unsafe_code, reason = "pointers of the host are followed")]
 
@@ -8,49 +8,49 @@ use taceva_abi::{TakeText, Text};
 
 use crate::failure::Failure;
 
-/// Object behind `pointer`; NULL and misaligned addresses are rejected.
+/// Reads the object at `pointer`. NULL and misaligned addresses are rejected.
 ///
 /// # Safety
-/// Otherwise it points to a `T` that stays unchanged during `'a`.
+/// `pointer` is NULL, misaligned, or points to a `T` that stays unchanged during `'a`.
 pub(crate) unsafe fn given<'a, T>(name: &str, pointer: *const T) -> Result<&'a T, Failure> {
     straight(name, pointer)?;
-    // SAFETY: promised by the caller; NULL and misalignment were refused.
+    // SAFETY: guaranteed by the caller; NULL and misaligned addresses were rejected.
     Ok(unsafe { &*pointer })
 }
 
-/// Object behind `pointer`, to be written.
+/// Object at `pointer`, for writing.
 ///
 /// # Safety
-/// Unless it is NULL or misaligned, it points to a `T` that belongs to the callee during `'a`.
+/// `pointer` is NULL, misaligned, or points to a `T` that belongs to the callee during `'a`.
 pub(crate) unsafe fn place<'a, T>(name: &str, pointer: *mut T) -> Result<&'a mut T, Failure> {
     straight(name, pointer)?;
-    // SAFETY: promised by the caller; NULL and misalignment were refused.
+    // SAFETY: guaranteed by the caller; NULL and misaligned addresses were rejected.
     Ok(unsafe { &mut *pointer })
 }
 
-/// A struct that begins with its own size; rejected if it is shorter than `T`.
+/// A struct that begins with its own size. It is rejected if it is shorter than `T`.
 ///
 /// # Safety
-/// Unless it is NULL or misaligned, `pointer` points to the number of bytes that its first `u32` states.
+/// `pointer` is NULL, misaligned, or points to as many bytes as its first `u32` states.
 pub(crate) unsafe fn sized<'a, T>(name: &str, pointer: *const T) -> Result<&'a T, Failure> {
     straight(name, pointer)?;
-    // SAFETY: promised by the caller.
+    // SAFETY: guaranteed by the caller.
     let size = unsafe { pointer.cast::<u32>().read() };
     long_enough::<T>(name, size)?;
-    // SAFETY: as above, and it is as long as a `T`.
+    // SAFETY: as above, and the struct is at least as long as a `T`.
     Ok(unsafe { &*pointer })
 }
 
-/// As [`sized`], to be written.
+/// As [`sized`], for writing.
 ///
 /// # Safety
-/// As [`sized`], and the bytes are the callee's during `'a`.
+/// As [`sized`], and the bytes belong to the callee during `'a`.
 pub(crate) unsafe fn sized_place<'a, T>(name: &str, pointer: *mut T) -> Result<&'a mut T, Failure> {
     straight(name, pointer)?;
-    // SAFETY: promised by the caller.
+    // SAFETY: guaranteed by the caller.
     let size = unsafe { pointer.cast::<u32>().read() };
     long_enough::<T>(name, size)?;
-    // SAFETY: as above, and it is as long as a `T`.
+    // SAFETY: as above, and the struct is at least as long as a `T`.
     Ok(unsafe { &mut *pointer })
 }
 
@@ -76,10 +76,10 @@ fn long_enough<T>(name: &str, size: u32) -> Result<(), Failure> {
     Ok(())
 }
 
-/// List of `length` objects from `first` on.
+/// List of `length` objects that begins at `first`.
 ///
 /// # Safety
-/// Unless `first` is NULL or misaligned, `length` objects begin there that stay unchanged during `'a`.
+/// `first` is NULL, misaligned, or the start of `length` objects that stay unchanged during `'a`.
 pub(crate) unsafe fn list<'a, T>(
     name: &str,
     first: *const T,
@@ -90,11 +90,11 @@ pub(crate) unsafe fn list<'a, T>(
     }
     fits::<T>(name, length)?;
     straight(name, first)?;
-    // SAFETY: promised by the caller; the length fits an allocation.
+    // SAFETY: guaranteed by the caller; the length fits an allocation.
     Ok(unsafe { std::slice::from_raw_parts(first, length) })
 }
 
-/// As [`list`], to be written.
+/// As [`list`], for writing.
 ///
 /// # Safety
 /// As [`list`], and the objects belong to the callee during `'a`.
@@ -108,7 +108,7 @@ pub(crate) unsafe fn list_place<'a, T>(
     }
     fits::<T>(name, length)?;
     straight(name, first)?;
-    // SAFETY: promised by the caller; the length fits an allocation.
+    // SAFETY: guaranteed by the caller; the length fits an allocation.
     Ok(unsafe { std::slice::from_raw_parts_mut(first, length) })
 }
 
@@ -117,21 +117,21 @@ fn fits<T>(name: &str, length: usize) -> Result<(), Failure> {
     match bytes.filter(|bytes| isize::try_from(*bytes).is_ok()) {
         Some(_) => Ok(()),
         None => Err(Failure::argument(format!(
-            "`{name}`: {length} do not fit the address space"
+            "`{name}`: {length} objects exceed the address space"
         ))),
     }
 }
 
-/// The lent text.
+/// Reads a borrowed text.
 ///
 /// # Safety
-/// Unless `data` is NULL, its bytes are not changed during `'a`.
+/// `data` is NULL, or its bytes stay unchanged during `'a`.
 pub(crate) unsafe fn text<'a>(name: &str, text: Text) -> Result<&'a str, Failure> {
     if text.data.is_null() && text.length > 0 {
         return Err(Failure::argument(format!("`{name}` is NULL")));
     }
     fits::<u8>(name, text.length)?;
-    // SAFETY: promised by the caller.
+    // SAFETY: guaranteed by the caller.
     unsafe { text.to_str() }.map_err(|error| Failure::argument(format!("`{name}`: {error}")))
 }
 
@@ -141,7 +141,7 @@ pub(crate) unsafe fn text<'a>(name: &str, text: Text) -> Result<&'a str, Failure
 /// `take` may be called with `context` and any text.
 pub(crate) unsafe fn hand(take: TakeText, context: *mut c_void, text: &str) -> Result<(), Failure> {
     let take = take.ok_or_else(|| Failure::argument("`take` is NULL"))?;
-    // SAFETY: promised by the caller.
+    // SAFETY: guaranteed by the caller.
     unsafe { take(context, Text::from(text)) };
     Ok(())
 }
@@ -154,10 +154,10 @@ mod tests {
     fn pointers_that_cannot_be_meant_are_refused_unfollowed() {
         let crooked = std::ptr::without_provenance::<u64>(9);
         let null = std::ptr::null::<u64>();
-        // SAFETY: neither is followed.
+        // SAFETY: no pointer is dereferenced.
         let found = unsafe { [given("x", null), given("x", crooked), sized("x", crooked)] };
         assert!(found.iter().all(Result::is_err));
-        // SAFETY: neither is followed.
+        // SAFETY: no pointer is dereferenced.
         let lists = unsafe {
             [
                 list("x", null, 1),
@@ -166,7 +166,7 @@ mod tests {
             ]
         };
         assert!(lists.iter().all(Result::is_err));
-        // SAFETY: nothing is there, and nothing is followed.
+        // SAFETY: the list is empty, so the pointer is not dereferenced.
         assert!(unsafe { list("x", null, 0) }.expect("nothing").is_empty());
     }
 
@@ -177,7 +177,7 @@ mod tests {
             data: data.cast(),
             length,
         };
-        // SAFETY: the bytes live here; the others are not followed.
+        // SAFETY: the bytes live in this test; the other pointers are not dereferenced.
         unsafe {
             assert!(text("t", text_of(latin.as_ptr(), 1)).is_err());
             assert!(text("t", text_of(std::ptr::null(), 1)).is_err());
@@ -203,7 +203,7 @@ mod tests {
             },
             speed_m_per_s: 1.0,
         };
-        // SAFETY: it is ours.
+        // SAFETY: the struct belongs to this test.
         let refused = unsafe { sized("motion", &raw const short) }.expect_err("short");
         assert_eq!(refused.status, taceva_abi::Status::ABI);
         assert_eq!(

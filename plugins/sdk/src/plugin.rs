@@ -1,11 +1,11 @@
-//! The table that a library exports.
+//! Table that a library exports.
 
 use taceva_abi::{ABI_MAJOR, ABI_MINOR, MAGIC, Plugin, Text};
 
 use crate::export::Export;
 use crate::{entry, rig};
 
-/// The table that a library exports for `E`; the example of [`Export`] uses it.
+/// Table that a library exports for `E`. The example of [`Export`] uses it.
 pub const fn plugin<E: Export>() -> Plugin {
     #[expect(clippy::cast_possible_truncation, reason = "a hundred bytes")]
     let size = size_of::<Plugin>() as u32;
@@ -26,11 +26,11 @@ pub const fn plugin<E: Export>() -> Plugin {
     }
 }
 
-/// Exports the drivers of a crate of type `cdylib` as the plugin `id`; its version is that of the crate.
+/// Exports the drivers of a crate of type `cdylib` as the plugin `id`. The plugin has the version of the crate.
 ///
-/// `needs: ["usb"],` may follow the id: the needs outside the plugin, as the manifest lists them.
+/// `needs: ["usb"],` may follow the id: outside needs of the plugin, as in the manifest.
 ///
-/// Each line is a kind of device and a `fn` that makes a factory, as `taceva_core::submit_builtin!` takes them too.
+/// Each entry of `drivers` has a kind of device and a `fn` that makes a factory, as in `taceva_core::submit_builtin!`.
 ///
 /// ```
 /// # use taceva_core::{Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory,
@@ -65,7 +65,7 @@ macro_rules! export_plugin {
     (id: $id:expr, $(needs: [$($need:literal),* $(,)?],)? drivers: [$($device:ty => $make:expr),+ $(,)?] $(,)?) => {
         const _: () = {
             #[cfg(not(panic = "unwind"))]
-            ::core::compile_error!("a plugin is built with `panic = \"unwind\"`, so that a panic ends a call and not the program");
+            ::core::compile_error!("build plugins with `panic = \"unwind\"`, so a panic ends only the call and not the program");
 
             struct Exported;
 

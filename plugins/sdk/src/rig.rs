@@ -1,4 +1,4 @@
-//! Shared objects of the devices of a rig, and the simulated bench, if the plugin is one.
+//! Shared objects of the devices in a rig, and the plugin's simulated bench, if it has one.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -20,12 +20,12 @@ type Shared = Mutex<Rig>;
 
 pub(crate) unsafe extern "C" fn open(rig: *mut *mut AbiRig, error: *mut Error) -> Status {
     let work = || {
-        // SAFETY: the host's place for the rig.
+        // SAFETY: the host provides memory for the rig.
         let place = unsafe { memory::place("rig", rig) }?;
         *place = handles::keep(Shared::new(Rig::new())).cast();
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { guard(error, work) }
 }
 
@@ -42,13 +42,13 @@ pub(crate) unsafe extern "C" fn extension(_: *mut AbiRig, id: Text) -> *const c_
     }
 }
 
-/// Runs `work` with the rig behind a handle.
+/// Runs `work` with the rig of a handle.
 pub(crate) fn with_rig<R>(
     rig: *const AbiRig,
     work: impl FnOnce(&mut Rig) -> R,
 ) -> Result<R, Failure> {
     let shared = handles::find::<Shared>(rig.cast())?;
-    // A panicked driver left the rig intact: shared objects are inserted whole.
+    // The rig is intact after a panic of a driver, because shared objects are inserted in one step.
     let mut rig = shared.lock().unwrap_or_else(PoisonError::into_inner);
     Ok(work(&mut rig))
 }
@@ -65,7 +65,7 @@ static CALLS: BenchCalls = BenchCalls {
     provenance: Some(provenance),
 };
 
-/// Bench in which devices were opened with `rig=name`. Drivers offer it under the prefix of their keys.
+/// Bench whose devices were opened with `rig=name`. Drivers register it under the prefix of their keys.
 unsafe fn bench(rig: *const AbiRig, name: Text) -> Result<Arc<dyn SimulatedBench>, Failure> {
     // SAFETY: the host lends the text for the call.
     let name = unsafe { memory::text("bench", name) }?;
@@ -74,20 +74,24 @@ unsafe fn bench(rig: *const AbiRig, name: Text) -> Result<Arc<dyn SimulatedBench
         let mut names = prefixes.iter().map(|prefix| format!("{prefix} {name}"));
         names.find_map(|name| rig.bench(&name))
     };
-    with_rig(rig, find)?
-        .ok_or_else(|| Failure::new(ErrorKind::NotFound, format!("no bench is called `{name}`")))
+    with_rig(rig, find)?.ok_or_else(|| {
+        Failure::new(
+            ErrorKind::NotFound,
+            format!("no bench has the name `{name}`"),
+        )
+    })
 }
 
 unsafe extern "C" fn now_ns(rig: *mut AbiRig, name: Text) -> u64 {
     // SAFETY: the host lends the text for the call.
     let now = caught(|| unsafe { bench(rig, name) }.map(|bench| bench.now()));
-    // The clock of a missing bench stands at 0.
+    // The time of a missing bench is 0.
     let now = now.unwrap_or_else(Err).unwrap_or_default();
     u64::try_from(now.as_nanos()).unwrap_or(u64::MAX)
 }
 
 unsafe extern "C" fn rest(rig: *mut AbiRig, name: Text, rest_ns: u64, error: *mut Error) -> Status {
-    // SAFETY: the host lends the text for the call, and promises `error`.
+    // SAFETY: the host lends the text for the call and guarantees that `error` is valid.
     unsafe {
         guard(error, || {
             Ok(bench(rig, name)?.rest(Duration::from_nanos(rest_ns))?)
@@ -106,7 +110,7 @@ unsafe extern "C" fn mount(
         let (bench, mounted) = unsafe { (bench(rig, name)?, memory::sized("specimen", mounted)?) };
         Ok(bench.mount(specimen(mounted)?)?)
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { guard(error, work) }
 }
 
@@ -121,7 +125,7 @@ fn specimen(abi: &AbiSpecimen) -> Result<Specimen, Failure> {
         AbiSpecimen::LINE => Ok(grating(GratingKind::Line)),
         AbiSpecimen::DOT => Ok(grating(GratingKind::Dot)),
         other => Err(Failure::argument(format!(
-            "a specimen of unknown kind {other}"
+            "the specimen has the unknown kind {other}"
         ))),
     }
 }
@@ -132,7 +136,7 @@ unsafe extern "C" fn name_press(
     press: u64,
     error: *mut Error,
 ) -> Status {
-    // SAFETY: the host lends the text for the call, and promises `error`.
+    // SAFETY: the host lends the text for the call and guarantees that `error` is valid.
     unsafe { guard(error, || Ok(bench(rig, name)?.name_press(press)?)) }
 }
 
@@ -142,7 +146,7 @@ unsafe extern "C" fn schedule(
     at_ns: u64,
     error: *mut Error,
 ) -> Status {
-    // SAFETY: the host lends the text for the call, and promises `error`.
+    // SAFETY: the host lends the text for the call and guarantees that `error` is valid.
     unsafe {
         guard(error, || {
             Ok(bench(rig, name)?.schedule(Duration::from_nanos(at_ns))?)
@@ -160,11 +164,11 @@ unsafe extern "C" fn provenance(
     let work = || {
         // SAFETY: the host lends the text for the call.
         match unsafe { bench(rig, name) }?.provenance() {
-            // SAFETY: the host's own function with its own context.
+            // SAFETY: the host passes its own function and context.
             Some(words) => unsafe { memory::hand(take, context, &words) },
             None => Ok(()),
         }
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { guard(error, work) }
 }

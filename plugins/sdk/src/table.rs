@@ -11,9 +11,9 @@ use taceva_core::{
 
 use self::toml::{Number, Text, written};
 
-/// Table of a driver below `[[provides]]` of a manifest: TOML, with `[[args]]` where the manifest has `[[provides.args]]`.
+/// Table of a driver below `[[provides]]` of a manifest, as TOML. It has `[[args]]` in place of `[[provides.args]]`.
 ///
-/// The key is the last word of the driver's: a plugin `org.example.digit` provides `org.example.digit/finger` as `finger`.
+/// The key is the last part of the driver's key: a plugin `org.example.digit` provides `org.example.digit/finger` as `finger`.
 ///
 /// ```
 /// use taceva_core::{Axes, DescriptorSpec, DriverKey, DriverSource, Facts, ForceFacts};
@@ -40,14 +40,14 @@ pub fn provides_table(descriptor: &Descriptor) -> String {
         Facts::Lighting(facts) => table.scenes(&facts.scenes),
         Facts::Changer(facts) if facts.holds.is_empty() => {}
         Facts::Changer(facts) => table.texts("holds", facts.holds.iter().map(String::as_str)),
-        // For a kind newer than this writer only the name is written, which the host rejects.
+        // For a kind that this crate does not know, only the name is written. The host then rejects the table.
         _ => {}
     }
     table.arguments(descriptor.arguments());
     table.text
 }
 
-/// The same for an estimator.
+/// As [`provides_table`], for an estimator.
 ///
 /// ```
 /// # use taceva_core::{DriverKey, ModelError, Saved, SavedRegressor};
@@ -95,7 +95,7 @@ impl Table {
         }
     }
 
-    /// An inline table of the known fields; nothing without any.
+    /// Writes an inline table of the known fields. Writes nothing if none is known.
     fn inline(&mut self, key: &str, fields: &[(&str, Option<String>)]) {
         let known: Vec<String> = fields
             .iter()
@@ -149,7 +149,7 @@ impl Table {
         let (shape, [radius, half_x, half_y]) = match footprint.outline() {
             Outline::Disc { radius } => ("disc", [Some(radius), None, None]),
             Outline::Rectangle { half_x, half_y } => ("rect", [None, Some(half_x), Some(half_y)]),
-            // Skipped, as a kind newer than this writer.
+            // Skipped like a kind that this crate does not know.
             _ => return,
         };
         let length = |length: Option<taceva_core::Nanometre>| {
@@ -248,7 +248,7 @@ impl Table {
                     );
                 }
             }
-            // Skipped, as a kind of driver newer than this writer.
+            // Skipped like a kind of driver that this crate does not know.
             _ => {}
         }
         if let Some(unit) = &argument.unit {
@@ -260,7 +260,7 @@ impl Table {
             Presence::Default(ArgValue::Whole(value)) => self.line("default", value),
             Presence::Default(ArgValue::Number(value)) => self.line("default", &Number(*value)),
             Presence::Default(ArgValue::Flag(value)) => self.line("default", value),
-            // A text, or a value written like one.
+            // Text, or a value that is written as text.
             Presence::Default(value) => self.line("default", &Text(&value.to_string())),
         }
         if !argument.help.is_empty() {

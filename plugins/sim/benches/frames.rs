@@ -1,7 +1,7 @@
-//! Pictures a second of each simulated sensor, one core, from contact to bytes.
+//! Pictures per second of each simulated sensor on one core, from contact to bytes.
 //!
-//! `cargo bench -p taceva-sim --bench frames`; 19,200 pixels a frame unless named otherwise, noise included. A sample is 64 frames, the press moving from frame
-//! to frame, so that the fastest sample is of no easier press.
+//! `cargo bench -p taceva-sim --bench frames`. Frames have 19,200 pixels unless the name states otherwise, with noise. A sample is 64 frames, and the
+//! press moves from frame to frame, so all samples have equally difficult presses.
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
@@ -14,12 +14,12 @@ fn main() {
     divan::main();
 }
 
-/// The longer side of a frame as models take it, in pixels; the shorter one is three quarters of it.
+/// Longer side of a frame as used by models, pixels. The shorter side is three quarters of it.
 const SMALL: u32 = 160;
-/// Frames a sample.
+/// Frames per sample.
 const FRAMES: u32 = 64;
 
-/// How the ball moves along the gel.
+/// Motion of the ball along the gel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Touch {
     Pressed,
@@ -46,7 +46,7 @@ fn dragged(bencher: Bencher<'_, '_>, model: Model) {
     frames(bencher, model, SMALL, &contacts(model, Touch::Dragged));
 }
 
-/// Sixty-four contacts over the probed surface, at every depth.
+/// Sixty-four contacts over the probed surface, at various depths.
 fn contacts(model: Model, touch: Touch) -> Vec<Contact> {
     let parameters = model.parameters();
     let solid = Solid::new(&parameters);
@@ -54,7 +54,7 @@ fn contacts(model: Model, touch: Touch) -> Vec<Contact> {
     (0..FRAMES)
         .map(|number| {
             let turn = f64::from(number);
-            // A disc filled evenly: the golden angle, and the root of the number.
+            // Even cover of a disc: multiples of the golden angle, at radii proportional to the root of the number.
             let out = 0.9 * (turn / f64::from(FRAMES)).sqrt();
             let (sin, cos) = (2.399_963 * turn).sin_cos();
             let depth_mm = probing.depth_max_mm * (0.2 + 0.8 * (turn * 0.618).fract());

@@ -1,4 +1,4 @@
-//! Presses a second without pictures: contact alone, and contact with its label.
+//! Presses per second without pictures: contact only, and contact with its label.
 
 use taceva_sim::{Bench, Contact, Model, Press};
 

@@ -1,11 +1,11 @@
-//! Draws what each simulated sensor sees: untouched, pressed, dragged, on gratings, and under light from outside.
+//! Draws frames of each simulated sensor: untouched, pressed, dragged, on gratings, and under ambient light.
 //!
 //! ```text
 //! cargo run --release -p taceva-sim --example gallery -- gallery
 //! ```
 //!
-//! writes one PNG a sensor into the folder named, frames beside each other. Dark sensors are drawn brighter than they are; the file
-//! names say by how much.
+//! Writes one PNG per sensor into the named folder, with its frames side by side. Frames of dark sensors are brightened; the file names state the
+//! factor.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -52,7 +52,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Untouched, pressed, pressed elsewhere and dragged, lines, dots.
+/// Views: untouched, pressed, pressed elsewhere, dragged, lines and dots.
 fn touches(parameters: &Parameters) -> Vec<View> {
     let solid = Solid::new(parameters);
     let deepest_mm = parameters.probing.depth_max_mm;
@@ -101,12 +101,16 @@ fn touches(parameters: &Parameters) -> Vec<View> {
 
 fn take(camera: &mut Camera, view: &View) -> Result<Frame, Box<dyn Error>> {
     let info = camera.frame_info();
-    let mut bytes = vec![0; info.byte_len().ok_or("a frame beyond the address space")?];
+    let mut bytes = vec![
+        0;
+        info.byte_len()
+            .ok_or("the frame exceeds the address space")?
+    ];
     camera.render(view, FrameMut::new(info, &mut bytes)?)?;
     Ok(Frame::new(info, bytes)?)
 }
 
-/// The frames beside each other, eight bits a colour.
+/// Concatenates the frames from left to right, with eight bits per colour.
 fn strip(frames: &[Frame], gain: u16) -> RgbImage {
     let info = frames[0].info();
     let count = u32::try_from(frames.len()).expect("few frames");

@@ -1,4 +1,4 @@
-//! The bench: one unit of a sensor in a rig, pressed any number of times.
+//! The bench: one unit of a sensor in a rig, for any number of presses.
 
 mod error;
 mod press;
@@ -16,8 +16,8 @@ use crate::rig::{Label, Touch, TransducerModel, search};
 use crate::specimen::GratingPose;
 use crate::unit::Unit;
 
-/// A unit of a sensor in a rig, with the noise of a seed. Results are pure functions of the arguments: order, threads and interruptions
-/// change nothing.
+/// A unit of a sensor in a rig, with the noise of a seed. Results are pure functions of the arguments: order, threads and interruptions do not affect
+/// them.
 ///
 /// ```
 /// use taceva_sim::{Bench, Model, Press};
@@ -25,7 +25,7 @@ use crate::unit::Unit;
 /// let press = Press { id: 1, depth_mm: 0.5, ..Press::default() };
 /// let contact = bench.press(&press)?;
 /// let label = bench.label(&press, &contact);
-/// // Contact is found late: the ball stands deeper than the rig believes.
+/// First touch is detected late: the ball is deeper than the rig reports.
 /// assert!(contact.depth_mm > label.position_mm[2]);
 /// assert_eq!(bench.provenance().to_string().split(',').next(), Some("source = simulated"));
 /// # Ok::<(), taceva_sim::PressError>(())
@@ -68,7 +68,7 @@ impl Bench {
         &self.unit
     }
 
-    /// Body of the sensor, for callers that move a ball step by step.
+    /// Body of the sensor, for callers that move a ball stepwise.
     pub fn solid(&self) -> &Solid {
         &self.solid
     }
@@ -205,7 +205,7 @@ impl Bench {
         contact
     }
 
-    /// Reduces an indentation to the force limit; returns true if that was needed.
+    /// Reduces an indentation to the force limit. Returns true if a reduction was needed.
     fn limit(&self, indentation: &mut Indentation) -> bool {
         let limit_n = self.parameters.probing.force_max_n;
         let loading = |depth_mm: f64| Indentation {
@@ -213,7 +213,7 @@ impl Bench {
             deepest_mm: depth_mm,
             ..*indentation
         };
-        // Relaxation only lowers a force, so an unrelaxed force within the limit suffices.
+        // Relaxation only lowers a force, so checking the unrelaxed force suffices.
         if self.solid.swift_force_n(&loading(indentation.deepest_mm)) <= limit_n {
             return false;
         }
@@ -237,5 +237,5 @@ impl Bench {
     }
 }
 
-/// Halvings of a depth: to a nanometre and far below.
+/// Bisection steps of a depth, which reach far below a nanometre.
 const BISECTIONS: u32 = 30;

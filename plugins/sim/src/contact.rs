@@ -33,19 +33,19 @@ pub struct Contact {
     pub normal_depth_mm: f64,
     /// Normal of the contact: x, y and upwards, out of the gel.
     pub normal: [f64; 3],
-    /// Direction of the displacement along the surface; zero without one.
+    /// Direction of the displacement along the surface; zero without displacement.
     pub tangent: [f64; 3],
-    /// Displacement that the surface followed; beyond it the ball slid.
+    /// Displacement in which the surface sticks to the ball. Beyond it, the ball slides.
     pub carried_mm: f64,
     /// Sliding distance of the ball over the surface.
     pub slip_mm: f64,
-    /// The contact radius a.
+    /// Contact radius a.
     pub radius_mm: f64,
     /// Radius of the zone without slip.
     pub stick_radius_mm: f64,
-    /// The radius of the ball.
+    /// Radius of the ball.
     pub indenter_radius_mm: f64,
-    /// Effective modulus at this place, depth and time; on a dome that of the gel under the skin.
+    /// Effective modulus at this place, depth and time. On a dome: modulus of the gel under the skin.
     pub young_modulus_mpa: f64,
     /// Share of the skin in the normal force; 0 on a flat gel.
     pub skin_share: f64,
@@ -55,7 +55,7 @@ pub struct Contact {
     pub shear_force_n: f64,
     /// Force of the ball on the sensor: along x, along y, and into the gel along the sensor's axis.
     pub force_n: [f64; 3],
-    /// Travel of the robot after first contact: as commanded, or less if the press was limited.
+    /// Travel of the robot after first contact: as commanded, or less if the force limit stopped the press.
     pub travel_mm: f64,
     /// True if the force limit stopped the press before its depth.
     pub limited: bool,

@@ -1,9 +1,8 @@
-//! Displacement of the points of a gel under a press: radial tables, made once a sensor, and looked up at each pixel.
+//! Displacement of the points of a gel under a press: radial tables, computed once per sensor and interpolated at each pixel.
 //!
-//! The pressure is Hertz's over the contact radius a, the shear that of no slip, q = Q/(2π a √(a² − r²)). Both are convolved with the
-//! [`Kernel`](crate::elastic::kernel::Kernel) of the bonded layer in a Hankel integral. All factors except the depth below the surface are
-//! scaled out, so one [`Tables`] serves every force, modulus and place. A [`Profile`] is its row for one press, a [`Field`] that row at its
-//! place.
+//! The pressure is Hertz's over the contact radius a. The shear stress is that of no slip, q = Q/(2π a √(a² − r²)). Both are convolved with the
+//! [`Kernel`](crate::elastic::kernel::Kernel) of the bonded layer in a Hankel integral. All factors except the depth below the surface are scaled
+//! out, so one [`Tables`] serves every force, modulus and place. A [`Profile`] is its row for one press, and a [`Field`] is that row at its place.
 //!
 //! With r the place relative to the centre of the contact, s the unit vector of the shear and r² = r·r, a profile gives
 //!

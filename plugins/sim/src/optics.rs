@@ -1,16 +1,16 @@
 //! Pictures: the view of the camera in a tactile sensor.
 //!
-//! A [`Camera`] is one unit of one sensor at one frame size. It turns a [`View`] into a frame in the caller's buffer, and returns its
-//! brightness. Everything is in closed form, and every picture is a function of its inputs alone.
+//! A [`Camera`] is one unit of one sensor at one frame size. It renders a [`View`] into a frame in the caller's buffer, and returns the brightness of
+//! the frame. All formulas are in closed form, and a picture depends only on its inputs.
 //!
 //! Steps of a picture, a few rows at a time:
 //!
-//! 1. copy the picture of the untouched gel, computed once a camera;
-//! 2. recompute the pixels near the contact, from radial tables by the squared distance;
+//! 1. copy the picture of the untouched gel, computed once per camera;
+//! 2. recompute the pixels near the contact, from radial tables indexed by the squared distance;
 //! 3. darken the markers at their present places;
 //! 4. add noise from a tile of normal numbers, round, clip, and sum the brightness.
 //!
-//! The pictures are simulated: parameters marked *fit* reproduce a figure of the paper, those marked *free* have no public evidence.
+//! The pictures are simulated. Parameters marked *fit* reproduce a figure of the paper; those marked *free* have no public evidence.
 
 mod ambient;
 mod band;

@@ -1,7 +1,7 @@
 //! Parameters of a sensor and its rig: values with a unit and an origin, read from TOML and checked.
 //!
-//! Every value is written `key = { value = 4.25, unit = "mm", origin = "geometric" }`; the origin tells how far to trust it. For another
-//! sensor, copy one of the built-in tables, change its values, and read it by [`Parameters::parse`].
+//! Every value has the form `key = { value = 4.25, unit = "mm", origin = "geometric" }`. The origin tells how reliable the value is. For another
+//! sensor, copy one of the built-in tables, change its values, and read it with [`Parameters::parse`].
 
 mod digest;
 mod error;
@@ -25,7 +25,7 @@ pub use sections::{
 use read::Document;
 use section::Section;
 
-/// Body of a sensor, which responds to a press.
+/// Body of a sensor. It responds to a press.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Body {
     /// A flat gel on a rigid plate.
@@ -47,7 +47,7 @@ pub enum Body {
 pub struct Parameters {
     /// Name of the sensor in reports.
     pub name: String,
-    /// Body, which responds to a press.
+    /// Body of the sensor.
     pub body: Body,
     /// Surface under the indenter.
     pub surface: Surface,
@@ -67,7 +67,7 @@ pub struct Parameters {
     pub gratings: Gratings,
     /// Robot that moves the indenter.
     pub robot: Robot,
-    /// Search for contact.
+    /// Search for first contact.
     pub search: Search,
     /// Force transducer.
     pub transducer: Transducer,
@@ -79,8 +79,8 @@ impl Parameters {
     /// Parses the parameters in `text`.
     ///
     /// # Errors
-    /// [`ParameterError`] with the line, the value found and the value expected: invalid TOML, an unknown or missing section or key, a
-    /// value out of range, another unit than the declared one, or contradictory values.
+    /// [`ParameterError`] with the line, the value found and the value expected. Causes: invalid TOML, an unknown or missing section or key, a value
+    /// out of range, another unit than the declared one, or contradictory values.
     pub fn parse(text: &str) -> Result<Parameters, ParameterError> {
         let mut document = Document::parse(text)?;
         let name = document.name()?;
@@ -128,12 +128,12 @@ impl Parameters {
         &self.entries
     }
 
-    /// Digest of the parameters, 32 bytes: equal values, units and origins give equal digests, whatever the layout of the file.
+    /// Digest of the parameters, 32 bytes. Equal values, units and origins give equal digests for any layout of the file.
     pub fn digest(&self) -> &ParameterDigest {
         &self.digest
     }
 
-    /// Rejects values that are in range but contradict each other.
+    /// Rejects values that are each in range but contradict each other.
     fn check(&self) -> Result<(), ParameterError> {
         let Probing {
             depth_min_mm,

@@ -1,10 +1,10 @@
-//! Provenance of simulated numbers, which marks them as not measured.
+//! Provenance of simulated numbers. It marks them as not measured.
 
 use std::fmt;
 
 use crate::parameters::ParameterDigest;
 
-/// Version of the physical model; it changes when the same parameters and seed give other numbers.
+/// Version of the physical model. It increases if the same parameters and seed give different numbers.
 pub const MODEL_VERSION: u32 = 2;
 
 /// Provenance of a product of the bench.
@@ -14,9 +14,9 @@ pub struct Provenance {
     pub sensor: String,
     /// Number of the unit.
     pub unit: u32,
-    /// The seed of the run.
+    /// Seed of the run.
     pub seed: u64,
-    /// The parameters.
+    /// Digest of the parameters.
     pub parameters: ParameterDigest,
 }
 

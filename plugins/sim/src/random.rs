@@ -1,16 +1,15 @@
-//! Random numbers by lookup: each is a function of its purpose, identity and index.
+//! Random numbers by lookup. Each is a function of its purpose, identity and index.
 //!
 //! The key of a number is the seed, a [`Purpose`], an identity (a press, a point, a frame) and an index. A press is therefore independent
 //! of earlier presses, of threads and of interruptions.
 //!
-//! The mixing is that of `taceva_core::random`, applied once a coordinate. A normal number comes from one uniform number through the
-//! inverse of the distribution.
+//! The mixing is that of `taceva_core::random`, applied once per coordinate. A normal number is the quantile of one uniform number.
 
 mod normal;
 
 use taceva_core::random::{Draws, mix, open_unit};
 
-/// Purpose of a random number; different purposes never share a number.
+/// Purpose of a random number. Different purposes never share a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u32)]
 #[non_exhaustive]
@@ -153,7 +152,7 @@ mod tests {
         for (left, right) in pairs {
             let n = 50_000_u64;
             let sum: f64 = (0..n).map(|i| left.normal(i) * right.normal(i)).sum();
-            // The standard deviation of the mean product is 1/√n.
+            // Standard deviation of the mean product: 1/√n.
             assert!((sum / n as f64).abs() < 4.0 / (n as f64).sqrt());
         }
     }

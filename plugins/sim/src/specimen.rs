@@ -13,7 +13,7 @@ pub enum Indenter {
     Ball2,
     /// Radius 4 mm.
     Ball4,
-    /// Radius 10 mm: the alternative for maps of the surface.
+    /// Radius 10 mm: the alternative for surface maps.
     Ball10,
 }
 
@@ -44,7 +44,7 @@ impl fmt::Display for Indenter {
     }
 }
 
-/// A board with a relief of equal ridges or bumps and gaps, 10 mm square; its period is twice the spacing.
+/// A board with a relief of equal ridges or bumps and gaps, 10 mm square. Its period is twice the spacing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Grating {
     kind: GratingKind,
@@ -57,7 +57,7 @@ const SPACING_MAX: i64 = 1_750_000;
 const SPACING_STEP: i64 = 50_000;
 
 impl Grating {
-    /// Board of this kind and spacing.
+    /// Creates the board of this kind and spacing.
     ///
     /// # Errors
     /// [`GratingError`] if the catalogue has no such board: spacings are 0.25 to 1.75 mm in steps of 0.05 mm.
@@ -90,7 +90,7 @@ impl Grating {
         self.spacing
     }
 
-    /// Distance between ridges, mm.
+    /// Distance between the centres of ridges, mm.
     pub fn period_mm(&self) -> f64 {
         Nanometre(2 * self.spacing.0).to_millimetres()
     }

@@ -1,7 +1,7 @@
 //! One unit of a sensor: its differences from other units, and between places.
 //!
-//! A unit is a function of the sensor's name and its number, not of the run's seed: it is the same gel in every run. Unit 0 has the nominal
-//! modulus and sag.
+//! A unit depends on the name of the sensor and the number of the unit, not on the seed of a run, so it is the same gel in every run. Unit 0 has the
+//! nominal modulus and sag.
 
 use std::f64::consts::TAU;
 
@@ -21,7 +21,7 @@ pub struct Unit {
     surface: Surface,
 }
 
-/// Surface of a flat gel, as moulded.
+/// Surface of a flat gel, without load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Relief {
     sag_ratio: f64,
@@ -30,7 +30,7 @@ struct Relief {
     blisters: [Blister; BLISTERS],
 }
 
-/// A blister, where the gel has detached from its plate.
+/// A blister: a place at which the gel has detached from its plate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Blister {
     centre_mm: [f64; 2],
@@ -38,13 +38,13 @@ struct Blister {
     height_mm: f64,
 }
 
-/// Number of blisters; the second may have height 0.
+/// Number of blisters. The second may have height 0.
 const BLISTERS: usize = 2;
-/// Distances along x and y at which the sag is stated.
+/// Distances along x and y at which the sag is specified.
 const SAG_STATED_MM: [f64; 2] = [7.0, 9.0];
 /// Bound of the rounding error of sums of a few lengths.
 const ROUNDING_MM: f64 = 1e-9;
-/// Start of the edge softening, as a part of the reach, and the margin of the gel beyond the picture.
+/// Start of the edge softening, as a fraction of the reach, and the margin of the gel beyond the picture.
 const EDGE_BEGINS: f64 = 0.75;
 const EDGE_MARGIN_MM: f64 = 1.5;
 
@@ -81,13 +81,13 @@ impl Unit {
         self.number
     }
 
-    /// Stiffness at a place relative to the nominal one, above 0.
+    /// Stiffness at a place relative to the nominal stiffness, above 0.
     pub fn stiffness(&self, place_mm: [f64; 2]) -> f64 {
         let smooth = 1.0 + self.stiffness_sd * self.stiffness.at(place_mm);
         self.modulus_ratio * smooth.max(0.1) * self.edge(place_mm)
     }
 
-    /// Height of the surface at a place over the ideal one; negative where it sags.
+    /// Height of the surface at a place above the ideal surface; negative if it sags.
     pub fn height_mm(&self, place_mm: [f64; 2]) -> f64 {
         let Some(relief) = &self.relief else {
             return 0.0;
@@ -112,7 +112,7 @@ impl Unit {
         relief.gap_mm.abs() * Waves::GREATEST + blisters.sum::<f64>() + ROUNDING_MM
     }
 
-    /// Edge softening: 1 inside, less towards the free edge.
+    /// Edge softening: 1 inside, lower towards the free edge.
     fn edge(&self, place_mm: [f64; 2]) -> f64 {
         let reach = |length: f64| 0.5 * length + EDGE_MARGIN_MM;
         let x = place_mm[0].abs() / reach(self.surface.width_mm);
@@ -170,12 +170,12 @@ struct Waves {
 }
 
 const WAVES: usize = 8;
-/// Greatest wave numbers along x and y, in radians per millimetre.
+/// Greatest wave numbers along x and y, radians per millimetre.
 const STIFFNESS_WAVES: f64 = 0.5;
 const GAP_WAVES: f64 = 1.0;
 
 impl Waves {
-    /// Greatest possible value: eight cosines of 1.
+    /// Greatest possible value: the sum of eight cosines of 1, halved.
     const GREATEST: f64 = 0.5 * WAVES as f64;
 
     fn new(stream: Stream, first: u64, wave_number_max: f64) -> Waves {
@@ -195,7 +195,7 @@ impl Waves {
             .waves
             .iter()
             .map(|[along_x, along_y, phase]| libm::cos(along_x * x + along_y * y + phase));
-        // Eight cosines have the variance 4.
+        // The sum of eight cosines has variance 4.
         0.5 * cosines.sum::<f64>()
     }
 }
@@ -217,7 +217,7 @@ mod tests {
                     .powi(2)
             })
             .sum();
-        // The variance of a sum of eight cosines squared over 400 units is known to some 7 %.
+        // The squared sum of eight cosines, averaged over 400 units, is accurate to about 7 %.
         assert!((squares / f64::from(n) - 1.0).abs() < 0.2, "{squares}");
     }
 

@@ -1,25 +1,25 @@
-//! The kinds of plugin that a new project can begin as.
+//! Kinds of plugin for a new project.
 
 use std::fmt;
 
-/// The kind of the one driver or estimator that a new plugin provides.
+/// Kind of the driver or estimator that a new plugin provides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Gives pictures of a gel.
+    /// Captures pictures of a gel.
     Sensor,
     /// Moves the indenter.
     Robot,
     /// Measures the force on the gel.
     Force,
-    /// Sets the light around the sensor.
+    /// Controls the light around the sensor.
     Lighting,
     /// Brings specimens or units into place.
     Changer,
-    /// Learns to read the pictures.
+    /// Learns to predict from pictures.
     Estimator,
 }
 
-/// The files that differ from kind to kind.
+/// Files that differ between kinds.
 pub(crate) struct Files {
     pub(crate) library: &'static str,
     pub(crate) driver: &'static str,
@@ -59,7 +59,7 @@ impl Kind {
         }
     }
 
-    /// Noun for people.
+    /// Noun of the kind in texts.
     pub(crate) const fn noun(self) -> &'static str {
         match self {
             Kind::Force => "force transducer",
@@ -67,7 +67,7 @@ impl Kind {
         }
     }
 
-    /// Noun with its article, at the beginning of a sentence.
+    /// Noun with its article, for the beginning of a sentence.
     pub(crate) fn noun_with_article(self) -> String {
         let noun = self.noun();
         let is_vowel = noun.starts_with(['a', 'e', 'i', 'o', 'u']);

@@ -5,14 +5,14 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
-/// The name of a project, of its crate, and of its driver: a lower-case letter, then letters, digits and single `-`.
+/// Name of a project, of its crate and of its driver: a lower-case letter, then letters, digits and single `-`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Name(String);
 
-/// Longest name, in bytes; with `org.example.` before it, it is still an id.
+/// Maximum length of a name, bytes. With the prefix `org.example.`, it is still a valid id.
 const LENGTH_MAX: usize = 64;
 
-/// Words that the language, its libraries or the crates that a project depends on have taken.
+/// Words reserved by the language, its libraries, or dependencies of a project.
 const TAKEN: &str = "\
     abstract alloc as async await become box break const continue core crate do dyn \
     else enum extern false final fn for gen if impl in let loop macro \
@@ -21,12 +21,12 @@ const TAKEN: &str = "\
     while yield";
 
 impl Name {
-    /// The name as text.
+    /// Name as text.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// The name of the crate in code and in the file of its library.
+    /// Name of the crate in code and in its library file.
     pub fn as_crate(&self) -> String {
         self.0.replace('-', "_")
     }
@@ -65,7 +65,7 @@ impl fmt::Display for Name {
     }
 }
 
-/// Text that is no valid name of a plugin.
+/// Error for a text that is not a valid plugin name.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{text:?} is not a valid name for a plugin, {problem}")]
 pub struct NameError {

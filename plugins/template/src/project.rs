@@ -1,9 +1,9 @@
-//! A new plugin as files.
+//! Files of a new plugin.
 
 use crate::kind::Kind;
 use crate::name::Name;
 
-/// The sources of the crates that a plugin in Rust is built from: `taceva-core/src/lib.rs` and its text.
+/// Sources of the crates for Rust plugins: paths such as `taceva-core/src/lib.rs`, and their texts.
 const SOURCES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
 
 /// Manifests of these crates, without inheritance from a workspace.
@@ -22,31 +22,31 @@ const MANIFESTS: [(&str, &str); 3] = [
     ),
 ];
 
-/// The headers for plugins in C and C++: `include/taceva/plugin.h` and its text.
+/// Headers for C and C++ plugins: paths such as `include/taceva/plugin.h`, and their texts.
 const HEADERS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/headers.rs"));
 
-/// The version of this program, and of the crates that it embeds.
+/// Version of this program and of the embedded crates.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Source of the crates that a plugin is built from.
+/// Source of the crates for a plugin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sources {
-    /// From this program, under `vendor/`: it builds without a network, against what this program knows.
+    /// Embedded in this program, under `vendor/`. The plugin builds without a network, for the interface of this program.
     Vendored,
     /// From the registry, by version.
     Registry,
 }
 
-/// A file of a project.
+/// File of a project.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct File {
-    /// Path below the folder of the project, with `/` between its parts.
+    /// Path below the folder of the project, with `/` as separator.
     pub path: String,
     /// Content of the file.
     pub text: String,
 }
 
-/// The files of a new plugin with one driver of `kind`.
+/// Files of a new plugin with one driver of `kind`.
 pub fn project(kind: Kind, name: &Name, sources: Sources) -> Vec<File> {
     let of_kind = kind.files();
     let fill = |text: &str| {
@@ -77,7 +77,7 @@ pub fn project(kind: Kind, name: &Name, sources: Sources) -> Vec<File> {
     files
 }
 
-/// The headers for plugins in C and C++, below `include/`.
+/// Headers for C and C++ plugins, below `include/`.
 pub fn headers() -> Vec<File> {
     let headers = HEADERS.iter().map(|(path, text)| File {
         path: (*path).to_owned(),

@@ -1,10 +1,10 @@
-//! A new plugin in Python as files.
+//! Files of a new Python plugin.
 
 use crate::kind::Kind;
 use crate::name::Name;
 use crate::project::File;
 
-/// The module and its part of the manifest.
+/// Module, and its part of the manifest.
 fn module(kind: Kind) -> (&'static str, &'static str) {
     macro_rules! files {
         ($kind:literal) => {
@@ -24,14 +24,14 @@ fn module(kind: Kind) -> (&'static str, &'static str) {
     }
 }
 
-/// The files of a new plugin in Python with one driver of `kind`.
+/// Files of a new Python plugin with one driver of `kind`.
 pub fn python_project(kind: Kind, name: &Name) -> Vec<File> {
     let (module, provides) = module(kind);
     let manifest = [include_str!("../project/python/plugin.toml.in"), provides].concat();
     files(kind, name, module, &manifest, "\"taceva\"")
 }
 
-/// The files of a new estimator in Python that is a network of PyTorch.
+/// Files of a new Python estimator with a PyTorch network.
 pub fn torch_project(name: &Name) -> Vec<File> {
     let module = include_str!("../project/python/torch/__init__.py.in");
     let manifest = include_str!("../project/python/torch/plugin.toml.in");
@@ -39,7 +39,7 @@ pub fn torch_project(name: &Name) -> Vec<File> {
     files(Kind::Estimator, name, module, manifest, dependencies)
 }
 
-/// The files of a package with this module and manifest.
+/// Files of a package with this module and manifest.
 fn files(kind: Kind, name: &Name, module: &str, manifest: &str, dependencies: &str) -> Vec<File> {
     let fill = |text: &str| {
         text.replace("@name@", name.as_str())

@@ -43,7 +43,7 @@ _shown: bool | None = None
 
 
 def progress(shown: bool | None) -> None:
-    """Show bars always (``True``), never (``False``), or on terminals and in notebooks (``None``, as at the start)."""
+    """Show bars of tqdm always (``True``), never (``False``), or on terminals and in notebooks (``None``, the default)."""
     global _shown
     _shown = shown
 

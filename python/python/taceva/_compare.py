@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import html
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from taceva import _taceva
 from taceva._figure import Figure, figures_of
-from taceva._result import Result, not_measured
+from taceva._result import Result
 
 
 class Comparison:
-    """Differences with intervals and tests, adjusted by Holm over all of them."""
+    """What `compare` returns: differences between results with intervals and p-values, adjusted by Holm for the number of comparisons."""
 
     def __init__(self, results: Sequence[Result], metrics: Sequence[str], margins: Mapping[str, float], seed: int) -> None:
         self._asked = ([result.text for result in results], list(metrics), dict(margins), seed)
-        self._said = not_measured([result.source for result in results])
 
     def _form(self, form: str) -> str:
         return _taceva.comparison(*self._asked, form)
@@ -28,17 +26,17 @@ class Comparison:
 
     def to_latex(self) -> str:
         """Return a table for a paper."""
-        return "".join(f"% {line}\n" for line in self._said) + self._form("tex")
+        return self._form("tex")
 
     def figures(self) -> list[Figure]:
         """Return every figure that shows the results together."""
         return figures_of(self._asked[0])
 
     def __str__(self) -> str:
-        return "\n".join([*self._said, self._form("text")])
+        return self._form("text")
 
     def _repr_html_(self) -> str:
-        return "".join(f"<p>{html.escape(line)}</p>" for line in self._said) + self._form("html")
+        return self._form("html")
 
 
 def compare(
@@ -51,10 +49,19 @@ def compare(
 
     Parameters
     ----------
+    results
+        Of the same metrics, such as of two models on one recording. Results that scored the same samples are compared in pairs.
     metrics
         Metrics and groups by name; all that the results share, if empty.
     margins
-        By ``metric.channel`` or ``metric``: the largest difference that still counts as equal, in the unit of the metric.
+        The largest difference that still counts as equal, in the unit of the metric: ``{"mae.Fz": 0.05}``, or ``{"mae": 0.05}`` for every channel.
+    seed
+        Of the random signs of the sign-flip test.
+
+    Raises
+    ------
+    ValueError
+        For fewer than two results.
 
     >>> import taceva
     >>> truth = [[0.0], [1.0], [2.0], [3.0], [4.0], [5.0]]

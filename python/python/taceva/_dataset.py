@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from taceva import _taceva
 from taceva._bar import bar
+from taceva._counted import counted
 from taceva._pickles import PICKLE_VERSION, require_version
 from taceva._settings import setting_words
 
@@ -37,14 +38,15 @@ class Rows:
 class Samples(NamedTuple):
     """What the sensor gave in some rows, and their labels. One row has no axis of rows."""
 
-    #: Frames ``[rows, height, width, samples]``, else signals ``[rows, values]``; ``None`` in a recording of labels alone.
+    #: Frames ``[rows, height, width, samples]``, with one sample per pixel (gray) or three (red, green, blue). Else signals ``[rows, values]``;
+    #: ``None`` in a recording of labels alone.
     seen: npt.NDArray[Any] | None
     #: ``[rows, channels]``; NaN for an absent label.
     labels: npt.NDArray[np.float64]
 
 
 class Dataset:
-    """A recording: labels of every sample, and frames or signals.
+    """A recording: labels of every sample, and frames or signals. `open` opens one, `from_arrays` writes one.
 
     ``dataset[3]``, ``dataset[-1]``, ``dataset[10:20]`` and ``dataset[mask]`` are `Samples`; ``frames``, ``features`` and the other methods take
     the same kinds of rows.
@@ -98,7 +100,7 @@ class Dataset:
 
     @property
     def frame_shape(self) -> tuple[int, int, int] | None:
-        """Height, width and samples per pixel of frames; ``None`` without frames."""
+        """Height, width and samples per pixel (1 gray, 3 red, green, blue) of frames; ``None`` without frames."""
         return self._inner.frame_shape()
 
     def __len__(self) -> int:
@@ -117,11 +119,17 @@ class Dataset:
         return Samples(np.asarray(self._inner.signals(wanted)) if has_signals else None, self._labels[wanted])
 
     def labels(self) -> npt.NDArray[np.float64]:
-        """Return ``[rows, channels]``, read-only; NaN for an absent label."""
+        """Return ``[rows, channels]``, float64 in `units`, read-only; NaN for an absent label."""
         return np.asarray(self._inner.labels())
 
     def points(self) -> list[str | None]:
-        """Return the contact point of each row."""
+        """Return the name of the contact point of each row, ``None`` for a row without one.
+
+        Raises
+        ------
+        KeyError
+            If the recording has no contact points.
+        """
         return self.column("point_id")
 
     def column(self, name: str) -> list[str | None]:
@@ -139,7 +147,7 @@ class Dataset:
         return found
 
     def frame(self, row: int) -> npt.NDArray[Any]:
-        """Return ``[height, width, samples]`` of one row."""
+        """Return ``[height, width, samples]`` of one row, as `frames` does."""
         found: npt.NDArray[Any] = self.frames([row], jobs=1)[0]
         return found
 
@@ -186,7 +194,16 @@ class Dataset:
         return np.asarray(self._inner.signals(self._rows(rows)))
 
     def split(self, split: str | None = None, seed: int = 0) -> Rows:
-        """Divide the rows as ``taceva evaluate --split`` does: ``by-point 70/15/15``, ``random 80/0/20``, ``chronological 90/0/10`` and others."""
+        """Divide the rows as ``taceva evaluate --split`` does: ``by-point 70/15/15``, ``random 80/0/20``, ``chronological 90/0/10`` and others.
+
+        The numbers are percentages of training, validation and test. ``by-point`` keeps the samples of one contact point together. ``None``
+        divides as ``taceva evaluate`` does without ``--split``.
+
+        Raises
+        ------
+        ValueError
+            For a split that does not exist, or that the recording does not allow.
+        """
         parts, name = self._inner.split(split, seed)
         return _rows_by_part(parts, name)
 
@@ -208,7 +225,7 @@ class Dataset:
         return dict(json.loads(self._inner.check(jobs, bar())))
 
     def to_pandas(self) -> Any:
-        """Return the table as a ``pandas.DataFrame``, one row per sample; ``attrs["units"]`` holds units by column."""
+        """Return labels and columns of the table as a ``pandas.DataFrame``, one row per sample; ``attrs["units"]`` holds units by column."""
         import pandas
 
         frame = pandas.DataFrame(np.array(self.labels()), columns=list(self.channels))
@@ -308,7 +325,7 @@ class Dataset:
             )
         if wanted.dtype.kind == "b":
             if len(wanted) != len(self):
-                raise IndexError(f"a mask of {len(wanted)} rows for a recording of {len(self)}")
+                raise IndexError(f"a mask of {counted(len(wanted), 'row')} for a recording of {len(self)}")
             return [int(row) for row in np.flatnonzero(wanted).tolist()]
         beyond = wanted[(wanted < -len(self)) | (wanted >= len(self))]
         if beyond.size:
@@ -316,7 +333,7 @@ class Dataset:
         return [int(row) + len(self) if row < 0 else int(row) for row in wanted.tolist()]
 
     def __repr__(self) -> str:
-        return f"<taceva.Dataset {self.path!r}: {len(self)} rows of {self.sensor}, {self.source}>"
+        return f"<taceva.Dataset {self.path!r}: {counted(len(self), 'row')} of {self.sensor}, {self.source}>"
 
     def __reduce__(self) -> tuple[Any, tuple[int, str, str, str | None]]:
         return _arrived, (PICKLE_VERSION, self.path, self.digest, self.view)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
+from contextvars import ContextVar
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,11 @@ from taceva._onnx import OnnxModel
 from taceva._predictions import prediction_rows
 from taceva._result import Result
 from taceva._settings import metric_names, setting_words
+
+#: Number of models that are evaluated now, each called by the one before it.
+_DEPTH: ContextVar[int] = ContextVar("_DEPTH", default=0)
+#: Most of them: a model may evaluate others, but one that evaluates itself would never end.
+_DEEPEST = 8
 
 
 def evaluate(
@@ -42,7 +48,8 @@ def evaluate(
         - a name, such as ``"ridge"``, ``"fast"``, ``"cnn"``, ``"auto"`` or ``"linfa/elastic-net"``, or the key of a plugin: fitted here; see `models`;
         - the file of a model that ``taceva fit`` wrote, which brings its own split;
         - an object with ``fit(X, y)`` and ``predict(X)``, as scikit-learn's: fitted here on ``X``, float32 ``[rows, features]`` (see
-          `Dataset.features`, 32×32 gray by default), and ``y``, float64 ``[rows, channels]`` in their units; ``fit`` changes it;
+          `Dataset.features`, 32×32 gray by default), and ``y``, float64 ``[rows, channels]`` in their units, or ``[rows]`` of one channel.
+          The object stays fitted;
         - `onnx` of a file;
         - a ``torch.nn.Module``: called in ``eval`` mode without gradients, on its own device and in its own precision, with
           ``[rows, samples, height, width]`` from 0 to 1;
@@ -61,8 +68,12 @@ def evaluate(
     bounded
         ``False`` scores the predictions of an object with ``fit`` unchanged, and a note says so. Otherwise they are clamped to the range of its
         training labels plus a quarter of that range, as for every model that is fitted here.
+    metrics
+        Metrics and groups by name; ``all`` scores every metric that the recording supports, and the result names those that were skipped.
     batch
         Number of frames in one call of a module or a callable.
+    jobs
+        Number of threads, all cores if 0; results do not depend on it.
 
     Returns
     -------
@@ -72,10 +83,10 @@ def evaluate(
     Raises
     ------
     ModelError
-        For a model that does not match the recording.
+        For a model that does not match the recording, and for one that calls or evaluates itself without end (`RecursionError`).
     ValueError
-        For a model, a setting or a split that does not exist, and for predictions of another shape or that are not finite. Exceptions of
-        your model are raised unchanged.
+        For a model, a setting or a split that does not exist, and for predictions of another shape or that are not finite. Other exceptions
+        of your model are raised unchanged.
     """
     recording = dataset if isinstance(dataset, Dataset) else Dataset(dataset)
     wanted = metric_names(metrics)
@@ -106,14 +117,45 @@ def evaluate(
     # The model has the channels in the order of the caller, a recording in its own.
     names = list(channels) or given.channels()
     described = model.settings if isinstance(model, OnnxModel) else _settings_of(model) if learns else {}
-    if learns:
-        predictions = _fitted(recording, model, given, names, words, described, jobs)
-    else:
-        predictions = _called(recording, model, given, names, batch, jobs)
+
+    def predicted() -> Any:
+        if learns:
+            return _fitted(recording, model, given, names, words, described, jobs)
+        return _called(recording, model, given, names, batch, jobs)
+
+    predictions = _ending(_name_of(model), predicted)
     found = prediction_rows(predictions, _name_of(model), len(given.target()), names)
     found = np.ascontiguousarray(found[:, [names.index(name) for name in given.channels()]])
     text = given.score(recording._inner, _name_of(model), described, found, wanted, jobs)
     return Result(text)
+
+
+def _ending(name: str, work: Callable[[], Any]) -> Any:
+    """Return what ``work`` gives, which runs the model ``name``; a recursion without end is an error of that model."""
+    depth = _DEPTH.get()
+    if depth >= _DEEPEST:
+        raise RecursionError(f"{depth} evaluations of models lie within one another")
+    token = _DEPTH.set(depth + 1)
+    try:
+        return work()
+    except RecursionError as error:
+        why = f"{error}{_place_of(error)}"
+    finally:
+        _DEPTH.reset(token)
+    # Raised out here: its context would keep every call of the recursion, and the arrays that these hold.
+    raise _taceva.ModelError(f"{name} calls itself without end: {why}")
+
+
+def _place_of(error: BaseException) -> str:
+    """Return the innermost file and line outside of this package that ``error`` passed."""
+    own = os.path.dirname(__file__)
+    place, trace = "", error.__traceback__
+    while trace is not None:
+        file = trace.tb_frame.f_code.co_filename
+        if os.path.dirname(file) != own:
+            place = f" ({file}, line {trace.tb_lineno})"
+        trace = trace.tb_next
+    return place
 
 
 def _fitted(

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from taceva._arrays import native, points, real
+from taceva._counted import counted
 
 #: Fields that are texts, and those that are numbers, of which some count.
 _TEXTS = ("scene", "unit_id", "phase")
@@ -35,7 +36,7 @@ def columns(fields: Mapping[str, Any], expected: Sequence[str], rows: int) -> li
     for name in expected:
         column = points(fields[name], name) if name in _TEXTS else _numbers(fields[name], name)
         if len(column) != rows:
-            raise ValueError(f"{name} has {len(column)} rows, truth has {rows}")
+            raise ValueError(f"{name} has {counted(len(column), 'row')}, truth has {rows}")
         if name == "phase":
             other = sorted({str(phase) for phase in column} - {"load", "unload"})
             if other:

@@ -13,6 +13,7 @@ from taceva import _taceva
 from taceva._arrays import numbers
 from taceva._arrays import points as names_of_points
 from taceva._column_names import beside, pair
+from taceva._counted import counted
 from taceva._metrics import SIX
 from taceva._result import Interval, Score
 
@@ -45,7 +46,7 @@ def score_function(
     """Return by channel the number that ``function`` gives for truth and prediction, with an interval by contact point.
 
     The interval of 95 % is BCa: the function is called again for ``draws`` samples of whole points, drawn with replacement, and once without each
-    point, or each two-hundredth of them. The same ``seed`` gives the same interval.
+    point, or each two-hundredth of them. The same ``seed`` gives the same interval. Fewer than six points give none.
 
     Parameters
     ----------
@@ -88,7 +89,7 @@ def score_function(
     tables = [_table(both.truth, "truth", len(wanted)), _table(both.prediction, "prediction", len(wanted))]
     rows = len(tables[0])
     if len(tables[1]) != rows:
-        raise ValueError(f"prediction has {len(tables[1])} rows, truth has {rows}")
+        raise ValueError(f"prediction has {counted(len(tables[1]), 'row')}, truth has {rows}")
     clusters = _clusters(beside(both.points if points is None else points, both.index, "points"), rows, independent)
     called = name or str(getattr(function, "__name__", type(function).__name__))
     parts: dict[str, Any] = {"+".join(wanted): slice(None)} if together else {channel: at for at, channel in enumerate(wanted)}
@@ -131,7 +132,7 @@ def _clusters(points: Any, rows: int, independent: bool) -> list[npt.NDArray[np.
         return []
     names = names_of_points(points)
     if len(names) != rows:
-        raise ValueError(f"points has {len(names)} rows, truth has {rows}")
+        raise ValueError(f"points has {counted(len(names), 'row')}, truth has {rows}")
     by_name: dict[Any, list[int]] = {}
     for row, name in enumerate(names if isinstance(names, list) else names.tolist()):
         by_name.setdefault(name, []).append(row)
@@ -143,7 +144,7 @@ def _value(function: Metric, truth: Numbers, prediction: Numbers, name: str) -> 
     try:
         return float(found)
     except (TypeError, ValueError) as error:
-        raise TypeError(f"{name} returned {type(found).__name__}, expected a number for {len(truth)} rows") from error
+        raise TypeError(f"{name} returned {type(found).__name__}, expected a number for {counted(len(truth), 'row')}") from error
 
 
 def _interval(

@@ -13,6 +13,7 @@ from taceva._arrays import points as names_of_points
 from taceva._bar import bar
 from taceva._fields import columns, require_unweighted
 from taceva._column_names import beside, pair
+from taceva._counted import counted
 from taceva._pickles import PICKLE_VERSION, require_version
 from taceva._result import Result
 from taceva._settings import metric_names
@@ -34,13 +35,14 @@ class TactileMetrics:
     Parameters
     ----------
     channels
-        Names of the columns of the arrays.
+        Names of the columns of the arrays; by default the six, ``Px Py Pz`` in mm and ``Fx Fy Fz`` in N.
     metrics
-        Metrics and groups by name; by default MAE, RMSE, bias, R² and sMAPE. ``accuracy`` is MAE, R² and sMAPE, ``all`` is every metric.
+        Metrics and groups by name, which `metrics` lists; by default MAE, RMSE, bias, R² and sMAPE. ``accuracy`` is MAE, R² and sMAPE, ``all`` is every metric.
     units
         Units of channels besides the six, such as ``{"Mz": "N·mm"}``; ``1`` by default.
     periods
         Periods of angles in degrees, such as ``{"yaw": 360}``: 359 and 1 are 2 apart. A channel named only here is in degrees.
+        The period of a channel of unit ``rad`` is stated in degrees too.
     independent
         True for independent samples, whose intervals are by sample. If false and without points there are no intervals.
     fields
@@ -138,7 +140,7 @@ class TactileMetrics:
         rows = len(tables["truth"])
         for name, column in {"prediction": tables["prediction"], "points": names}.items():
             if column is not None and len(column) != rows:
-                raise ValueError(f"{name} has {len(column)} rows, truth has {rows}")
+                raise ValueError(f"{name} has {counted(len(column), 'row')}, truth has {rows}")
         said = columns(fields, self._asked[3], rows)
         # Of several blocks one may be refused, or Ctrl-C may come: they are summed apart, and joined when all of them are in.
         sums = self._sums if rows <= BLOCK_ROWS else _taceva.Sums(*self._asked)
@@ -198,11 +200,17 @@ class TactileMetrics:
         return found
 
     def compute(self) -> Result:
-        """Return the scores of all samples so far; more samples may follow."""
+        """Return the scores of all samples so far; more samples may follow. Without samples the scores are undefined."""
         return Result(self._sums.compute(sorted(self._paired)))
 
     def merge(self, other: TactileMetrics) -> None:
-        """Add the samples of ``other``, which has the same channels and metrics."""
+        """Add the samples of ``other``, which stays as it is.
+
+        Raises
+        ------
+        ValueError
+            If ``other`` has other channels or metrics.
+        """
         self._sums.merge(other._sums)
         self._paired |= other._paired
 
@@ -248,10 +256,23 @@ def score(
     allow_invalid: bool = False,
     **fields: Any,
 ) -> Result:
-    """Return the scores of ``prediction`` against ``truth``, arrays of ``[rows, channels]``; see `TactileMetrics`.
+    """Return the scores of ``prediction`` against ``truth``.
 
-    The default ``channels`` are the columns of data frames, or the six of the paper. Columns of data frames are matched by name, and
-    rows by key or index, as for two files. ``fields`` are additional fields of the rows, such as ``scene=[…]``.
+    Parameters
+    ----------
+    truth, prediction, points, allow_invalid
+        As of `TactileMetrics.update`: ``[rows, channels]`` in the unit of each channel, and the contact point of each row.
+    channels
+        Names of the columns; by default the columns of data frames, or the six, ``Px Py Pz`` in mm and ``Fx Fy Fz`` in N.
+    metrics, units, periods, independent
+        As of `TactileMetrics`.
+    fields
+        Additional fields of the rows, such as ``scene=["dark", …]``.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As of `TactileMetrics.update`.
 
     >>> import numpy as np
     >>> import taceva
@@ -283,8 +304,18 @@ def score_tables(
 ) -> Result:
     """Return the scores of two CSV tables, byte for byte as ``taceva score --truth … --pred …`` writes them.
 
-    Rows are paired by the column ``key`` of both, or by ``"order"``; by default by a key of a known name.
-    ``jobs`` is the number of threads, all cores if 0; results do not depend on it.
+    Parameters
+    ----------
+    truth, prediction
+        Files with a header, one row per sample and one column per channel, in mm and N.
+    sensor
+        A TOML file with facts of the sensor, as of ``taceva score --sensor``.
+    key
+        The column of both tables by which rows are paired, or ``"order"``. By default a column ``sample``, ``id``, ``sample_id`` or ``index``.
+    allow_invalid
+        True to count and skip rows with NaN or an infinite number instead of rejecting them.
+    jobs
+        Number of threads, all cores if 0; results do not depend on it.
     """
     text = _taceva.score_tables(
         os.fspath(truth),

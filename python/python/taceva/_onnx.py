@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from taceva._arrays import numbers
+from taceva._counted import counted
 from taceva._pickles import PICKLE_VERSION, require_version
 
 #: Types of the input, by their names in onnxruntime, and whether pixels are brought to 0…1.
@@ -99,7 +100,7 @@ class OnnxModel:
     def _rows(self, predicted: Any, rows: int) -> npt.NDArray[Any]:
         seen = numbers(predicted, f"what {self.name} predicted", allow_invalid=True)
         if seen.ndim == 0 or len(seen) != rows:
-            raise ValueError(f"{self.name} predicted an array of the shape {list(seen.shape)} for {rows} frames, expected [{rows}, channels]")
+            raise ValueError(f"{self.name} predicted an array of the shape {list(seen.shape)} for {counted(rows, 'frame')}, expected [{rows}, channels]")
         return seen
 
     def _wants(self, frames: npt.NDArray[Any]) -> str:
@@ -115,7 +116,7 @@ class OnnxModel:
         if not fit:
             raise ValueError(
                 f"{self._path}: the input {self._input.name} has the shape {self._shape}, which frames of "
-                f"{height}×{width} pixels of {samples} samples do not fit"
+                f"{height}×{width} pixels of {counted(samples, 'sample')} do not fit"
             )
         return fit[0]
 

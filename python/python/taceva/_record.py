@@ -13,6 +13,7 @@ from taceva._arrays import column_order, in_order, numbers, real, with_units
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
 from taceva._column_names import beside, named_columns
+from taceva._counted import counted
 from taceva._dataset import Dataset
 from taceva._metrics import SIX
 
@@ -47,19 +48,25 @@ def from_arrays(
         are matched by these names.
     frames
         ``[rows, height, width]`` (gray) or ``[rows, height, width, 3]`` (red, green, blue), uint8 or uint16, stored without loss; ``None`` for no frames.
-    sensor
-        The sensor model.
+    sensor, serial, gel
+        The sensor model, the serial number of the unit, and the id of its gel.
+    source
+        ``recorded`` by a real sensor, ``simulated``, or ``synthetic``: every output states it.
     channels
         Names of the labels; by default the columns that have names, or else the six of the paper. The recording has the six first, then others by
         name: see `Dataset.channels`.
-    source
-        ``recorded`` by a real sensor, ``simulated``, or ``synthetic``: every output states it.
+    units
+        Units of channels besides the six, such as ``{"Mz": "N·mm"}``; ``1`` by default.
     points, times, scenes
         The contact point, the time in seconds and the scene of each row. A column ``point_id`` of the labels is used by default.
     reference
-        The picture of the untouched gel.
+        The picture of the untouched gel: one frame, of the size and type of ``frames``.
+    opaque
+        True if the gel lets no light through; ``None`` if that is unknown.
+    clock
+        The clock of ``times``, as in the header of a recording: ``unix``, ``monotonic`` or ``unknown``.
     footprint_mm
-        Width and height of the sensing surface.
+        Width along x and height along y of the sensing surface, in mm.
 
     Raises
     ------
@@ -67,6 +74,14 @@ def from_arrays(
         If ``path`` has a recording, or the disk is full.
     ValueError, TypeError
         For arrays of unequal lengths or of other shapes.
+
+    >>> import tempfile
+    >>> import numpy as np
+    >>> import taceva
+    >>> frames = np.zeros((20, 24, 32), np.uint8)
+    >>> folder = tempfile.mkdtemp() + "/gel"
+    >>> taceva.from_arrays(folder, np.ones((20, 1)), frames, sensor="my gel", source="synthetic", channels=["Fz"]).frame_shape
+    (24, 32, 1)
     """
     if isinstance(channels, str):
         raise TypeError(f"channels: expected a list of names, found the text {channels!r}")
@@ -91,7 +106,7 @@ def from_arrays(
     rows = len(real(labels, "labels"))
     for name, column in {"frames": frames, "points": points, "times": times, "scenes": scenes}.items():
         if column is not None and len(column) != rows:
-            raise ValueError(f"{name} has {len(column)} rows, labels has {rows}")
+            raise ValueError(f"{name} has {counted(len(column), 'row')}, labels has {rows}")
     order = column_order(listed)
     table = np.ascontiguousarray(in_order(numbers(labels, "labels", allow_invalid=True), order))
     listed = listed if order is None else [listed[at] for at in order]
@@ -132,8 +147,13 @@ def import_recording(
 ) -> Dataset:
     """Import a folder of another program by a map, as ``taceva import SOURCE --map MAP --out OUT`` does, and open the recording.
 
-    ``taceva import SOURCE --draft`` writes a first map. ``replace`` replaces the recording at ``out`` once the new one is complete;
+    ``taceva import SOURCE --draft`` writes a first map, a TOML file. ``replace`` replaces the recording at ``out`` once the new one is complete;
     ``ffmpeg`` is a program that decodes clips with unsupported codecs, such as AV1.
+
+    Raises
+    ------
+    DatasetError
+        For a map or a file of the folder that is wrong, and if ``out`` exists without ``replace``.
     """
     _taceva.import_recording(
         os.fspath(source),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import json
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, overload
@@ -17,7 +17,7 @@ from taceva._pickles import PICKLE_VERSION, require_version
 
 @dataclass(frozen=True)
 class Interval:
-    """A confidence interval of 95 %, with the method it comes from."""
+    """A confidence interval of 95 %: both ends in the unit of its score, and the method it comes from."""
 
     low: float
     high: float
@@ -39,12 +39,17 @@ class Score:
 
     metric: str
     channel: str
+    #: In ``unit``; ``None`` where the score is undefined.
     value: float | None
+    #: ``1`` for a score without a unit, such as R².
     unit: str
     #: ``None`` where there is none, as of samples without contact points.
     interval: Interval | None
+    #: Number of samples that were scored.
     n: int
+    #: Number of samples that were left out, since a value was NaN or infinite.
     n_invalid: int
+    #: Why the score is undefined; ``None`` where it is defined.
     reason: str | None
     #: Why the score takes part in no verdict, where it does not, as files say it: ``no skill``, ``skill unknown``, ``bounded``, …
     standing: str | None
@@ -165,11 +170,15 @@ class Result(Mapping[tuple[str, str], Score]):
         return list(self._scores)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the JSON as a dictionary, a new one at each call."""
+        """Return the JSON of the result as a dictionary, a new one at each call."""
         return dict(json.loads(self._text))
 
     def to_frame(self) -> Any:
-        """Return a ``pandas.DataFrame``, one row per score; ``attrs`` holds the source of the samples and the notes."""
+        """Return a ``pandas.DataFrame``, one row per score.
+
+        Its columns are the fields of `Score`, with the interval as ``ci95_low``, ``ci95_high`` and ``method``. ``attrs`` holds the source of the
+        samples and the notes.
+        """
         import pandas
 
         rows = []
@@ -200,7 +209,8 @@ class Result(Mapping[tuple[str, str], Score]):
 
     def _said(self) -> list[str]:
         """Return what a reader must know first: that nothing was measured, and the notes."""
-        return [*not_measured([self.source]), *self.notes]
+        unmeasured = _taceva.not_measured([self.source])
+        return [*([unmeasured] if unmeasured else []), *self.notes]
 
     def _absent(self) -> list[str]:
         """Return what a reader misses: metrics that were skipped, and intervals of arrays."""
@@ -231,17 +241,16 @@ class Result(Mapping[tuple[str, str], Score]):
         return _arrived, (PICKLE_VERSION, self._text)
 
 
-def not_measured(sources: Sequence[str]) -> list[str]:
-    """Return the sentence that precedes every output about simulated or synthetic samples."""
-    kinds = sorted({source for source in sources if source in ("simulated", "synthetic")})
-    if not kinds:
-        return []
-    whose = "the samples are" if set(sources) == set(kinds) else "some of the samples are"
-    return [f"{'Nothing here was measured' if whose.startswith('the') else 'Not all of this was measured'}: {whose} {' and '.join(kinds)}."]
-
-
 def load(path: str | os.PathLike[str]) -> Result:
-    """Read the JSON of one evaluation that ``save`` or the command wrote; a changed one is rejected."""
+    """Read the JSON of one evaluation that `Result.save` or the command wrote.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    ValueError
+        For a file that was changed after it was written, or that is no result of one evaluation.
+    """
     return Result(Path(path).read_text(encoding="utf-8"))
 
 

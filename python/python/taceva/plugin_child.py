@@ -10,6 +10,9 @@ import sys
 
 _NAME = "taceva._taceva"
 
+# Deepest recursion that a plugin may ask for: its calls fit into the stack of its threads, and their memory into its limit.
+_DEEPEST = 5_000
+
 # What numpy, which every plugin has, imports only when it is asked for: too late for compiled code.
 _LATE = ["numpy.fft", "numpy.random"]
 
@@ -37,6 +40,16 @@ def _extension() -> object:
     return module
 
 
+def _bound_recursion() -> None:
+    """Keep endless recursion an error, whatever limit the plugin sets: it would fill the stack or the memory first."""
+    given = sys.setrecursionlimit
+
+    def bounded(limit: int) -> None:
+        given(min(limit, _DEEPEST))
+
+    vars(sys)["setrecursionlimit"] = bounded
+
+
 def _say_what_is_not_there() -> None:
     """Say that no program can be run and no file written, to libraries that would only find out by failing."""
     import os
@@ -61,6 +74,7 @@ def _import_plugin(folder: str, name: str, preload: list[str]) -> object:
     import site
     from importlib import import_module
 
+    _bound_recursion()
     site.main()
     _say_what_is_not_there()
     # Where this package lies, if that is none of the places of the environment.

@@ -85,7 +85,7 @@ class Force(_Streaming):
     kind = "force"
 
     def read(self, deadline: Deadline) -> Reading:
-        """Wait for the next reading, with ``deadline.rest(seconds)``, and return it."""
+        """Wait for the next reading, with ``deadline.rest(seconds)``, and return it in N and N·mm; Fz is above 0 where the gel is pressed."""
         raise NotImplementedError(f"{type(self).__name__} has no read(deadline)")
 
 
@@ -177,11 +177,11 @@ class Estimator(_Provided):
     kind = "estimator"
 
     def fit(self, training: Samples, validation: Samples | None, progress: Training) -> None:
-        """Fit on ``training``; ``progress.advance()`` raises if the fit should end."""
+        """Fit on ``training``. ``validation`` has samples to choose settings on, or is ``None``; ``progress.advance()`` raises if the fit should end."""
         raise NotImplementedError(f"{type(self).__name__} has no fit(training, validation, progress)")
 
     def predict(self, features: npt.NDArray[np.float32]) -> npt.ArrayLike:
-        """Return ``[samples, channels]`` for ``[samples, height, width, depth]``."""
+        """Return ``[samples, channels]`` in mm and N, in the order of the channels of the fit, for features ``[samples, height, width, depth]``."""
         raise NotImplementedError(f"{type(self).__name__} has no predict(features)")
 
     def save(self) -> bytes:

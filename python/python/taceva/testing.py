@@ -39,7 +39,7 @@ def check(
     only : sequence of str
         Prefixes of the names of the checks to run; all, if empty.
     limit : float
-        The time limit of each check, in seconds.
+        The time limit of each check, in whole seconds.
 
     Returns
     -------

@@ -2,7 +2,8 @@
 
 use pyo3::exceptions::{
     PyConnectionError, PyEOFError, PyFileNotFoundError, PyModuleNotFoundError,
-    PyNotImplementedError, PyPermissionError, PyTimeoutError, PyTypeError, PyValueError,
+    PyNotImplementedError, PyPermissionError, PyRecursionError, PyTimeoutError, PyTypeError,
+    PyValueError,
 };
 use pyo3::prelude::*;
 use taceva_core::{DriverError, DriverKey, ErrorKind, Fault};
@@ -119,6 +120,9 @@ fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
     }
     if error.is_instance_of::<PyModuleNotFoundError>(py) {
         behind.push_str("; install it in the environment of the plugin");
+    }
+    if error.is_instance_of::<PyRecursionError>(py) {
+        behind.push_str("; it calls itself without end");
     }
     if let Some(place) = place(py, error) {
         behind.push_str(&format!(" ({place})"));

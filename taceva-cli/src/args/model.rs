@@ -84,7 +84,7 @@ pub(crate) struct Predict {
     pub(crate) cache: CacheArgs,
     #[command(flatten)]
     pub(crate) part: PartArgs,
-    /// The table of predictions to write; `score --pred` reads it
+    /// The table of predictions to write; `score --pred` reads it. Its column `distance` is that of each picture from the training pictures
     #[arg(long, value_name = "PRED.csv")]
     pub(crate) out: PathBuf,
     /// Write unclamped predictions, beyond the bounds of the model; robustness is computed from these
@@ -114,8 +114,8 @@ pub(crate) struct Score {
     /// Units of channels besides the six, as NAME=UNIT, separated by commas [default: 1]
     #[arg(long, value_name = "NAME=UNIT", value_delimiter = ',')]
     pub(crate) units: Vec<String>,
-    /// Periods of angles in degrees, as NAME=360, separated by commas: values that differ by a period are equal
-    #[arg(long, value_name = "NAME=DEGREES", value_delimiter = ',')]
+    /// Periods of angles in the unit of the column, as NAME=360 or NAME=2pi, separated by commas: values that differ by a period are equal
+    #[arg(long, value_name = "NAME=PERIOD", value_delimiter = ',')]
     pub(crate) periods: Vec<String>,
     /// Pair rows by this column of both tables, or by `order` [default: by sample, id, sample_id or index of both tables, else by order]
     #[arg(long, value_name = "NAME")]

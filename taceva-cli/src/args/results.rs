@@ -16,7 +16,7 @@ pub(crate) struct Compare {
     /// The results to compare
     #[arg(required = true, value_name = "RESULT", num_args = 1..)]
     pub(crate) results: Vec<PathBuf>,
-    /// Metrics, separated by commas [default: all with a direction]
+    /// Metrics, separated by commas: ids, or the groups accuracy and all [default: all with a direction]
     #[arg(long, value_name = "METRICS", value_delimiter = ',')]
     pub(crate) metrics: Vec<String>,
     /// The largest difference of scores that still counts as equal, such as mae.Fz=0.01; may be repeated
@@ -46,7 +46,7 @@ pub(crate) struct ReportArgs {
     /// The folder to write into [default: the folder of the results]
     #[arg(long = "out", value_name = "FOLDER")]
     pub(crate) folder: Option<PathBuf>,
-    /// Also write the tables of a published study in its own form, with its printed numbers and ours over them, into `like-STUDY/`
+    /// Also write the tables and figures of a published study in its own form, with its printed numbers and ours over them, into `like-STUDY/`
     #[arg(long, value_enum, value_name = "STUDY")]
     pub(crate) like: Option<Like>,
     #[command(flatten)]
@@ -64,7 +64,7 @@ pub(crate) struct ReportArgs {
 /// A published study in whose form results can be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Like {
-    /// Cong et al., TacEva, 2026: tables I to V
+    /// Cong et al., TacEva, 2026: tables I to V and figures 3 to 8
     Taceva,
 }
 

@@ -6,7 +6,18 @@ use clap::{Args, Subcommand};
 
 use super::{ListFormat, Output};
 
+const RIG_HELP: &str = "\
+Order for a new rig (docs/rig.md):
+  taceva init rig --out lab.toml               asks for devices and limits; writes the file
+  taceva rig teach lab.toml                    origin and axes of the robot, which you jog
+  taceva rig check lab.toml                    every device for 2 s, and one halt
+  taceva init scene                            asks what is measured; then taceva plan
+  taceva run scene.toml --rig lab.toml --air   every contact point in the air
+  taceva rig tap lab.toml                      latencies
+  taceva run scene.toml --rig lab.toml         the measurement";
+
 #[derive(Debug, Args)]
+#[command(after_help = RIG_HELP)]
 pub(crate) struct RigCommand {
     #[command(subcommand)]
     pub(crate) subject: RigSubject,
@@ -15,17 +26,21 @@ pub(crate) struct RigCommand {
 /// Operation on a rig.
 #[derive(Debug, Subcommand)]
 pub(crate) enum RigSubject {
+    /// Measure the position of its robot: you jog it to three places, and `origin_mm` and `axes` are written into the rig file
+    Teach(RigTeachArgs),
     /// Measure rates, gaps and noise of its devices, and halt its robot once on its way up to measure the stopping time
     Check(RigCheckArgs),
     /// Tap the gel to measure the latency of each device: `latency_ms` is written into the rig file
     Tap(RigTapArgs),
-    /// Measure the position of its robot: you jog it to three places, and `origin_mm` and `axes` are written into the rig file
-    Teach(RigTeachArgs),
 }
 
-/// Every device is read for 2 seconds without motion: its rate, its longest gap, the age of its values, and the scatter of that age. Then,
-/// if you permit it by typing its name, the robot goes 5 mm straight up, away from the gel, and is halted on the way. Put the tip at least
-/// a centimetre above the gel before. Every problem that would stop a run is reported with its remedy; the exit code is then 1.
+/// Every device is read for 2 seconds without motion: its rate, its longest gap, the age of its values, and their noise. Then, if you
+/// permit it by typing its name, the robot goes 5 mm straight up, away from the gel, and is halted on the way. Put the tip at least a
+/// centimetre above the gel before.
+///
+/// Each device has a line: `ok`, `problem` for a value that would stop a run, or `error` with the remedy. A device that fails does not end
+/// the check: the next one is tried. If the robot, the force transducer or the enabling switch failed, nothing moves, and the line of the
+/// halt says why it was left out. The exit code is 1 after any error or problem.
 ///
 /// Do this once before the first run on a rig, and again after every change of its network, its machine or a device.
 #[derive(Debug, Args)]
@@ -37,7 +52,7 @@ pub(crate) struct RigCheckArgs {
     pub(crate) output: Output<ListFormat>,
 }
 
-/// This program moves nothing: you jog the robot by its own tool, and the program reads its position.
+/// This program moves nothing: you jog the robot by its own pendant or program, and this one reads its position.
 ///
 /// 1. until the tip just touches the middle of the untouched gel,
 /// 2. a little up and 5 to 10 mm along x of the sensor,

@@ -6,7 +6,7 @@ use taceva_acquire::{
     CaptureRequest, CaptureStage, CaptureState, Captured, LiveDevices, LivePredictor, LiveSpec,
     Onlookers, Viewer, capture, close_capture,
 };
-use taceva_core::{Axis, shown};
+use taceva_core::{Axis, by_count, counted, shown};
 use taceva_dataset::{Header, SensorFacts};
 
 use super::Context;
@@ -20,9 +20,9 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
     if args.close {
         let header = close_capture(&args.path)?;
         context.say(format_args!(
-            "closed {}: {} frames",
+            "closed {}: {}",
             shown(&args.path),
-            header.table.rows
+            counted(header.table.rows, "frame")
         ));
         return Ok(exit::DONE);
     }
@@ -128,9 +128,9 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
     summarise(&state, &header, has_force, &args.path, context);
     if let Some(predictions) = &header.predictions {
         context.say(format_args!(
-            "{}/predictions.csv: {predictions}, {} frames; measured labels are only in samples.parquet",
+            "{}/predictions.csv: {predictions}, {}; measured labels are only in samples.parquet",
             taceva_core::shown(&args.path),
-            predictions.rows
+            counted(predictions.rows, "frame")
         ));
     }
     let was_asked_for = args.lasts.is_some() || args.frames.is_some();
@@ -149,19 +149,24 @@ pub(super) fn open(args: &LiveArgs, context: &Context) -> anyhow::Result<(LiveSp
     )?;
     let drivers = context.drivers(args.rig.as_deref())?;
     let live = spec.open(&drivers)?;
+    if live.is_simulated() {
+        context.say(format_args!(
+            "nothing here is measured: the devices are simulated"
+        ));
+    }
     Ok((spec, live))
 }
 
 /// `1203 frames, 60.0 a second, 0 lost, 14 contacts, Fz 1.25 N`.
 fn line(state: &CaptureState, has_force: bool) -> String {
     let mut line = format!(
-        "{} frames, {:.1} a second, {} lost",
-        state.frames,
+        "{}, {:.1} a second, {} lost",
+        counted(state.frames, "frame"),
         state.rate_hz,
         state.stream.lost()
     );
     if has_force {
-        line += &format!(", {} contacts", state.contacts);
+        line += &format!(", {}", counted(state.contacts, "contact"));
         line += &match state.normal_n {
             Some(normal_n) => format!(", Fz {normal_n:.2} N"),
             None => ", Fz unknown".to_owned(),
@@ -184,13 +189,16 @@ fn summarise(
     let lost = match state.stream.lost() {
         0 => "none was lost".to_owned(),
         lost => format!(
-            "{lost} were lost ({} dropped, {} damaged)",
-            state.stream.dropped, state.stream.damaged
+            "{lost} {} lost ({} dropped, {} damaged)",
+            by_count(lost, "was", "were"),
+            state.stream.dropped,
+            state.stream.damaged
         ),
     };
     context.say(format_args!(
-        "{path}: {} frames at {:.1} a second, {lost}",
-        header.table.rows, state.rate_hz
+        "{path}: {} at {:.1} a second, {lost}",
+        counted(header.table.rows, "frame"),
+        state.rate_hz
     ));
     if !state.stream.numbered {
         context.say(format_args!(
@@ -201,8 +209,9 @@ fn summarise(
         return;
     }
     context.say(format_args!(
-        "{} contacts; {} frames without a force",
-        state.contacts, state.without_force
+        "{}; {} without a force",
+        counted(state.contacts, "contact"),
+        counted(state.without_force, "frame")
     ));
     if state.contacts == 0 && state.least_normal_n < PULLED_N {
         stderr::say(format_args!(

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use taceva_check::{CheckRequest, Severity, check, check_plan};
-use taceva_core::shown;
+use taceva_core::{by_count, counted, shown};
 use taceva_dataset::Dataset;
 use taceva_import::{SourceSums, UnpackedArchive};
 
@@ -83,8 +83,14 @@ fn compared(recordings: &[Dataset], folder: &Path, context: &Context) -> anyhow:
                 0 => writeln!(out, "{name}: {} matches the imported files", shown(folder)),
                 count => writeln!(
                     out,
-                    "{name}: {count} files of {} differ from the imported ones",
-                    shown(folder)
+                    "{name}: {} of {} {}",
+                    counted(count, "file"),
+                    shown(folder),
+                    by_count(
+                        count,
+                        "differs from the imported one",
+                        "differ from the imported ones"
+                    )
                 ),
             }
         })?;

@@ -14,6 +14,7 @@ pub(crate) fn run(args: &Choose) -> anyhow::Result<u8> {
     for path in args.output.path.iter().chain(&args.page.path) {
         output::check_free(path, args.output.force)?;
     }
+    results::check_distinct(&args.results)?;
     let needs = match &args.needs {
         Some(path) => {
             let text =

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use taceva_report::{
-    CompareRequest, Comparison, OVERVIEW_WIDTH, ScoreTable, compare, escape_markdown,
+    CompareRequest, Comparison, OVERVIEW_WIDTH, RequestError, ScoreTable, compare,
 };
 
 use super::{Context, Usage, results};
@@ -36,11 +36,26 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
             .collect::<anyhow::Result<BTreeMap<_, _>>>()?,
         seed: args.seed.value,
     };
+    let request = request.resolved(&studies).map_err(|error| {
+        let option = match error {
+            RequestError::Margin(_) => "--margin",
+            _ => "--metrics",
+        };
+        Usage::error(format!("{option} {error}"))
+    })?;
+    for line in request.absent(&studies) {
+        context.say(format_args!("--metrics {line}"));
+    }
     let comparison = compare(&studies, &request);
     if table == TableScores::Main {
         let scores = ScoreTable::compared(&studies, &request);
         output::write_as(args.output.format, args.output.path.as_deref(), |out| {
-            report::main_scores(&scores, args.output.format, out)
+            report::main_scores(
+                &scores,
+                args.output.format,
+                results::width(&args.output),
+                out,
+            )
         })?;
     } else if matches!(args.output.format, Format::Text | Format::Md) {
         let scores = ScoreTable::answered(&studies, &request, comparison.answers.clone());
@@ -61,17 +76,7 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
 fn answers(comparison: &Comparison, args: &Compare, width: Option<usize>) -> String {
     let narrow = width.map(|width| width.min(OVERVIEW_WIDTH));
     match (args.output.format, args.all) {
-        (Format::Md, _) => {
-            let summary = escape_markdown(&comparison.summary());
-            match comparison.answers.is_empty() {
-                true => {
-                    let notes = comparison.notes.iter();
-                    let notes = notes.map(|note| format!("\nNote: {}.\n", escape_markdown(note)));
-                    format!("{summary}.\n{}", notes.collect::<String>())
-                }
-                false => format!("{summary}.\n\n{}", comparison.table().markdown()),
-            }
-        }
+        (Format::Md, _) => comparison.markdown(),
         (_, true) => comparison.text_within(narrow.unwrap_or(OVERVIEW_WIDTH)),
         (_, false) => comparison.overview(narrow),
     }

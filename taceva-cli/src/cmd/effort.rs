@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use taceva_core::counted;
 use taceva_dataset::Dataset;
 use taceva_evaluate::{Cache, Effort};
 
@@ -56,8 +57,9 @@ fn lines(
 ) -> Vec<String> {
     let time = time.filter(|time| *time >= LONG).map(|time| {
         format!(
-            "time: about {} to read {frames} pictures whose features are not in the cache; training then reports its own progress",
-            spoken(time)
+            "time: about {} to read {} whose features are not in the cache; training then reports its own progress",
+            spoken(time),
+            counted(frames, "picture")
         )
     });
     let room = (kept >= MUCH).then(|| {
@@ -101,6 +103,8 @@ mod tests {
                 "disk: 80.0 MB of features to store in /cache, 1.50 GB are free; --no-cache stores none",
             ]
         );
+        let said = lines(1, Some(Duration::from_secs(130)), 0, None, folder);
+        assert!(said[0].contains("to read 1 picture whose"), "{said:?}");
         let said = lines(9, None, 80_000_000, Some(10_000), folder);
         assert!(
             said[0].contains("10.0 kB are free: they may not fit"),

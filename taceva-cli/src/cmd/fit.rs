@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 use std::time::Duration;
-use taceva_core::shown;
+use taceva_core::{counted, shown};
 
 use anyhow::Context as _;
 use taceva_evaluate::{Effort, Fitted, fit_validated};
@@ -81,8 +81,10 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     if let Some(validation) = &card.provenance.validation {
         writeln!(
             out,
-            "validated by {}, seed {}: {} samples, each predicted by a model that had not seen its group",
-            validation.split, validation.seed, validation.samples
+            "validated by {}, seed {}: {}, each predicted by a model that had not seen its group",
+            validation.split,
+            validation.seed,
+            counted(validation.samples, "sample")
         )?;
         for score in &validation.scores {
             let interval = score.interval.map_or_else(String::new, |[low, high]| {
@@ -118,8 +120,8 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     if fitted.left_out > 0 {
         writeln!(
             out,
-            "left out {} samples without a label or a frame",
-            fitted.left_out
+            "left out {} without a label or a frame",
+            counted(fitted.left_out, "sample")
         )?;
     }
     writeln!(out, "wrote    {}", shown(&args.out))

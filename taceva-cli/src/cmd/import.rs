@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use taceva_core::shown;
+use taceva_core::{by_count, counted, shown};
 use taceva_dataset::internal::quoted;
-use taceva_dataset::{DatasetError, settle};
+use taceva_dataset::settle;
 use taceva_files::parent_of;
 use taceva_import::{
-    Addition, Decoders, ImportMap, ImportPlan, MapDraft, Preset, SourceSums, UnpackedArchive,
+    Addition, Decoders, ImportError, ImportMap, ImportPlan, MapDraft, Preset, SourceSums,
+    UnpackedArchive,
 };
 
 use super::{Context, Usage};
@@ -39,9 +40,9 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         let verified = sums.verify(source.folder(), context.jobs, &context.progress);
         source.named(verified)?;
         context.say(format_args!(
-            "{}: {} files verified",
+            "{}: {} verified",
             shown(list),
-            sums.files()
+            counted(sums.files(), "file")
         ));
     }
     if args.draft {
@@ -146,7 +147,7 @@ impl Source {
     }
 
     /// Converts an error to name the member of an archive instead of its unpacked path.
-    fn named<T>(&self, outcome: Result<T, DatasetError>) -> Result<T, DatasetError> {
+    fn named<T>(&self, outcome: Result<T, ImportError>) -> Result<T, ImportError> {
         outcome.map_err(|error| match self {
             Source::Folder(_) => error,
             Source::Archive(archive) => archive.named(error),
@@ -184,7 +185,9 @@ fn map_written(
         let open = text.matches(" = \"?\"").count();
         let state = match (args.draft, open) {
             (true, open) => {
-                format!("a draft, in which {open} places are `\"?\"`; fill them in, then: ")
+                let [are, them] = by_count(open, ["is", "it"], ["are", "them"]);
+                let places = counted(open, "place");
+                format!("a draft, in which {places} {are} `\"?\"`; fill {them} in, then: ")
             }
             (false, _) => "the map of the preset; adapt it, then: ".to_owned(),
         };

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use taceva_acquire::{Latencies, LiveModel, Prediction, PredictionCounts};
-use taceva_core::{Channel, Frame, Unit, shown};
+use taceva_core::{Channel, Frame, Unit, by_count, counted, shown};
 use taceva_drivers::MonotonicClock;
 use taceva_live::{Live, Overlay, PredictedFrames, PredictedValue};
 
@@ -116,9 +116,9 @@ fn in_words<'c>(
 
 fn summary(model: &LiveModel, counts: &PredictionCounts, sent: &Latencies) -> Vec<String> {
     let mut lines = vec![format!(
-        "predictions by {}: {} frames seen, {} shown, {} dropped for newer ones",
+        "predictions by {}: {} seen, {} shown, {} dropped for newer ones",
         by(model),
-        counts.seen,
+        counted(counts.seen, "frame"),
         counts.predicted,
         counts.dropped
     )];
@@ -128,7 +128,9 @@ fn summary(model: &LiveModel, counts: &PredictionCounts, sent: &Latencies) -> Ve
     match sent.count() {
         0 => lines.push("no picture was sent to a browser".to_owned()),
         count => lines.push(format!(
-            "{count} pictures were sent to a browser, {}",
+            "{} {} sent to a browser, {}",
+            counted(count, "picture"),
+            by_count(count, "was", "were"),
             soon(sent)
         )),
     }

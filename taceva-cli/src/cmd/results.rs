@@ -29,21 +29,36 @@ pub(super) struct Found {
     pub(super) missing: Vec<String>,
 }
 
-/// Rejects a result that is named twice.
+/// Rejects a result that is named twice: a run by its folder and by its file too, or a sensor of the catalogue by two names.
 pub(super) fn check_distinct(named: &[PathBuf]) -> anyhow::Result<()> {
-    let meant = |path: &PathBuf| path.canonicalize().unwrap_or_else(|_| path.clone());
     for (position, path) in named.iter().enumerate() {
-        if named[..position]
-            .iter()
-            .any(|before| meant(before) == meant(path))
-        {
+        let mut before = named[..position].iter();
+        if let Some(first) = before.find(|before| meant(before) == meant(path)) {
+            let first = match first == path {
+                true => String::new(),
+                false => format!(", first as {}", shown(first)),
+            };
             return Err(Usage::error(format!(
-                "{}: given twice; expected different results",
+                "{}: given twice{first}; expected different results",
                 shown(path)
             )));
         }
     }
     Ok(())
+}
+
+/// The file that `path` names, or the sensor of the catalogue by its own name.
+fn meant(path: &Path) -> PathBuf {
+    let of_run = path.join(RESULTS);
+    let file = if of_run.is_file() {
+        of_run.as_path()
+    } else {
+        path
+    };
+    file.canonicalize().unwrap_or_else(|_| {
+        let sensor = catalogue::named(&path.to_string_lossy());
+        sensor.map_or_else(|_| path.to_owned(), |sensor| PathBuf::from(sensor.name))
+    })
 }
 
 /// The studies of all results: files, folders of runs, or names of the catalogue if there is no such file.
@@ -157,13 +172,18 @@ fn runs_in(path: &Path) -> Vec<PathBuf> {
     runs
 }
 
+/// The width of the terminal that is written to; `None` for a file or a pipe.
+pub(super) fn width(to: &Output) -> Option<usize> {
+    to.path.is_none().then(output::terminal_width).flatten()
+}
+
 /// Writes `values` for people, in text or Markdown, and below them `rest`.
 pub(super) fn write_values(
     values: &Table,
     rest: impl FnOnce(Option<usize>) -> String,
     to: &Output,
 ) -> anyhow::Result<()> {
-    let width = to.path.is_none().then(output::terminal_width).flatten();
+    let width = width(to);
     let text = match (to.format, width) {
         (Format::Md, _) => format!(
             "{}\n\n{}",

@@ -5,7 +5,7 @@ mod stages;
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
-use taceva_core::shown;
+use taceva_core::{counted, shown};
 
 use anyhow::Context as _;
 use taceva_acquire::{AIR_MM, PlannedScene, Workshop, rehearse_scene};
@@ -153,7 +153,8 @@ fn rehearse(
     });
     let visited = visited?;
     context.say(format_args!(
-        "visited {visited} places, {AIR_MM} mm above the height of travel; nothing was pressed or recorded"
+        "visited {}, {AIR_MM} mm above the height of travel; nothing was pressed or recorded",
+        counted(visited, "place")
     ));
     Ok(exit::DONE)
 }

@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use taceva_acquire::{Overrides, PlannedScene, SceneText};
-use taceva_core::{Field, SkipReason, shown};
+use taceva_core::{Field, SkipReason, counted, shown};
 use taceva_drivers::Drivers;
+use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::{SplitInput, SplitSpec};
 use taceva_protocol::{BuiltinScene, PhaseKind, Plan, PlanReason, Subject};
 
@@ -13,10 +14,8 @@ use super::{Context, Usage};
 use crate::args::{Run, SceneArgs};
 use crate::disk_space::{self, Need};
 
-/// The contact points that an interval needs.
-const LEAST_POINTS: usize = 5;
 /// The contact points of which the test part, a tenth, is enough for an interval.
-const ENOUGH_POINTS: usize = 10 * LEAST_POINTS;
+const ENOUGH_POINTS: usize = 10 * LEAST_CLUSTERS;
 
 /// The scene of `args`, planned with `drivers`.
 pub(super) fn planned(args: &SceneArgs, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
@@ -60,7 +59,8 @@ pub(super) fn print_cost(
     }
     let minutes: f64 = costs().map(|cost| cost.minutes).sum();
     context.say(format_args!(
-        "time: {presses} presses, {:.0} min of motion on a rig; the simulated bench runs faster",
+        "time: {}, {:.0} min of motion on a rig; the simulated bench runs faster",
+        counted(presses, "press"),
         minutes.ceil()
     ));
     let bytes = costs().filter_map(|cost| cost.bytes).sum();
@@ -87,6 +87,12 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             study.plan.contact.speed_mm_s.value,
             limits.overshoot.healthy_mm,
         ));
+        if study.is_untaught(drivers) {
+            context.say(format_args!(
+                "rig: `origin_mm` and `axes` are those of a new file: a run is refused until taceva rig teach {}",
+                shown(rig.name())
+            ));
+        }
         let by_changer = study.by_changer(drivers);
         for change in by_changer.into_iter().chain(study.by_hand(drivers)) {
             context.say(format_args!("rig: {change}"));
@@ -124,13 +130,14 @@ pub(super) fn check_metrics(planned: &PlannedScene) -> anyhow::Result<()> {
 /// Warns of each study whose test part has too few contact points for intervals.
 pub(super) fn warn_of_few_points(planned: &PlannedScene, context: &Context) {
     for study in &planned.studies {
-        let Some(points) = tested_points(&study.plan).filter(|points| *points < LEAST_POINTS)
+        let Some(points) = tested_points(&study.plan).filter(|points| *points < LEAST_CLUSTERS)
         else {
             continue;
         };
         context.say(format_args!(
-            "{}: the test part has {points} contact points, and intervals need {LEAST_POINTS}: raise `points` under [protocol.calibration] to {ENOUGH_POINTS}, or score every point of the recording afterwards (taceva evaluate, --split cv:{LEAST_POINTS})",
-            shown(&study.plan.name)
+            "{}: the test part has {}, and intervals need {LEAST_CLUSTERS}: raise `points` under [protocol.calibration] to {ENOUGH_POINTS}, or score every point of the recording afterwards (taceva evaluate, --split cv:{LEAST_CLUSTERS})",
+            shown(&study.plan.name),
+            counted(points, "contact point")
         ));
     }
 }

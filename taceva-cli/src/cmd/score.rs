@@ -2,7 +2,9 @@
 
 use anyhow::Context as _;
 use taceva_core::{SourceUnit, Unit};
-use taceva_evaluate::{ScoreRequest, ScoreTables, Scored, Scoring, Shard, score_in_one_pass};
+use taceva_evaluate::{
+    Period, ScoreRequest, ScoreTables, Scored, Scoring, Shard, score_in_one_pass,
+};
 
 use super::{Context, Usage};
 use crate::args::{Format, Score};
@@ -138,13 +140,13 @@ fn unit(word: &str) -> anyhow::Result<(String, Unit)> {
     Ok((name.to_owned(), unit))
 }
 
-/// `NAME=DEGREES`: an angle with this period.
-fn period(word: &str) -> anyhow::Result<(String, u16)> {
+/// `NAME=PERIOD`: an angle with this period.
+fn period(word: &str) -> anyhow::Result<(String, Period)> {
     let parts = word.split_once('=');
-    let read = parts.and_then(|(name, degrees)| Some((name.to_owned(), degrees.parse().ok()?)));
+    let read = parts.and_then(|(name, period)| Some((name.to_owned(), period.parse().ok()?)));
     read.with_context(|| {
         format!(
-            "`{}`: expected NAME=DEGREES, such as yaw=360",
+            "`{}`: expected NAME=PERIOD, such as yaw=360 in degrees or yaw=2pi in radians",
             taceva_core::shown(word)
         )
     })

@@ -3,9 +3,8 @@
 use std::io::{self, Write};
 
 use taceva_check::{CheckReport, Finding};
+use taceva_core::counted;
 use taceva_report::Table;
-
-use super::counted;
 
 pub(super) fn text(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> {
     let count = |severity: &str| {
@@ -29,9 +28,9 @@ pub(super) fn text(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> 
     }
     writeln!(
         out,
-        "{} samples, {} checks: {}, {}, {}",
-        report.samples,
-        report.looked_for.len(),
+        "{}, {}: {}, {}, {}",
+        counted(report.samples, "sample"),
+        counted(report.looked_for.len(), "check"),
         count("error"),
         count("warning"),
         count("note")

@@ -3,8 +3,9 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
+use taceva_core::counted;
 use taceva_drivers::doctor::{Diagnosis, State};
-use taceva_drivers::{Devices, ListedArgument, ListedDevice, ListedDriver};
+use taceva_drivers::{Devices, ListedArgument, ListedDevice, ListedDriver, ListedSwitch};
 
 use super::json;
 use crate::args::ListFormat;
@@ -69,6 +70,7 @@ fn word(state: State) -> &'static str {
 struct WrittenDevices<'a> {
     schema: &'static str,
     drivers: &'a [ListedDriver],
+    switches: &'a [ListedSwitch],
     found: &'a [ListedDevice],
     failed: Vec<String>,
 }
@@ -78,6 +80,7 @@ impl WrittenDevices<'_> {
         WrittenDevices {
             schema: "taceva.devices/1",
             drivers: &devices.drivers,
+            switches: &devices.switches,
             found: &devices.found,
             failed: devices.failed.iter().map(ToString::to_string).collect(),
         }
@@ -94,6 +97,14 @@ fn text(devices: &Devices, out: &mut dyn Write) -> io::Result<()> {
     for listed in &devices.drivers {
         driver(listed, out)?;
     }
+    for switch in &devices.switches {
+        let (key, kind, title) = (&switch.key, "switch", &switch.title);
+        writeln!(
+            out,
+            "{key:<22} {kind:<9} real: {title}, `enable` under [operator] of a rig file"
+        )?;
+        arguments(&switch.arguments, out)?;
+    }
     for device in &devices.found {
         let (selector, title) = (&device.selector, &device.title);
         writeln!(out, "present  {selector}   {title}: {}", device.access)?;
@@ -101,8 +112,9 @@ fn text(devices: &Devices, out: &mut dyn Write) -> io::Result<()> {
     for error in &devices.failed {
         writeln!(out, "failed   {error}")?;
     }
-    let (drivers, found) = (devices.drivers.len(), devices.found.len());
-    writeln!(out, "{drivers} drivers, {found} devices that they see")
+    let drivers = counted(devices.drivers.len() + devices.switches.len(), "driver");
+    let found = counted(devices.found.len(), "device");
+    writeln!(out, "{drivers}, {found} that they see")
 }
 
 /// One driver: its name, facts about its device, and its arguments.
@@ -117,9 +129,14 @@ pub(super) fn driver(driver: &ListedDriver, out: &mut dyn Write) -> io::Result<(
     if !facts.is_empty() {
         writeln!(out, "    {}", facts.join(", "))?;
     }
-    let lengths = driver.arguments.iter().map(|argument| argument.key.len());
+    arguments(&driver.arguments, out)
+}
+
+/// The arguments of a driver, one a line.
+fn arguments(arguments: &[ListedArgument], out: &mut dyn Write) -> io::Result<()> {
+    let lengths = arguments.iter().map(|argument| argument.key.len());
     let width = lengths.max().unwrap_or(0);
-    for argument in &driver.arguments {
+    for argument in arguments {
         describe(argument, width, out)?;
     }
     Ok(())

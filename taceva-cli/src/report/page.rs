@@ -9,10 +9,10 @@ use taceva_core::shown;
 use anyhow::Context as _;
 use taceva_dataset::Dataset;
 use taceva_report::{
-    Figure, FigureStyle, Layout, Picture, Report, ScoreTable, Study, Triple, figures_for,
+    Figure, FigureStyle, Layout, Picture, ReportPage, ScoreTable, Study, Triple, figures_for,
     paper_form, picks, study_figures, undrawn,
 };
-use taceva_results::EvaluationReport;
+use taceva_results::{EvaluationReport, not_measured};
 
 use crate::args::Format;
 use crate::context::Context;
@@ -26,7 +26,7 @@ pub(crate) const PAGE: &str = "report.html";
 /// The folder of figures among the files of a report.
 const FIGURES: &str = "figures";
 
-/// The folder of tables in the form of the TacEva study.
+/// The folder of tables and figures in the form of the TacEva study.
 const LIKE_TACEVA: &str = "like-taceva";
 
 /// The contents of a page.
@@ -126,7 +126,7 @@ impl Page {
         Ok(())
     }
 
-    /// Writes the tables of the TacEva study with its printed numbers beside ours, and its figures, into a folder in `folder`.
+    /// Writes the tables and figures of the TacEva study with its printed numbers beside ours into a folder in `folder`.
     pub(crate) fn write_like_taceva(
         &self,
         folder: &Path,
@@ -140,7 +140,11 @@ impl Page {
         }
         let folder = folder.join(LIKE_TACEVA);
         fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", shown(&folder)))?;
-        for (name, text) in [("tables.tex", form.latex()), ("tables.md", form.markdown())] {
+        for (name, text) in [
+            ("tables.tex", form.latex()),
+            ("tables.md", form.markdown()),
+            ("figures.md", form.markdown_of(&figures)),
+        ] {
             output::write(Some(&folder.join(name)), |out| {
                 out.write_all(text.as_bytes())
             })?;
@@ -157,14 +161,11 @@ impl Page {
     pub(crate) fn write_scores(&self, folder: &Path) -> anyhow::Result<()> {
         let table = ScoreTable::of(&self.studies);
         let headlines = table.headlines();
-        let simulated = self.studies.iter().filter(|study| study.is_simulated());
-        let note = match simulated.count() {
-            0 => "",
-            _ => " Nothing here was measured where samples are simulated.",
-        };
+        let sources = self.studies.iter().map(|study| study.source.as_str());
+        let note = not_measured(sources).map_or_else(String::new, |words| format!(" {words}"));
         let caption = format!("{}: scores with 95 % intervals.{note}", self.title);
         let mut main = Vec::new();
-        super::main_scores(&table, Format::Tex, &mut main)?;
+        super::main_scores(&table, Format::Tex, None, &mut main)?;
         for (name, text) in [
             ("scores.csv", table.every_number().csv().into_bytes()),
             (
@@ -187,7 +188,7 @@ impl Page {
     }
 
     pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let report = Report {
+        let report = ReportPage {
             title: &self.title,
             studies: &self.studies,
             pictures: &self.pictures,

@@ -3,10 +3,11 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
+use taceva_core::counted;
 use taceva_drivers::ListedDriver;
 use taceva_host::{Delivery, Place, Plugin, PluginHost, PythonModule, ReasonKind, Rejection};
 
-use super::{counted, devices, json};
+use super::{devices, json};
 use crate::args::ListFormat;
 
 /// Writes the plugins that were found; with `all`, also unused ones.

@@ -3,30 +3,22 @@
 use std::io::{self, Write};
 
 use taceva_core::PressOutcome;
-use taceva_metrics::{Better, catalogue};
+use taceva_metrics::{Better, catalogue, plane_of};
 use taceva_report::{Align, Column, Study, Table, escape_terminal, short_digests};
-use taceva_results::EvaluationReport;
+use taceva_results::{EvaluationReport, not_measured};
 
 use super::line::{Line, lines, standings};
 use super::number::formatted;
 use super::page;
 use super::text::{over_seeds, presses};
 
-/// Channels, and the plane that replaces them.
-const IN_PLANES: [(&str, &str); 4] = [("Px", "Pxy"), ("Py", "Pxy"), ("Fx", "Fxy"), ("Fy", "Fxy")];
-
 /// The key of a row: metric, channel, unit.
 type Row = [String; 3];
 
 pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
-    let is_model = |report: &EvaluationReport| report.subject.source != "recorded";
-    if reports.iter().all(is_model) {
-        writeln!(out, "Nothing here was measured: the samples are simulated.")?;
-    } else if reports.iter().any(is_model) {
-        writeln!(
-            out,
-            "Not everything here was measured: some of the samples are simulated."
-        )?;
+    let sources = reports.iter().map(|report| report.subject.source.as_str());
+    if let Some(words) = not_measured(sources) {
+        writeln!(out, "{words}")?;
     }
     for report in reports {
         let subject = &report.subject;
@@ -163,10 +155,7 @@ fn headlines(report: &EvaluationReport) -> Vec<Line<'_>> {
     };
     let is_in_a_plane: Vec<bool> = lines
         .iter()
-        .map(|line| {
-            let mut planes = IN_PLANES.into_iter();
-            planes.any(|(channel, plane)| line.channel == channel && has(&line.name, plane))
-        })
+        .map(|line| plane_of(line.channel).is_some_and(|plane| has(&line.name, plane)))
         .collect();
     let kept = lines.into_iter().zip(is_in_a_plane);
     kept.filter(|(line, is_in_a_plane)| line.is_headline && !is_in_a_plane)

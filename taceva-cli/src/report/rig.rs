@@ -3,7 +3,8 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
-use taceva_acquire::{RigCheck, RigTap, Stream};
+use taceva_acquire::{RigCheck, RigProblem, RigTap, Stream};
+use taceva_core::counted;
 
 use crate::args::ListFormat;
 
@@ -37,6 +38,7 @@ pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::
         serde_json::to_writer_pretty(&mut *out, &WrittenTap { schema, tap })?;
         return writeln!(out);
     }
+    unmeasured(tap.simulated, out)?;
     writeln!(
         out,
         "{taps} taps; with the present corrections of the stamps:"
@@ -73,44 +75,90 @@ pub(crate) fn check(check: &RigCheck, format: ListFormat, out: &mut dyn Write) -
     }
 }
 
+/// Says that an emulated rig gives no measurements.
+fn unmeasured(is_simulated: bool, out: &mut dyn Write) -> io::Result<()> {
+    match is_simulated {
+        true => writeln!(out, "Nothing here was measured: the devices are simulated."),
+        false => Ok(()),
+    }
+}
+
 fn text(check: &RigCheck, out: &mut dyn Write) -> io::Result<()> {
+    unmeasured(check.simulated, out)?;
     let streams = [
         ("force", &check.force, "N"),
         ("robot", &check.robot, "mm"),
         ("sensor", &check.sensor, ""),
     ];
     for (device, stream, unit) in streams {
-        match stream {
-            Some(stream) => listed(device, stream, unit, out)?,
-            None => writeln!(out, "{device:<7} is not in the rig file")?,
+        match (failure(check, device), stream) {
+            (Some(failure), _) => writeln!(out, "{device:<7} error: {failure}")?,
+            (None, Some(stream)) => {
+                write!(out, "{device:<7} {}: ", state(check, device))?;
+                measured(stream, unit, out)?;
+            }
+            (None, None) => writeln!(out, "{device:<7} is not in the rig file")?,
         }
     }
-    if let Some(switch) = &check.switch {
-        let share = 100.0 * f64::from(switch.held) / f64::from(switch.looks.max(1));
-        writeln!(
-            out,
-            "switch  held in {} of {} readings ({share:.0} %), pressed or released {} times, answers within {:.3} ms",
-            switch.held, switch.looks, switch.changes, switch.longest_ms
-        )?;
+    match (failure(check, "switch"), &check.switch) {
+        (Some(failure), _) => writeln!(out, "switch  error: {failure}")?,
+        (None, Some(switch)) => {
+            let share = 100.0 * f64::from(switch.held) / f64::from(switch.looks.max(1));
+            writeln!(
+                out,
+                "switch  {}: held in {} of {} ({share:.0} %), pressed or released {}, answers within {:.3} ms",
+                state(check, "switch"),
+                switch.held,
+                counted(switch.looks, "reading"),
+                counted(switch.changes, "time"),
+                switch.longest_ms
+            )?;
+        }
+        (None, None) => {}
     }
-    match &check.halt {
-        Some(halt) => writeln!(
+    for key in ["specimen", "unit", "light"] {
+        if let Some(failure) = failure(check, key) {
+            writeln!(out, "{key:<7} error: {failure}")?;
+        }
+        for stock in check.changers.iter().filter(|stock| stock.key == key) {
+            writeln!(out, "{key:<7} ok: holds {}", stock.holds.join(", "))?;
+        }
+    }
+    match (&check.halt, &check.halt_left_out) {
+        (Some(halt), _) => writeln!(
             out,
             "halt    acknowledged in {:.1} ms, the robot stopped in {:.1} ms; the tip was left {:.2} mm higher",
             halt.acknowledged_ms, halt.ended_ms, halt.left_mm
         )?,
-        None => writeln!(out, "halt    not tried")?,
+        (None, Some(why)) => writeln!(out, "halt    left out: {why}")?,
+        (None, None) => {}
     }
-    for problem in &check.problems {
+    let measured = check.problems.iter();
+    for problem in measured.filter(|problem| !problem.is_failure()) {
         writeln!(out, "problem {problem}")?;
     }
     Ok(())
 }
 
-fn listed(device: &str, stream: &Stream, unit: &str, out: &mut dyn Write) -> io::Result<()> {
+/// The failure of `device`, if it gave no measurement.
+fn failure<'a>(check: &'a RigCheck, device: &str) -> Option<&'a RigProblem> {
+    let mut failures = check.problems.iter().filter(|problem| problem.is_failure());
+    failures.find(|problem| problem.device() == Some(device))
+}
+
+/// The state of `device`, which was measured.
+fn state(check: &RigCheck, device: &str) -> &'static str {
+    let mut problems = check.problems.iter();
+    match problems.any(|problem| problem.device() == Some(device)) {
+        true => "problem",
+        false => "ok",
+    }
+}
+
+fn measured(stream: &Stream, unit: &str, out: &mut dyn Write) -> io::Result<()> {
     write!(
         out,
-        "{device:<7} {:.1} Hz, longest pause {:.1} ms, at most {:.1} ms late",
+        "{:.1} Hz, longest pause {:.1} ms, at most {:.1} ms late",
         stream.rate_hz, stream.gap_ms, stream.late_ms
     )?;
     if let Some(noise) = stream.noise {

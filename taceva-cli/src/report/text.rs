@@ -3,14 +3,14 @@
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 
-use taceva_core::{Limit, PressOutcome};
+use taceva_core::{Limit, PressOutcome, counted};
 use taceva_metrics::Better;
 use taceva_report::{Align, Column, Table, escape_terminal, short_digests};
-use taceva_results::{EvaluationReport, Interval, Provenance};
+use taceva_results::{EvaluationReport, Interval, Provenance, not_measured};
 
 use super::line::{Line, flags, pictures, read_lines, remedies, standings};
 use super::number::formatted;
-use super::{counted, recordings};
+use super::recordings;
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     heading(report, out)?;
@@ -104,12 +104,8 @@ fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
         let source = &subject.source;
         writeln!(out, "{sensor}   serial {serial}   gel {gel}   {source}")?;
     }
-    if subject.source == "synthetic" || subject.source == "simulated" {
-        writeln!(
-            out,
-            "Nothing here was measured: the samples are {}.",
-            subject.source
-        )?;
+    if let Some(words) = not_measured([subject.source.as_str()]) {
+        writeln!(out, "{words}")?;
     }
     if let Some(model) = &provenance.model {
         let settings: Vec<String> = model

@@ -159,6 +159,8 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
     assert!(planned.out.contains("24 presses"), "{}", planned.out);
     let few = "the test part has 2 contact points, and intervals need 5";
     assert!(planned.err.contains(few), "{}", planned.err);
+    let untaught = "a run is refused until taceva rig teach lab.toml";
+    assert!(planned.err.contains(untaught), "{}", planned.err);
     bench.refused(
         "init rig --yes --out other.toml",
         2,

@@ -128,7 +128,7 @@ fn tables_of_different_length_or_ids_are_refused() {
     bench.refused(
         "score --truth truth.csv --pred short.csv",
         3,
-        "short.csv: 1 rows, but truth.csv has 2",
+        "short.csv: 1 row, but truth.csv has 2",
     );
     bench.write("other.csv", "id,Fz\na,1\nc,2\n");
     bench.refused(

@@ -58,6 +58,26 @@ fn the_list_for_people_names_facts_and_arguments() {
 }
 
 #[test]
+fn the_pedal_is_listed_as_an_enabling_switch_and_refused_as_a_device_with_the_key_of_its_place() {
+    let bench = Bench::new();
+    let listed = bench.json("devices");
+    assert_eq!(listed["switches"][0]["key"], "hid/pedal");
+    let out = bench.ok("devices");
+    let pedal = out.lines().find(|line| line.starts_with("hid/pedal "));
+    let pedal = pedal.expect("listed");
+    assert!(
+        pedal.contains(" switch ") && pedal.contains("`enable` under [operator]"),
+        "{pedal}"
+    );
+    bench.write(
+        "lab.toml",
+        "rig_version = 1\n[sensor]\ndriver = \"hid/pedal:usb=0c45:7403\"\n",
+    );
+    let refused = "lab.toml, line 3: `hid/pedal` is an enabling switch and measures nothing: write it as `enable` under [operator]";
+    bench.refused("rig check lab.toml", 3, refused);
+}
+
+#[test]
 fn the_doctor_says_what_was_looked_at_and_its_exit_code_follows() {
     let bench = Bench::new();
     let ran = bench.run("doctor --format json");
@@ -70,19 +90,41 @@ fn the_doctor_says_what_was_looked_at_and_its_exit_code_follows() {
 }
 
 #[test]
-fn a_camera_that_does_not_open_is_named_with_the_rig_and_the_command_that_lists_cameras() {
+fn a_check_of_a_rig_goes_on_after_a_device_that_does_not_open_and_names_each_with_its_remedy() {
     let bench = Bench::new();
     bench.write(
         "lab.toml",
-        "rig_version = 1\n[sensor]\ndriver = \"camera/v4l2:device=/dev/video-of-nobody\"\n",
+        r#"rig_version = 1
+[robot]
+driver = "gcode/grbl:port=/dev/tty-of-nobody"
+carries = "indenter"
+origin_mm = [0.0, 0.0, 0.0]
+axes = ["x", "y", "z"]
+[sensor]
+driver = "camera/v4l2:device=/dev/video-of-nobody"
+"#,
     );
     let ran = bench.run("rig check lab.toml");
-    assert_ne!(ran.code, 0, "{}", ran.out);
+    assert_eq!(ran.code, 1, "{}", ran.err);
     for part in [
-        "lab.toml: sensor: camera/v4l2",
+        "force   is not in the rig file",
+        "robot   error: lab.toml: robot: gcode/grbl",
+        "`taceva doctor` missing permissions",
+        "sensor  error: lab.toml: sensor: camera/v4l2",
         "`taceva devices` lists cameras",
+        "halt    left out: nothing moves, because the robot failed",
     ] {
-        assert!(ran.err.contains(part), "no `{part}` in {}", ran.err);
+        assert!(ran.out.contains(part), "no `{part}` in {}", ran.out);
     }
-    assert!(!ran.err.contains("study"), "{}", ran.err);
+    assert!(!ran.out.contains("study"), "{}", ran.out);
+}
+
+#[test]
+fn a_wrong_argument_in_a_rig_file_is_refused_with_its_line_before_a_device_is_opened() {
+    let bench = Bench::new();
+    let sensor = "[sensor]\ndriver = \"camera/v4l2:device=/dev/video-of-nobody\"\n";
+    let force = "[force]\ndriver = \"ati/netft:hots=10.0.0.9\"\naxes = [\"x\", \"y\", \"z\"]\n";
+    bench.write("lab.toml", &format!("rig_version = 1\n{sensor}{force}"));
+    bench.refused("rig check lab.toml", 3, "lab.toml, line 5: ");
+    bench.refused("rig check lab.toml", 3, "`hots`");
 }

@@ -134,6 +134,9 @@ fn leaving_one_recording_out_tests_every_sample_by_a_model_that_has_not_seen_its
         "evaluate {all} --model ridge --set size=8 --set strength=1 --metrics accuracy --split leave-one-recording-out"
     );
     let report = bench.json(&command);
+    let ran = bench.run(&command);
+    let named = "fit ridge, fold 5 of 5 without friday";
+    assert!(ran.err.contains(named), "{}", ran.err);
     crate::schema::check("evaluation", &report);
     assert_eq!(report["metrics"]["mae"]["Fz"]["n"], 300);
     assert_eq!(report["provenance"]["samples"]["test"], 300);

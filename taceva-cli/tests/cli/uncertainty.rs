@@ -41,6 +41,42 @@ fn a_gaussian_process_writes_its_deviations_and_evaluation_counts_what_lies_with
 }
 
 #[test]
+fn predictions_state_the_distance_of_each_picture_and_scores_leave_it_out() {
+    let bench = Bench::new();
+    bench.record("data", 64);
+    bench.ok("fit data --model ridge --out ridge.model");
+    bench.ok("predict data --with ridge.model --out found.csv --truth-out truth.csv");
+    let text = fs::read_to_string(bench.path("found.csv")).expect("written");
+    let mut lines = text.lines();
+    let head = lines.next().expect("a header");
+    assert!(head.ends_with(",distance"), "{head}");
+    let distances: Vec<f64> = lines
+        .map(|line| {
+            let (_, distance) = line.rsplit_once(',').expect("cells");
+            distance.parse().expect("a number")
+        })
+        .collect();
+    assert!(!distances.is_empty());
+    assert!(
+        distances
+            .iter()
+            .all(|distance| (0.0..1e6).contains(distance)),
+        "{distances:?}"
+    );
+    let report = bench.json("score --truth truth.csv --pred found.csv --metrics mae");
+    let mae = &report["metrics"]["mae"];
+    assert!(
+        mae["Fz"]["value"].is_number() && mae["distance"].is_null(),
+        "{mae}"
+    );
+    // A label of this name is scored.
+    bench.write("t.csv", "sample,distance\na,1\nb,2\n");
+    bench.write("p.csv", "sample,distance\na,1.5\nb,2.5\n");
+    let report = bench.json("score --truth t.csv --pred p.csv --metrics mae");
+    assert_eq!(report["metrics"]["mae"]["distance"]["value"], 0.5);
+}
+
+#[test]
 fn deviations_are_not_made_up_for_a_model_that_knows_none() {
     let bench = Bench::new();
     bench.record("data", 64);

@@ -18,21 +18,21 @@ pub enum ArgKind {
     Path,
     /// A whole number.
     Whole {
-        /// The least that is accepted.
+        /// Least accepted value.
         least: i64,
-        /// The greatest that is accepted.
+        /// Greatest accepted value.
         most: i64,
     },
     /// A finite number.
     Number {
-        /// The least that is accepted; −∞ for any.
+        /// Least accepted value; −∞ for no limit.
         least: f64,
-        /// The greatest that is accepted; ∞ for any.
+        /// Greatest accepted value; ∞ for no limit.
         most: f64,
     },
-    /// One of some words.
+    /// One word of a list.
     Choice {
-        /// The words.
+        /// Accepted words.
         of: Vec<String>,
     },
     /// `true` or `false`.

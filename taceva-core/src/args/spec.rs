@@ -23,13 +23,13 @@ pub struct ArgSpec {
     pub key: String,
     /// Type and range of its value.
     pub kind: ArgKind,
-    /// The unit of its number, as it is written behind the number: `ms`, `mm/h`.
+    /// Unit of its number, such as `ms` or `mm/h`; may follow the number.
     pub unit: Option<String>,
     /// Presence: required, optional or with a default.
     pub presence: Presence,
-    /// Help text, in words that follow a colon.
+    /// Help text, printed after a colon.
     pub help: String,
-    /// True if it can change the facts of the unopened device, such as the size of its frames.
+    /// True if it can change a fact of the unopened device, such as the size of its frames.
     pub changes_facts: bool,
 }
 
@@ -140,7 +140,7 @@ impl ArgSpec {
             })
     }
 
-    /// Strips the unit behind the number of `text`, if there is one.
+    /// Strips the unit after the number of `text`, if there is one.
     fn bare<'a>(&self, text: &'a str) -> &'a str {
         self.unit
             .as_deref()

@@ -12,7 +12,7 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ArgValue {
-    /// A text, a path or one of some choices.
+    /// A text, a path or a choice.
     Text(String),
     /// A whole number.
     Whole(i64),
@@ -36,7 +36,7 @@ impl ArgValue {
         match self {
             #[expect(
                 clippy::cast_precision_loss,
-                reason = "whoever needs all digits asks for `Whole`"
+                reason = "callers that need all digits use `Whole`"
             )]
             ArgValue::Whole(value) => Some(*value as f64),
             ArgValue::Number(value) => Some(*value),

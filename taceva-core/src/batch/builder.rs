@@ -1,4 +1,4 @@
-//! From samples to columns.
+//! Collects samples into columns.
 
 use super::{Batch, Column, LABELS, Labels, NUMBERS};
 use crate::channel::Channels;
@@ -81,7 +81,7 @@ impl BatchBuilder {
         self.batch.rows
     }
 
-    /// The batch so far, which the builder keeps.
+    /// The samples collected so far, as a batch; the builder keeps them.
     ///
     /// ```
     /// use taceva_core::{BatchBuilder, Channel, Channels, FieldSet, Sample};
@@ -94,7 +94,7 @@ impl BatchBuilder {
         &self.batch
     }
 
-    /// Takes the batch so far and leaves an empty one.
+    /// Returns the samples collected so far and empties the builder.
     pub fn take(&mut self) -> Batch {
         let fresh = empty(self.batch.channels.clone(), self.fields);
         std::mem::replace(&mut self.batch, fresh)

@@ -110,7 +110,7 @@ impl Column {
     }
 }
 
-/// Every value present; the vector is taken over, not copied.
+/// Every value present; the vector is moved, not copied.
 ///
 /// ```
 /// use taceva_core::Column;

@@ -97,10 +97,10 @@ impl Labels {
         labels
     }
 
-    /// The index of `number`, which is new.
+    /// Adds the name of the new `number` and returns its index.
     fn named(&mut self, number: i64) -> u32 {
         self.push(&number.to_string());
-        // Its row is added by the caller, as every other.
+        // The caller adds the row.
         self.index.pop().expect("just pushed")
     }
 

@@ -7,7 +7,7 @@ pub(super) const NAME_MAX: usize = 32;
 
 /// A name of ASCII letters, digits and `_`, at most [`NAME_MAX`] bytes.
 ///
-/// Bytes behind the name are 0, so equal names are equal in all bytes.
+/// Bytes after the name are 0, so equal names are equal in all bytes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct ChannelName([u8; NAME_MAX]);
 

@@ -1,4 +1,4 @@
-//! Simulated bench besides its devices: a virtual clock, and the exchange of specimens.
+//! Simulated bench without its devices: a virtual clock, and the exchange of specimens.
 
 use std::time::Duration;
 
@@ -12,7 +12,7 @@ use crate::specimen::Specimen;
 /// use std::time::Duration;
 /// use taceva_core::{DriverError, Rig, SimulatedBench, Specimen};
 ///
-/// /// A clock and nothing else.
+/// /// A bench with only a clock.
 /// #[derive(Default)]
 /// struct Clock(Mutex<Duration>);
 ///

@@ -6,9 +6,8 @@ use super::{Deadline, DriverError, Interrupt};
 
 /// Brings one of its items into place: specimens under the robot (a tool changer, a carousel) or units of a sensor (a revolver, a slide).
 ///
-/// Items have names. The name of a specimen is its text as [`Specimen`](crate::Specimen) displays it, such as `sphere of radius 4 mm` or
-/// `line grating of 1.5 mm`. The name of a unit is that of the scene. Light is set by a [`Lighting`](super::Lighting), which has names in
-/// the same way.
+/// Items have names. A specimen's name is its displayed text ([`Specimen`](crate::Specimen)), such as `sphere of radius 4 mm` or `line grating of
+/// 1.5 mm`. A unit's name is its name in the scene file. A [`Lighting`](super::Lighting) names its scenes in the same way.
 ///
 /// The robot is halted away from the gel while a changer moves. The robot moves again only after the changer has confirmed the requested
 /// item.
@@ -18,7 +17,7 @@ use super::{Deadline, DriverError, Interrupt};
 ///
 /// struct Carousel {
 ///     holds: Vec<String>,
-///     /// The place that stands under the tip.
+///     /// Position of the item under the tip.
 ///     at: usize,
 /// }
 ///
@@ -33,7 +32,7 @@ use super::{Deadline, DriverError, Interrupt};
 ///         };
 ///         let found = self.holds.iter().position(|known| known == name);
 ///         self.at = found.ok_or_else(unknown)?;
-///         // What its own switch sees there, which may be another.
+///         // Report the item that the device's own switch shows; it may differ from the requested one.
 ///         Ok(self.holds[self.at].clone())
 ///     }
 /// }

@@ -4,7 +4,7 @@ use super::DriverError;
 
 /// Enabling switch. The robot may move while it is held, and is halted on release.
 ///
-/// It is no safety function: its state passes through an operating system and a program. The switch of the robot's own safety circuit stays
+/// The switch is no safety function: its state passes through an operating system and a program. The switch of the robot's own safety circuit stays
 /// in charge.
 ///
 /// A caller polls it at least as often as a release must be noticed, and treats an error as a release.
@@ -25,7 +25,7 @@ use super::DriverError;
 ///     }
 /// }
 ///
-/// /// Whether the robot may move on.
+/// /// True if the robot may move.
 /// fn may_move(switch: &dyn EnablingSwitch) -> bool {
 ///     switch.is_held().unwrap_or(false)
 /// }

@@ -6,7 +6,7 @@ use super::{Deadline, DriverError, Speed};
 use crate::geometry::Pose;
 use crate::stamp::Stamp;
 
-/// The ability of a robot to stop when its host stops sending. A command is valid for a short time and repeated many times a second.
+/// Ability of a robot to stop if its host stops sending. Each command is valid for a short time and is repeated many times a second.
 ///
 /// Meant for motions towards a surface. A robot without it completes its motion even if the commanding program has ended.
 ///

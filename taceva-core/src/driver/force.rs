@@ -58,7 +58,7 @@ pub trait ForceTransducer: Send {
         Ok(())
     }
 
-    /// Waits for the next reading: the wrench on the gel, and when it was measured.
+    /// Waits for the next reading: the wrench on the gel and its time.
     ///
     /// # Errors
     /// [`DriverError`] of kind
@@ -68,13 +68,13 @@ pub trait ForceTransducer: Send {
     /// - `Disconnected` or `EndOfStream` if nothing will come any more.
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError>;
 
-    /// Sequence number that the device gave the last reading, if it numbers them. A frozen link or device repeats it, even under a new
-    /// stamp. The numbers may restart, so compare them for equality only.
+    /// Sequence number of the last reading, if the device numbers its readings. A frozen link or device repeats it, even under a new stamp. The
+    /// numbers may restart, so compare them for equality only.
     fn sequence(&self) -> Option<u64> {
         None
     }
 
-    /// Ends what [`start`](ForceTransducer::start) began; may be called in every state.
+    /// Stops the readings; may be called in every state.
     ///
     /// # Errors
     /// [`DriverError`] if the device does not confirm.

@@ -5,7 +5,7 @@ use crate::geometry::Pose;
 use crate::quantity::Newton;
 use crate::stamp::Stamp;
 
-/// The ability of a robot to watch the force by itself, faster than a host could.
+/// Ability of a robot to monitor the force by itself, faster than a host could.
 ///
 /// ```
 /// use std::time::Duration;
@@ -75,7 +75,7 @@ impl Guard {
     }
 }
 
-/// End of a guarded motion. It gets no further variant: every other end is an error.
+/// End of a guarded motion. It gets no further variant: any other end is an error.
 ///
 /// ```
 /// use std::time::Duration;
@@ -87,14 +87,14 @@ impl Guard {
 pub enum GuardedStop {
     /// At the target, without reaching the guard.
     Arrived {
-        /// When it came to rest.
+        /// Time at which the tip came to rest.
         stamp: Stamp,
     },
     /// At the guard.
     Guarded {
         /// Pose at rest, beyond the place where the guard was reached.
         pose: Pose,
-        /// When it came to rest.
+        /// Time at which the tip came to rest.
         stamp: Stamp,
     },
 }

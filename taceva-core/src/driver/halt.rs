@@ -2,7 +2,7 @@
 
 use super::DriverError;
 
-/// Stops the robot it came from: from any thread, in every state, beside any other call.
+/// Stops its robot from any thread, in every state, during any other call.
 ///
 /// The handle may outlive the robot: once the robot is dropped, the halt succeeds without effect. It is advisory: software is not a safety
 /// function, the emergency stop of the site is.
@@ -11,7 +11,7 @@ use super::DriverError;
 /// use std::sync::atomic::{AtomicBool, Ordering};
 /// use taceva_core::{DriverError, Halt};
 ///
-/// /// What a robot looks at before each step of a motion.
+/// /// Flag that the robot checks before each step of a motion.
 /// #[derive(Default)]
 /// struct Latch(AtomicBool);
 ///

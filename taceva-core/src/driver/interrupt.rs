@@ -1,6 +1,6 @@
 //! Ending a call from another thread.
 
-/// Ends the pending call of the device it came from: from any thread, beside any other call.
+/// Ends the pending call of its device, from any thread.
 ///
 /// A waiting call returns [`ErrorKind::Interrupted`](crate::ErrorKind::Interrupted) within 50 ms and leaves the device usable. Without a
 /// pending call nothing happens. The handle may outlive the device.
@@ -14,7 +14,7 @@
 ///
 /// impl Interrupt for Wake {
 ///     fn interrupt(&self) {
-///         // Where nothing waits any more there is nothing to wake.
+///         // If no call waits, nothing needs waking.
 ///         let _ = self.0.try_send(());
 ///     }
 /// }

@@ -2,7 +2,7 @@
 
 use super::{Deadline, DriverError};
 
-/// Light that falls on a sensor from outside, in scenes that have a name.
+/// External light on a sensor, set by named scenes.
 ///
 /// The light inside a sensor belongs to the sensor and is set by its arguments.
 ///

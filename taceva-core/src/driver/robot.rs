@@ -73,7 +73,7 @@ use crate::stamp::Stamp;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Robot: Send {
-    /// The pose of the tip, and when it was there.
+    /// Pose of the tip, and its time.
     ///
     /// # Errors
     /// [`DriverError`] of kind `Timeout`, `Disconnected`, or `DeviceFault` for a coordinate that is not finite.
@@ -115,7 +115,7 @@ pub trait Robot: Send {
 
     /// Ends a halt, so that moves are accepted again; without one it does nothing. Nothing moves.
     ///
-    /// Ends the halt of [`halt`](Robot::halt) alone. A [`Fault`](super::Fault) of the device is never cleared: a person looks, and
+    /// Ends only the halt of [`halt`](Robot::halt). A [`Fault`](super::Fault) of the device is never cleared: a person looks, and
     /// acknowledges it at the device.
     ///
     /// # Errors

@@ -4,13 +4,13 @@ use super::{Deadline, DriverError};
 use crate::geometry::Pose;
 use crate::stamp::Stamp;
 
-/// Watches its robot while that moves: from any thread, beside any other call, over a separate connection.
+/// Reports the pose of its robot during a motion: from any thread, over a separate connection.
 ///
 /// The handle may outlive the robot; it then returns `Disconnected`.
 ///
 /// ```
 /// use taceva_core::{Deadline, DriverError, Pose, RobotWatch};
-/// /// How deep the tip is now, in mm.
+/// /// Present depth of the tip, mm.
 /// fn depth_mm(watch: &dyn RobotWatch, deadline: Deadline) -> Result<f64, DriverError> {
 ///     let (pose, _) = watch.pose(deadline)?;
 ///     Ok(pose.position.z.0)

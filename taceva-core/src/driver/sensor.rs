@@ -13,7 +13,7 @@ use crate::stamp::Stamp;
 /// use std::time::Duration;
 /// use taceva_core::{Deadline, DriverError, FrameInfo, FrameMut, PixelFormat, Sensor, Stamp};
 ///
-/// /// Sees one gray everywhere.
+/// /// Returns gray frames.
 /// struct Gray;
 ///
 /// impl Sensor for Gray {
@@ -46,7 +46,7 @@ pub trait Sensor: Send {
         Ok(())
     }
 
-    /// Waits for the next frame, writes it into the caller's buffer and returns when it was taken.
+    /// Waits for the next frame, writes it into the caller's buffer and returns its time.
     ///
     /// Frames come in the order of their stamps; one may be missing if the caller was too slow, and none comes twice.
     /// On an error the buffer holds no frame.
@@ -55,7 +55,7 @@ pub trait Sensor: Send {
     /// [`DriverError`] of kind
     /// - `InvalidArgument` if the size or format of `into` is not [`frame_info`](Sensor::frame_info), or the sensor must be started first,
     /// - `Timeout` if no frame came within `deadline`,
-    /// - `Protocol` if what came is no whole frame; the next call may succeed,
+    /// - `Protocol` for an incomplete frame; the next call may succeed,
     /// - `Disconnected` or `EndOfStream` if none will come any more.
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError>;
 
@@ -65,12 +65,12 @@ pub trait Sensor: Send {
         None
     }
 
-    /// The PNG or JPEG file from which the last frame was decoded, where the device sends files; a recording may store it unchanged.
+    /// PNG or JPEG file from which the last frame was decoded, if the device sends files. A recording may store it unchanged.
     fn sent(&self) -> Option<&[u8]> {
         None
     }
 
-    /// Ends what [`start`](Sensor::start) began; may be called in every state.
+    /// Stops the frames; may be called in every state.
     ///
     /// # Errors
     /// [`DriverError`] if the device does not confirm.

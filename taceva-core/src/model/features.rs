@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::ModelError;
 use crate::error::ErrorKind;
 
-/// The shape of one sample's features: a small picture, or a flat list. A plain value, which gets no further fields.
+/// Shape of one sample's features: a small picture, or a flat list. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_core::FeatureShape;
@@ -73,7 +73,7 @@ impl Features {
     /// Features of `shape`; the number of samples follows from the number of values.
     ///
     /// # Errors
-    /// [`ModelError`] if the values are no whole number of samples.
+    /// [`ModelError`] if the number of values is not a multiple of the width of a sample.
     pub fn new(shape: FeatureShape, values: Vec<f32>) -> Result<Features, ModelError> {
         let whole = match shape.len() {
             0 => values.is_empty(),
@@ -131,7 +131,7 @@ impl Features {
         if let (Some(first), Some(last)) = (positions.first(), positions.last())
             && positions.windows(2).all(follow)
         {
-            assert!(*last < self.samples(), "a sample that is there");
+            assert!(*last < self.samples(), "a sample out of range");
             let length = self.shape.len();
             let begin = self.place.start;
             return Features {

@@ -4,8 +4,7 @@ use super::{STEP, finalise, mix, scaled, unit};
 
 /// The random numbers of one key, each looked up by its counter.
 ///
-/// Number `n` equals that of [`SplitMix64`](super::SplitMix64) at step n + 1 from the key as its state. Each can be computed without those
-/// before it.
+/// Number `n` equals number n + 1 of [`SplitMix64`](super::SplitMix64) with the key as its seed. Each is computed without the earlier ones.
 ///
 /// ```
 /// use taceva_core::random::Draws;
@@ -41,15 +40,15 @@ impl Draws {
         mix(self.key.wrapping_add(counter.wrapping_mul(STEP)))
     }
 
-    /// A number of 0 ≤ u < 1, as [`unit`](super::unit()) makes it.
+    /// Number u with 0 ≤ u < 1, made by [`unit`](super::unit()).
     #[inline]
     #[must_use]
     pub const fn unit(self, counter: u64) -> f64 {
         unit(self.bits(counter))
     }
 
-    /// A normal number of mean 0 and variance 1 (Box and Muller), from the numbers 2 · `counter` and 2 · `counter` + 1. Its last digits
-    /// depend on the platform's logarithm and cosine.
+    /// Normal number of mean 0 and variance 1 (Box and Muller), from the numbers 2 · `counter` and 2 · `counter` + 1. Its last digits depend on the
+    /// platform's logarithm and cosine.
     #[must_use]
     pub fn normal(self, counter: u64) -> f64 {
         let (first, second) = (self.unit(2 * counter), self.unit(2 * counter + 1));
@@ -90,7 +89,7 @@ mod tests {
         let values: Vec<f64> = (0..20_000).map(|counter| draws.normal(counter)).collect();
         let mean = values.iter().sum::<f64>() / 20_000.0;
         let variance = values.iter().map(|value| value * value).sum::<f64>() / 20_000.0;
-        // Standard errors are 0.007 and 0.01: five of them.
+        // Standard errors are 0.007 and 0.01; the limits are five of them.
         assert!(
             mean.abs() < 0.035 && (variance - 1.0).abs() < 0.05,
             "{mean} {variance}"
@@ -104,7 +103,7 @@ mod tests {
             let order = Draws::new(3).of(purpose).order(3);
             *counts.entry(order).or_insert(0_u32) += 1;
         }
-        // 1000 expected, standard deviation 29: five of them.
+        // Expected: 1000, standard deviation 29; the limits are five deviations.
         assert_eq!(counts.len(), 6);
         assert!(counts.values().all(|count| count.abs_diff(1000) < 145));
     }

@@ -33,7 +33,7 @@ impl SplitMix64 {
         word
     }
 
-    /// The next number of 0 ≤ u < 1, a multiple of 2⁻⁵³.
+    /// Next number u with 0 ≤ u < 1, a multiple of 2⁻⁵³.
     #[inline]
     pub const fn unit(&mut self) -> f64 {
         unit(self.next_u64())
@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn words_that_would_favour_some_numbers_are_discarded() {
-        // Above 2⁶³ half of the words would count twice; 40 draws without a discarded one have the probability 2⁻⁴⁰.
+        // For this bound about half of the words are discarded. The probability that 40 draws discard none is 2⁻⁴⁰.
         let bound = (1_usize << 63) + 1;
         let (mut drawn, mut plain) = (SplitMix64::new(3), SplitMix64::new(3));
         for _ in 0..40 {
@@ -99,7 +99,7 @@ mod tests {
             random.shuffle(&mut items);
             *counts.entry(items).or_insert(0_u32) += 1;
         }
-        // 1000 expected, standard deviation 29: five of them.
+        // Expected: 1000, standard deviation 29; the limits are five deviations.
         assert_eq!(counts.len(), 6);
         assert!(counts.values().all(|count| count.abs_diff(1000) < 145));
     }

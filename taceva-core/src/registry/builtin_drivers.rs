@@ -13,10 +13,9 @@ impl<D: Device + ?Sized + 'static> Registry<D>
 where
     Builtin<D>: inventory::Collect,
 {
-    /// The linked-in drivers of this kind. The list of the program has no order; the registry has.
+    /// The linked-in drivers of this kind, sorted by key.
     ///
-    /// A crate that is named in `Cargo.toml` and nowhere in the code is not linked, and its drivers are silently missing.
-    /// `use the_crate as _;` keeps them.
+    /// A crate that is named in `Cargo.toml` and nowhere in the code is not linked, so its drivers are missing. `use the_crate as _;` links it.
     ///
     /// # Errors
     /// [`RegistryError`] if two have one key, or one contradicts itself.

@@ -1,10 +1,10 @@
-//! A device that is present, and not opened.
+//! A device that is connected but not opened.
 
 use std::fmt;
 
 use crate::id::DriverKey;
 
-/// A device that a driver sees.
+/// A device that a driver found.
 ///
 /// ```
 /// use taceva_core::{Access, DriverKey, Found};
@@ -51,7 +51,7 @@ impl Found {
     }
 }
 
-/// Access to a device that a driver sees.
+/// Access to a device that a driver found.
 ///
 /// ```
 /// use taceva_core::Access;
@@ -65,7 +65,7 @@ pub enum Access {
     Ready,
     /// This user may not open it.
     Denied {
-        /// Action that would permit it.
+        /// Action that would give access.
         remedy: String,
     },
     /// Another program holds the device.

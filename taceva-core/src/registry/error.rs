@@ -7,7 +7,7 @@ use super::DescriptorError;
 use crate::driver::DriverKind;
 use crate::id::DriverKey;
 
-/// A driver that a registry cannot take, or does not have.
+/// A driver that a registry rejects or does not have.
 ///
 /// ```
 /// use taceva_core::{Registry, RegistryError, Robot};
@@ -38,13 +38,13 @@ pub enum RegistryError {
         /// Title of the driver that was rejected.
         second: String,
     },
-    /// A driver among those of another kind.
+    /// A driver of another kind than the registry.
     Kind {
         /// The driver.
         key: DriverKey,
-        /// The kind that is kept there.
+        /// Kind of the registry.
         expected: DriverKind,
-        /// The kind that the driver is.
+        /// Kind of the driver.
         found: DriverKind,
     },
     /// A built-in driver that contradicts itself.

@@ -56,10 +56,10 @@ pub trait Factory<D: ?Sized>: Send + Sync {
     /// [`DriverError`] of kind `NotFound`, `PermissionDenied`, `Busy`, `InvalidArgument`, `Protocol`, `Timeout` or `Unsupported`.
     fn open(&self, args: &Args, rig: &mut Rig) -> Result<Box<D>, DriverError>;
 
-    /// The devices that are present now, without opening any. A driver that cannot look finds none.
+    /// The devices that are connected now, without opening any. A driver that cannot search returns none.
     ///
     /// # Errors
-    /// [`DriverError`] if looking itself fails.
+    /// [`DriverError`] if the search fails.
     fn discover(&self) -> Result<Vec<Found>, DriverError> {
         Ok(Vec::new())
     }

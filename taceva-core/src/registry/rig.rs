@@ -57,10 +57,9 @@ impl Rig {
         }
     }
 
-    /// Makes a simulated bench known; it replaces one of that name.
+    /// Registers a simulated bench and replaces one of the same name.
     ///
-    /// The name is the part of its drivers' keys before the last `/`, a space, and the argument `rig` with which they are opened:
-    /// `sim bench`.
+    /// The name is the drivers' key before its last `/`, a space, and their argument `rig`: `sim bench`.
     pub fn offer_bench(&mut self, name: &str, bench: Arc<dyn SimulatedBench>) {
         self.benches.insert(name.to_owned(), bench);
     }

@@ -1,4 +1,4 @@
-//! Numbers that are no signals of a sensor.
+//! Errors of signals.
 
 use std::fmt;
 

@@ -150,7 +150,7 @@ impl SourceUnit {
         SOURCE_UNITS.iter().map(|(symbol, _, _)| *symbol)
     }
 
-    /// The symbol it was written with.
+    /// Symbol as written.
     pub const fn symbol(&self) -> &'static str {
         self.symbol
     }
@@ -160,7 +160,7 @@ impl SourceUnit {
         self.unit
     }
 
-    /// Shift of the decimal point in the conversion to the stored unit, places; `None` if the factor is no power of ten. Shifting the point
+    /// Shift of the decimal point in the conversion to the stored unit, places; `None` if the factor is not a power of ten. Shifting the point
     /// of a text before parsing rounds once; parsing and then converting rounds twice.
     pub fn decimal_shift(&self) -> Option<i32> {
         let find = |factor: f64| {
@@ -192,7 +192,7 @@ impl SourceUnit {
     }
 }
 
-/// A symbol that is no known unit.
+/// A symbol that is not a known unit.
 ///
 /// ```
 /// use taceva_core::SourceUnit;
@@ -227,7 +227,8 @@ mod tests {
 
     #[test]
     fn every_kept_unit_is_a_source_unit_that_changes_nothing() {
-        for unit in Unit::ALL {
+        // Angles are kept in degrees; radians are those of foreign tables alone.
+        for unit in Unit::ALL.into_iter().filter(|unit| *unit != Unit::Radian) {
             let source = SourceUnit::parse(unit.symbol()).expect("kept units are accepted");
             assert_eq!(source.unit(), unit);
             assert_eq!(source.convert(0.1).to_bits(), 0.1_f64.to_bits());

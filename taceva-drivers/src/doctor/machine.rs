@@ -44,7 +44,7 @@ impl Machine {
         }
     }
 
-    /// User who runs the program; `None` if the machine does not tell.
+    /// User who runs the program; `None` if unknown.
     pub(super) fn user(&self) -> Option<User> {
         let status = self.text("proc/self/status")?;
         let passwords = self.text("etc/passwd").unwrap_or_default();

@@ -42,7 +42,7 @@ pub(super) const KINDS: &[PortKind] = &[
         prefixes: &["hidraw"],
         name: Some(("sys/class/hidraw", "device/uevent")),
         noun: "HID device",
-        if_absent: "plug in the gauge or scale, if it is a HID device",
+        if_absent: "plug in the scale or pedal, if the rig has one",
         class: PortClass::Hid,
     },
 ];

@@ -16,6 +16,7 @@ const KEY: DriverKey = DriverKey::fixed("hid/pedal");
 taceva_core::inventory::submit! {
     LinkedSwitch {
         key: KEY,
+        title: "a USB pedal, button or hand switch",
         arguments: Pedal::arguments,
         open: |selector| Ok(Arc::new(Pedal::open(selector)?)),
     }

@@ -8,7 +8,7 @@ use taceva_core::{Pose, Speed};
 pub(crate) const RENEWED: Duration = Duration::from_millis(50);
 /// Remaining time at which a straight line takes over, since only a line ends exactly at the target.
 pub(crate) const LINE: Duration = Duration::from_millis(100);
-/// Maximum duration of a path that is a line from its start, since the change of motion takes time too.
+/// A path up to this duration is one line, because the change of motion takes time too.
 const WORTH: Duration = Duration::from_millis(300);
 /// Tolerance of the tool's rotation, degrees.
 const TURNED_DEG: f64 = 0.01;
@@ -90,7 +90,7 @@ mod tests {
         let left_s = |x, z| course.left(&at(x, z)).as_secs_f64();
         assert!((left_s(0.0, 0.0) - 1.0).abs() < 1e-9);
         assert!((left_s(1.5, -2.0) - 0.5).abs() < 1e-9);
-        // Off the path the nearest point counts, and past the end nothing is left.
+        // Off the path the nearest point counts. Past the end no duration is left.
         assert!((left_s(1.5 + 0.4, -2.0 + 0.3) - 0.5).abs() < 1e-9);
         assert!(left_s(6.0, -8.0) < 1e-12);
         assert!(Course::of(&at(0.0, 0.0), &at(0.0, 1.5), speed).is_none());

@@ -37,7 +37,7 @@ pub(crate) struct Ending {
     pub(crate) why: String,
 }
 
-/// Cause for the absence of a newer item.
+/// Reason why no newer item came.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum NoNews {
     /// The timeout expired.

@@ -197,7 +197,7 @@ fn each_check_of_a_changer_can_fail() {
     );
 }
 
-/// The toy behind a failing link.
+/// A toy behind a failing link.
 struct Failing {
     toy: ToyFactory,
     plan: FaultPlan,
@@ -226,7 +226,7 @@ fn a_device_that_answers_nan_or_saturates_or_stalls_is_caught() {
         (FaultKind::NotANumber, "`Fz` is NaN, expected a number"),
         (
             FaultKind::Saturation,
-            "Fz is 10 N, expected an error from 10 N on",
+            "Fz is 10 N, expected an error at 10 N or more",
         ),
         (FaultKind::Silence, "no answer within 1s (timeout)"),
         (

@@ -1,8 +1,8 @@
 //! Listing of drivers and devices, and opening of one by name.
 
 use taceva_core::{
-    Access, Args, Descriptor, DescriptorSpec, DriverError, DriverKey, DriverSource, ErrorKind,
-    Factory, Facts, Found, Millimetre, Rig, Sensor, SensorFacts,
+    Access, ArgSpec, Args, Descriptor, DescriptorSpec, DriverError, DriverKey, DriverSource,
+    ErrorKind, Factory, Facts, Found, Millimetre, Rig, Sensor, SensorFacts,
 };
 use taceva_drivers::{Drivers, devices, open};
 
@@ -131,6 +131,24 @@ fn what_is_not_known_of_a_device_is_absent_from_the_list() {
             "help": "frames per second, if no table of times is given",
         })
     );
+}
+
+#[test]
+fn an_enabling_switch_is_listed_with_its_title_and_arguments_and_is_not_opened() {
+    let mut drivers = drivers();
+    let arguments = vec![ArgSpec::text("usb").help("its number")];
+    let key = DriverKey::fixed("test/foot");
+    let switches = &mut drivers.switches;
+    switches.add(key, "a foot switch", arguments, |_| {
+        panic!("a list opens nothing")
+    });
+    assert!(drivers.switches.has("test/foot") && !drivers.switches.has("test/seeing"));
+    let listed = devices(&drivers).switches;
+    let foot = listed.iter().find(|switch| switch.key == "test/foot");
+    let foot = serde_json::to_value(foot.expect("listed")).expect("plain values");
+    assert_eq!(foot["title"], "a foot switch");
+    assert_eq!(foot["arguments"][0]["key"], "usb");
+    assert_eq!(foot["arguments"][0]["help"], "its number");
 }
 
 #[test]

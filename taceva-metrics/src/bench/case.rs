@@ -23,7 +23,7 @@ pub struct Case {
     pub order: Order,
 }
 
-/// Kind of values. y is drawn first, then ŷ; `noise` is about the standard deviation of ŷ − y, or of ŷ / y.
+/// Kind of values. y is drawn first, then ŷ; `noise` is approximately the standard deviation of ŷ − y, or of ŷ / y.
 ///
 /// ```
 /// use taceva_metrics::bench::{Case, Kind, Order};
@@ -33,7 +33,7 @@ pub struct Case {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Kind {
-    /// y uniform between two values, ŷ near it: as in a laboratory.
+    /// y uniform between two values, ŷ near it: typical laboratory data.
     Lab {
         /// The least y.
         low: f64,
@@ -42,13 +42,13 @@ pub enum Kind {
         /// About the standard deviation of ŷ − y.
         noise: f64,
     },
-    /// The same far from zero, where the textbook's SST cancels.
+    /// As `Lab`, but far from zero, where the textbook formula of SST cancels.
     Offset {
         /// Distance from zero.
         offset: f64,
-        /// The least y before.
+        /// Least y before the offset is added.
         low: f64,
-        /// The greatest y before.
+        /// Greatest y before the offset is added.
         high: f64,
         /// About the standard deviation of ŷ − y.
         noise: f64,
@@ -80,19 +80,19 @@ pub enum Kind {
     },
     /// y and ŷ below the least normal number.
     Denormal,
-    /// One y, ŷ near it.
+    /// Constant y, ŷ near it.
     Constant {
         /// The value.
         value: f64,
         /// About the standard deviation of ŷ.
         noise: f64,
     },
-    /// One y, and ŷ equal to it.
+    /// Constant y, and ŷ equal to it.
     Met {
         /// The value.
         value: f64,
     },
-    /// As in a laboratory, rounded to binary32.
+    /// As `Lab`, rounded to binary32.
     Single {
         /// The least y.
         low: f64,
@@ -110,7 +110,7 @@ pub enum Kind {
         /// About the standard deviation of ŷ − y.
         noise: f64,
     },
-    /// y even between two values, errors of any exponent between two.
+    /// y uniform between two values, errors with any exponent between two.
     SmallErrors {
         /// The least y.
         low: f64,
@@ -168,7 +168,7 @@ impl Case {
 }
 
 impl Kind {
-    /// y and ŷ of a row, after the y of the row before.
+    /// y and ŷ of a row; `before` is the y of the row before.
     fn draw(self, row: usize, before: Option<f64>, random: &mut Numbers) -> (f64, f64) {
         match self {
             Kind::Lab { low, high, noise } => {
@@ -224,13 +224,13 @@ impl Kind {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "rounding to binary32 is what the case says"
+    reason = "the case is rounded to binary32"
 )]
 fn to_single(value: f64) -> f64 {
     f64::from(value as f32)
 }
 
-/// Inputs that usual ways to sum get wrong, by name; the first one is harmless.
+/// Inputs that common summation algorithms get wrong, by name; the first one is harmless.
 pub fn nasty_inputs() -> impl Iterator<Item = (&'static str, Case)> {
     let case = |kind, rows, order| Case {
         kind,

@@ -1,6 +1,6 @@
 //! Running sums with rounding, some of them compensated.
 
-/// A sum that numbers are added to one by one.
+/// A running sum.
 pub(super) trait RunningSum: Copy + Default {
     /// Adds a number.
     fn add(&mut self, value: f64);
@@ -31,7 +31,7 @@ impl RunningSum for Single {
     #[inline]
     #[expect(
         clippy::cast_possible_truncation,
-        reason = "rounding to binary32 is what it is for"
+        reason = "this sum rounds to binary32"
     )]
     fn add(&mut self, value: f64) {
         self.0 += value as f32;
@@ -63,7 +63,7 @@ impl RunningSum for Kahan {
     }
 }
 
-/// Collects the rounding errors beside the sum (Neumaier 1974).
+/// Sums the rounding errors separately (Neumaier 1974).
 #[derive(Clone, Copy, Default)]
 pub(super) struct Neumaier {
     sum: f64,

@@ -24,7 +24,7 @@ use crate::pair::Paired;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kernel {
-    /// One pass in binary64, SST by the textbook: Σy² − (Σy)² / n.
+    /// One pass in binary64, SST by the textbook formula: Σy² − (Σy)² / n.
     Naive,
     /// The same with the sums in binary32.
     Single,
@@ -112,7 +112,8 @@ impl Kernel {
         }
     }
 
-    /// True if the order of rows cannot change a bit of the result. Agreement of a few shuffles would be no evidence.
+    /// True if the order of rows cannot change a bit of the result. Known from the algorithm: equal results of some orders would prove
+    /// nothing.
     pub fn is_order_free(self) -> bool {
         self.is_exact()
     }

@@ -27,17 +27,17 @@ impl Numbers {
         }
     }
 
-    /// A number in 0..1: a multiple of 2⁻⁵³.
+    /// Number from 0 to below 1, a multiple of 2⁻⁵³.
     pub(super) fn unit(&mut self) -> f64 {
         self.0.unit()
     }
 
-    /// About a standard normal number: twelve units, summed from the first to the last, less 6.
+    /// Approximately standard normal number: the sum of twelve numbers from 0 to 1, in order, minus 6.
     pub(super) fn bell(&mut self) -> f64 {
         (1..12).fold(self.unit(), |sum, _| sum + self.unit()) - 6.0
     }
 
-    /// Any mantissa and sign, with an exponent from `low` to `high`.
+    /// Number with any mantissa and sign, and an exponent from `low` to `high`.
     pub(super) fn wide(&mut self, low: i32, high: i32) -> f64 {
         let word = self.0.next_u64();
         let span = u64::try_from(high - low + 1).expect("exponents in order");

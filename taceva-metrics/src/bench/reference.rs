@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use super::scores::Scores;
 use crate::pair::Paired;
 
-/// Exponent of two of which every value is a multiple.
+/// Every value is a multiple of 2 to this power.
 const LEAST: i32 = -1074;
 
 /// The true scores of `pairs`.
@@ -181,7 +181,7 @@ fn ratio(above: &Whole, below: &Whole, unit: i32) -> Option<f64> {
     let sticky = u128::from(is_left || !rest.is_empty());
     #[expect(
         clippy::cast_precision_loss,
-        reason = "the one rounding of a score; the last bit says whether anything is left"
+        reason = "the only rounding of a score; the last bit marks a remainder"
     )]
     let rounded = ((quotient << 1) | sticky) as f64;
     let power = unit - 1 - i32::try_from(up).ok()? + i32::try_from(places_left).ok()?;
@@ -227,7 +227,7 @@ fn added(left: &[u32], right: &[u32]) -> Vec<u32> {
     sum
 }
 
-/// `left` less `right`, which is no greater.
+/// `left` minus `right`, which is at most `left`.
 fn taken(left: &[u32], right: &[u32]) -> Vec<u32> {
     let mut borrowed = 0_i64;
     left.iter()

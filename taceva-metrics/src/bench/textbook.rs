@@ -4,7 +4,7 @@ use super::compensation::{RunningSum, pairwise};
 use super::scores::Scores;
 use crate::pair::Paired;
 
-/// Σ|d|, Σd², SST and Σt as a library rounds them, over n rows.
+/// Scores from the rounded sums Σ|d|, Σd², SST and Σt of n rows.
 fn finish(n: f64, absolute: f64, squared: f64, total: f64, symmetric: f64) -> Scores {
     Scores {
         mae: number(absolute / n),
@@ -98,7 +98,7 @@ pub(super) fn mean_error<S: RunningSum>(pairs: Paired<&[f64]>) -> Option<f64> {
 
 #[expect(
     clippy::cast_precision_loss,
-    reason = "no column has 2^53 rows, and those who round would round this too"
+    reason = "no column has 2^53 rows, and these kernels round anyway"
 )]
 pub(super) fn length(pairs: Paired<&[f64]>) -> f64 {
     pairs.estimate.len() as f64

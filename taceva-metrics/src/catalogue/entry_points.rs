@@ -7,7 +7,7 @@ use crate::evaluate::metric::Metric;
 use crate::evaluate::{Evaluation, Evaluator, MetricPlan};
 
 impl MetricPlan {
-    /// Keeps of `wanted` what samples with these channels and fields allow, in the order of reports.
+    /// Keeps the metrics of `wanted` that these channels and fields allow, in the order of reports.
     pub fn new(wanted: &[&'static Metric], channels: Channels, available: FieldSet) -> MetricPlan {
         MetricPlan::of(&ALL, wanted, channels, available)
     }
@@ -36,10 +36,10 @@ impl Evaluator {
 }
 
 impl Evaluation {
-    /// The scores of `parts` as one evaluation, in the order of reports; `skipped` are the metrics of no part.
+    /// The scores of `parts` as one evaluation, in the order of reports; `skipped` lists metrics that no part contains.
     ///
-    /// For metrics computed on different samples: nothing is merged. Scores have the standing by the skill of their channels, in whichever
-    /// part that skill is.
+    /// For metrics computed on different samples: sums are not merged. The skill of a channel, from any part, sets the standing of its
+    /// scores.
     pub fn joined(
         parts: impl IntoIterator<Item = Evaluation>,
         skipped: Vec<Skipped>,

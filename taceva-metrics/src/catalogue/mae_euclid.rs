@@ -20,8 +20,8 @@ pub(crate) static MAE_EUCLID: Metric = Metric {
     range: Range::Positive,
     definition: "mae_euclid/1",
     reference: "mean of √((x − x̂)² + (y − ŷ)²)",
-    documentation: "Mean distance between the predicted and the true point; 1.57 times the mean absolute error of an axis if errors are \
-                    Gaussian. The paper's xy value differs: it is the mean of the two axes' scores.",
+    documentation: "Mean distance between the predicted and the true point; 1.57 times the mean absolute error of an axis for \
+                    Gaussian errors of mean zero that are alike on both axes. The paper's xy value differs: it is the mean of the two axes' scores.",
     needs: PAIR_NEEDS,
     formula: Formula(&PlaneFormula(mae_euclid)),
     ..Metric::of(&PLANE)

@@ -31,8 +31,8 @@ pub(crate) static NOISE_EQUIVALENT_FORCE: Metric = Metric {
     documentation: "Least force that exceeds the noise of untouched pictures with 5 % of false alarms and 5 % of misses: δ √(1 + 1/n) s. \
                     Here s is the standard deviation (over n − 1) of predicted force over the n samples without contact, |true Fz| < \
                     0.02 N; δ is the factor for n − 1 degrees of freedom. Forces only, from ten such samples on. It is not a detection \
-                    limit: only light presses can verify one, and other places, other days and the error at zero (see zero_error) \
-                    increase it. `critical` is the threshold that zero exceeds in 5 % of cases; `known_deviation` is 3.29 s, as if s \
+                    limit, which light presses verify (see detection_limit): other places, other days and the error at zero (see \
+                    zero_error) increase it. `critical` is the threshold that zero exceeds in 5 % of cases; `known_deviation` is 3.29 s, as if s \
                     were known. `independent_low` and `independent_high` are its 95 % limits by the χ² distribution of s if samples are \
                     independent.",
     needs: IDLE_NEEDS,
@@ -84,10 +84,7 @@ fn chi_square_share(freedom: f64, normal: f64) -> f64 {
 }
 
 fn number(count: u64) -> f64 {
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "nobody takes 2^53 pictures of an untouched gel"
-    )]
+    #[expect(clippy::cast_precision_loss, reason = "no recording has 2^53 pictures")]
     let number = count as f64;
     number
 }

@@ -28,8 +28,8 @@ pub(crate) static REPEATABILITY: Metric = Metric {
     documentation: "Scatter of predictions when the same point is pressed to the same depth again: the standard deviation (over n − 1) \
                     of each cell of point and depth step with two repeats or more, averaged over cells. `population` divides by n. \
                     `pooled` is s_r, the root of the mean variance weighted by n − 1. Verdicts use `pooled`, because fewer repeats make \
-                    the average of standard deviations smaller. `limit` is 2.8 s_r, which the difference of two repeats exceeds once in \
-                    twenty times; `curve` is the mean at each depth step.",
+                    the average of standard deviations smaller. `limit` is 2.8 s_r, which the difference of two Gaussian repeats exceeds \
+                    once in twenty times; `curve` is the mean at each depth step.",
     needs: REPEAT_NEEDS,
     decided_by: Some("pooled"),
     constants: limit_factor,

@@ -19,7 +19,7 @@ pub(crate) static RMSE: Metric = Metric {
     range: Range::Positive,
     definition: "rmse/2",
     reference: "square root of the mean squared error",
-    documentation: "Like the mean absolute error, but large errors weigh more; 1.25 times as large if errors are Gaussian.",
+    documentation: "Like the mean absolute error, but large errors weigh more; 1.25 times as large for Gaussian errors of mean zero.",
     needs: PAIR_NEEDS,
     formula: Formula(&PairFormula {
         streams: Streams::of(&[Stream::Squared]),

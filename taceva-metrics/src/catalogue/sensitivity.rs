@@ -1,4 +1,4 @@
-//! Compliance of the gel. A softer gel yields more, which is no merit by itself, so the score only describes.
+//! Compliance of the gel. A softer gel yields more, which is not a merit by itself, so the score only describes.
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
@@ -24,7 +24,7 @@ pub(crate) static SENSITIVITY: Metric = Metric {
     reference: "TacEva, equation (5)",
     documentation: "Indentation of the gel per newton of normal force: the mean of indentation over force of all samples in contact, \
                     with or without shear. The score is descriptive: a softer gel yields more, but is not better. `slope` is the slope \
-                    of the line through the origin, which stays finite as the force approaches the gate. `normal_only` omits samples \
+                    of indentation over force through the origin, in which light presses weigh less. `normal_only` omits samples \
                     with shear; `map` is the mean in each cell of the footprint.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth))
         .with_channels(&["Pz", "Fz"])

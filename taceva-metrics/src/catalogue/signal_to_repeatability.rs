@@ -23,8 +23,8 @@ pub(crate) static SIGNAL_TO_REPEATABILITY: Metric = Metric {
     reference: "standard deviation of the cells' means, without the part that s_r explains, over s_r, the pooled repeatability standard \
         deviation of ISO 5725",
     documentation: "Ratio of the differences between presses to those between repeats of one press. The part that repeats explain is \
-                    subtracted first, so sensors pressed twice and ten times score alike. A sensor whose predictions never change \
-                    repeats perfectly but has no signal: its value is 0. Undefined if repeats are equal although presses differ. If \
+                    subtracted first, so sensors pressed twice and ten times score alike. It is 0 if the \
+                    part of repeats explains all differences, and for predictions that never change. Undefined if repeats are equal although presses differ. If \
                     labels differ less between presses than predictions of one press do, the score is flagged `low stimulus` and takes \
                     part in no verdict.",
     // Without labels it is not known whether there was a signal.

@@ -26,9 +26,9 @@ pub(crate) static SKILL: Metric = Metric {
     range: Range::BelowOne,
     definition: "skill/1",
     reference: "mean squared error skill score: Murphy 1988, Monthly Weather Review 116",
-    documentation: "Share of the squared error of the best constant prediction that the model removes: 1 − MSE of the model / MSE of the \
-                    constant. 1 is perfect, and 0 is no better than the constant. The constant is the mean of the training labels. If \
-                    those are unknown, it is the mean of the evaluated truth, and the score is flagged. In a plane, both errors are \
+    documentation: "Share of the squared error of a constant prediction that the model removes: 1 − MSE of the model / MSE of the constant. \
+                    1 is perfect, and 0 is no better than the constant. The constant is the mean of the training labels. If those are \
+                    unknown, it is the mean of the evaluated truth, and the score is flagged. In a plane, both errors are \
                     squared distances and the constant is a point. A channel takes part in verdicts only if its 95 % interval is above \
                     zero.",
     needs: PAIR_NEEDS,
@@ -45,7 +45,7 @@ pub(crate) static SKILL: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// The sums that it reads.
+/// Sums that skill reads.
 const STREAMS: Streams = Streams::of(&[Stream::Squared, Stream::Truth, Stream::TruthSquared]);
 
 /// RN(1 − Σ Sdd / Σ Scc) over the axes, Scc = Syy − 2 c Sy + n c² about the constant c, or Syy − Sy² / n about the mean of truth.
@@ -74,7 +74,7 @@ fn constant(axis: Axis<'_>) -> Option<f64> {
     axis.constant.or_else(mean)
 }
 
-/// The constant of one channel, flagged if it is the mean of truth.
+/// Constant of one channel, flagged if it is the mean of truth.
 fn details(axes: &[Axis<'_>], output: &Output) -> Details {
     let is_mean = axes.iter().any(|axis| axis.constant.is_none());
     let variants = match axes[..] {

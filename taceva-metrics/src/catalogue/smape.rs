@@ -24,8 +24,8 @@ pub(crate) static SMAPE: Metric = Metric {
     definition: "smape/1",
     reference: "TacEva, equation (3)",
     documentation: "Error relative to the mean magnitude of truth and prediction, as a fraction from 0 to 2; output in % is multiplied \
-                    by 100. ε is absolute, so the value depends on the unit, which is fixed to mm and N. Channels of both signs saturate \
-                    towards 2 near zero: see smape_gated.",
+                    by 100. ε is absolute, so the value depends on the unit, which is fixed to mm and N. Where the truth is near \
+                    zero, it comes near to 2 for any error: see smape_gated.",
     needs: PAIR_NEEDS,
     constants: epsilon,
     formula: Formula(&PairFormula {

@@ -10,6 +10,7 @@ use crate::families::clustered_excess::{self, WithEnds};
 use crate::families::surface::sums::{NORMAL_ONLY, SurfaceSums, contact};
 use crate::families::surface::{SURFACE, SurfaceFormula};
 use crate::score::direction::Better;
+use crate::score::least::WELL_SAMPLED;
 use crate::score::range::Range;
 use crate::score::sensor_facts::Fact;
 use crate::score::theme::Theme;
@@ -50,9 +51,6 @@ pub(crate) static UNIFORMITY: Metric = Metric {
 
 /// Variant that decides verdicts.
 const DEBIASED: &str = "debiased";
-
-/// Least samples of a cell for the variant `n_min_5`; the paper's least is one.
-const WELL_SAMPLED: u64 = 5;
 
 /// U = RN(1 / (1 + σ/|μ|)) over the cells with at least `n_min` samples.
 fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {

@@ -7,7 +7,7 @@ use taceva_core::shown;
 
 use super::names;
 
-/// A name that is no metric and no group.
+/// A name of no metric and no group.
 ///
 /// ```
 /// use taceva_metrics::catalogue;
@@ -19,7 +19,7 @@ use super::names;
 pub struct UnknownMetric {
     /// The name as given.
     pub name: String,
-    /// The nearest name that is known, if one is near.
+    /// Nearest known name, if one is similar.
     pub nearest: Option<&'static str>,
 }
 

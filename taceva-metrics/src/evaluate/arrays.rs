@@ -1,4 +1,4 @@
-//! Arrays of `ndarray` as input. A single column needs none of this: a view of one dimension iterates over its numbers.
+//! Arrays of `ndarray` as input. A single column needs no conversion: a one-dimensional view iterates over its numbers.
 
 use ndarray::ArrayView2;
 use taceva_core::Channel;

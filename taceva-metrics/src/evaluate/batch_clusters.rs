@@ -10,7 +10,7 @@ use crate::score::ClusteredBy;
 use crate::stats::NAMED_CLUSTERS;
 use crate::stats::row_groups::{Grouped, Groups};
 
-/// Least rows of a batch that is sorted: clusters of smaller batches have too few rows for the order to matter.
+/// Fewest rows for which a batch is sorted; in smaller batches the order saves no time.
 const LEAST_ROWS: usize = 512;
 
 /// A batch sorted by contact point, or by cluster of points, so that families need not search for samples.
@@ -104,7 +104,7 @@ mod tests {
 
     use super::*;
 
-    /// Rows of so many contact points in turn; the truth is the number of the row.
+    /// Rows that cycle through `points` contact points; the truth is the row number.
     fn in_turn(points: u32, rows: u32) -> Batch {
         let channels = Channels::new([Channel::FZ]).expect("one channel");
         let column = || vec![Column::full((0..rows).map(f64::from).collect())];

@@ -16,8 +16,8 @@ use crate::evaluate::state::State;
 
 /// Rows that are buffered before they are summed, so that the columns stay in the L1 cache.
 const BATCH_ROWS: usize = 1024;
-/// Pairs of one channel that are summed at once: two columns of 32 KiB. Measured from 1,024 to a million: fewer cost more allocations, more
-/// cost page faults.
+/// Pairs of one channel that are summed at once: two columns of 32 KiB. Measured for 1,024 to a million pairs: smaller blocks cost
+/// allocations, larger blocks cost page faults.
 const PAIR_ROWS: usize = 4096;
 /// Least accumulators by contact point for which sorting a batch by point pays; fewer gather their rows faster.
 const LEAST_TO_SORT: usize = 3;
@@ -53,7 +53,7 @@ impl Evaluator {
         }
     }
 
-    /// This evaluator with every sample a cluster of its own, as for [`MetricPlan::independent_samples`]. Earlier samples are dropped, so
+    /// This evaluator with every sample as its own cluster, as for [`MetricPlan::independent_samples`]. Earlier samples are dropped, so
     /// call it before the first update.
     ///
     /// ```

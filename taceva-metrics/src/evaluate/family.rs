@@ -26,7 +26,7 @@ pub(crate) struct FamilyKind {
     pub(crate) clusters_of_plan: bool,
     /// Fields that are read if samples carry them.
     pub(crate) optional: FieldSet,
-    /// Obstacle to a value of its metrics, beside missing needs.
+    /// Obstacle to a value of its metrics, other than missing needs.
     pub(crate) obstacle: fn(&MetricPlan) -> Option<SkipReason>,
     /// The family for a plan that keeps one of its metrics.
     pub(crate) build: fn(&MetricPlan) -> Option<Box<dyn AnyFamily>>,
@@ -49,7 +49,7 @@ impl FamilyKind {
     }
 }
 
-/// Sums of a family of metrics, and the scores finished from them.
+/// Sums of a family of metrics, and the scores computed from them.
 ///
 /// # Laws
 /// The sums of [`deposit`](Family::deposit) must be a function of the set of rows: neither their order nor their grouping may matter.
@@ -96,7 +96,7 @@ pub(crate) trait Family: Send + 'static {
     fn inapplicable(&self, _metric: &Metric, _output: &Output) -> Option<InapplicableReason> {
         None
     }
-    /// Details beside the numbers of a score, from the sums of all its parts together.
+    /// Details of a score other than its numbers, from the sums of all its parts together.
     fn details(&self, _metric: &Metric, _output: &Output, _parts: &[&Self::Sums]) -> Details {
         Details::default()
     }
@@ -129,7 +129,7 @@ pub(crate) struct Output {
     pub(crate) unit: Unit,
     /// Channels of the output, unless it belongs to a single channel.
     pub(crate) of: Vec<String>,
-    /// Indices of the parts it is finished from; one or two.
+    /// Indices of the one or two parts from which it is computed.
     pub(crate) parts: Vec<usize>,
 }
 
@@ -213,7 +213,7 @@ pub(crate) fn midpoint(left: f64, right: f64) -> f64 {
     }
 }
 
-/// Details beside the numbers of a score: maps and curves, counts, constants and flags.
+/// Details of a score other than its numbers: maps and curves, counts, constants and flags.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Details {
     pub(crate) variants: Vec<Variant>,

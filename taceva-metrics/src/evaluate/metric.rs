@@ -1,4 +1,4 @@
-//! Description of a metric as data: names, unit, direction, needs, and the family that its scores are finished from.
+//! Description of a metric as data: names, unit, direction, needs, and the family whose sums its scores need.
 
 use std::any::Any;
 use std::fmt;
@@ -34,13 +34,13 @@ pub struct Metric {
     pub theme: Theme,
     /// Direction of good values.
     pub better: Better,
-    /// Variants whose direction is not that of the metric.
+    /// Variants with another direction than the metric.
     pub variants: &'static [(&'static str, Better)],
     /// The unit of its values.
     pub unit: ScoreUnit,
     /// Range of possible values, which also bounds intervals.
     pub range: Range,
-    /// Definition with its version; another version has another meaning.
+    /// Definition with its version; a new version changes the meaning.
     pub definition: &'static str,
     /// Source of the definition.
     pub reference: &'static str,
@@ -54,7 +54,7 @@ pub struct Metric {
     pub(crate) constants: fn(Unit) -> Vec<Parameter>,
     /// True if predictions enter unclipped, beyond the bounds of the model too.
     pub(crate) reads_unbounded: bool,
-    /// True if its values are of forces alone.
+    /// True if it scores only forces.
     pub(crate) forces_only: bool,
     /// Variant that decides verdicts, if the value itself depends on noise or on the number of repeats.
     pub decided_by: Option<&'static str>,
@@ -62,7 +62,7 @@ pub struct Metric {
     pub(crate) verdict: VerdictRule,
     /// Value of the deciding variant under chance alone, which its interval must exclude.
     pub(crate) chance: Option<f64>,
-    /// The family whose sums it is finished from.
+    /// Family whose sums the metric is computed from.
     pub(crate) family: &'static FamilyKind,
     /// Formula, if its family has several metrics.
     pub(crate) formula: Formula,
@@ -101,7 +101,7 @@ impl Metric {
         self.needs.fields.contains(Field::Prediction)
     }
 
-    /// True if its values are of forces alone, so that it needs no predicted positions.
+    /// True if it scores only forces, so that it needs no predicted positions.
     pub fn is_of_forces(&self) -> bool {
         self.forces_only
     }

@@ -1,4 +1,4 @@
-//! Numbers as a caller has them.
+//! Number types that a caller may pass.
 
 /// A number of a row: `f64`, `f32`, a reference to one of them, or an `Option` of any, `None` where the sample has no value.
 ///

@@ -162,7 +162,7 @@ impl MetricPlan {
         Ok(MetricPlan { constants, ..self })
     }
 
-    /// The families of the kept metrics, in the order of the catalogue.
+    /// Families of the kept metrics, in the order of the catalogue.
     pub(crate) fn families(&self) -> Vec<&'static FamilyKind> {
         let is_kept = |kind: &FamilyKind| {
             let mut kept = self.kept.iter();

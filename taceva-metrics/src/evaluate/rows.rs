@@ -1,4 +1,4 @@
-//! Truth and prediction as a caller has them, column by column.
+//! Truth and prediction, column by column.
 
 use taceva_core::{Batch, Channel, Channels, Column, Labels};
 
@@ -31,7 +31,7 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// No column yet.
+    /// Rows without columns.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator, Rows};
@@ -42,7 +42,7 @@ impl Rows {
         Rows::default()
     }
 
-    /// These rows with `truth` and `prediction` of `channel`, one number per sample each, in the unit of the channel. Values are copied once.
+    /// These rows with `truth` and `prediction` of `channel`, one number per sample, in the unit of the channel. Values are copied once.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Rows};
@@ -63,7 +63,7 @@ impl Rows {
         self
     }
 
-    /// These rows with the contact point of each, by name: samples at one location are one cluster of the intervals.
+    /// These rows with the contact point of each, by name: samples at one contact point are one cluster of the intervals.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Rows};

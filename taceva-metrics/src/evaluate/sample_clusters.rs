@@ -1,4 +1,4 @@
-//! Every sample a cluster of its own.
+//! Every sample as its own cluster.
 
 use taceva_core::{Batch, Column, Labels};
 

@@ -4,7 +4,7 @@ use taceva_core::{Nanometre, Newton};
 
 use crate::error::MetricError;
 
-/// Open constants of definitions; the defaults are those of the paper or its project page.
+/// Adjustable constants of definitions; the defaults are those of the paper or its project page.
 ///
 /// Each constant is reported with its scores. States with different constants do not merge.
 ///
@@ -22,11 +22,11 @@ pub struct Settings {
     pub n_min: u64,
     /// Number subtracted from the bin count in the divisor of the variance: 0, as the bins are the whole population, or 1.
     pub ddof: u32,
-    /// Normal force from which on there is contact: 0.02 N.
+    /// Least normal force of contact: 0.02 N.
     pub gate: Newton,
-    /// Bins that a rolling mean spans, an odd number: 5.
+    /// Number of bins in a rolling mean, odd: 5.
     pub smoothing_window: u32,
-    /// Error of a grating's spacing up to which it counts as recognised: 0.05 mm.
+    /// Greatest error of a recognised spacing of a grating: 0.05 mm.
     pub resolution_tolerance: Nanometre,
 }
 

@@ -37,7 +37,7 @@ impl State {
         &self.schema
     }
 
-    /// The parameters it was made with; only equal ones merge.
+    /// Parameters of its accumulator; only states with equal parameters merge.
     pub fn parameters(&self) -> &BTreeMap<String, String> {
         &self.parameters
     }

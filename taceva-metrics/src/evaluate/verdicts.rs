@@ -35,7 +35,7 @@ impl Standing {
     }
 }
 
-/// Gives each of `entries` the standing that the skill scores and the bounded shares among them determine.
+/// Sets the standing of `entries`, from their skill scores and bounded shares.
 pub(crate) fn set_standings(entries: &mut [Entry]) {
     let skills: Vec<(String, Standing)> = entries
         .iter()
@@ -61,7 +61,7 @@ fn low_end(score: &Score) -> Option<f64> {
     }
 }
 
-/// The channels that a score called `channel` is made of.
+/// The channels of a score called `channel`.
 pub(crate) fn channels(channel: &str, score: &Score) -> Vec<String> {
     match score.of.is_empty() {
         true => vec![channel.to_owned()],

@@ -1,8 +1,8 @@
-//! Exact sums of the streams of pairs, formed a block at a time.
+//! Exact sums of the streams of pairs, computed block by block.
 //!
 //! Blocks are summed in whole units of grids that fit the latest pairs. The units stay integers over many blocks. They move to the
 //! superaccumulators only when the grids change, before they could overflow, and when a sum is read. A pair that does not fit is removed
-//! from its block and added alone. Which pairs those are depends on the history; the sums do not, because every path is exact.
+//! from its block and added alone. The choice of these pairs depends on earlier pairs, but the sums do not: every path is exact.
 
 use super::bounds::{Grids, TERMS};
 use super::kernel::{BLOCK_ROWS, Block};
@@ -41,7 +41,7 @@ pub(crate) struct Counts {
     pub(crate) gated: u64,
 }
 
-/// One sum per stream, and that of the sMAPE terms of the pairs that reach the gate.
+/// One sum per stream, and the sum of the sMAPE terms of pairs that reach the gate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Sums {
     pub(crate) streams: [ExactSum; Stream::ALL.len()],
@@ -125,7 +125,7 @@ impl BlockSums {
         pending.rows_on_grids += pairs.estimate.len();
         let rows = count(pairs.estimate.len());
         self.counts.valid += rows;
-        // Blocks are padded with zeros, which such a gate would count.
+        // Blocks are padded with zeros, which a gate of 0 or less would count.
         let all = self.gate.is_some_and(|gate| gate <= 0.0);
         self.counts.gated += if all { rows } else { u64::from(values.n_gated) };
         if pending.rows > MOST_ROWS - BLOCK_ROWS {
@@ -134,7 +134,7 @@ impl BlockSums {
         true
     }
 
-    /// Adds a block with pairs that do not fit: those one by one, and the others as a block.
+    /// Adds a block with pairs that do not fit: those pairs one by one, the others as a block.
     #[cold]
     #[inline(never)]
     fn add_strays_apart(&mut self, pairs: Paired<&[f64]>) {
@@ -153,7 +153,7 @@ impl BlockSums {
         strays.iter().for_each(|pair| self.add_pair(pair));
         let fitting = parts.rows(0..pairs.estimate.len() - parts.strays);
         let added = self.add_block(fitting, Paired::default());
-        assert!(added, "what is out of bounds was taken out");
+        assert!(added, "pairs out of bounds were removed");
     }
 
     /// Adds one pair to the superaccumulators.
@@ -206,7 +206,7 @@ impl Merge for BlockSums {
     }
 }
 
-/// Equality by value: sums pending in one may be settled in the other.
+/// Equality by value: the same sum may be pending in one and settled in the other.
 impl PartialEq for BlockSums {
     fn eq(&self, other: &BlockSums) -> bool {
         self.streams == other.streams

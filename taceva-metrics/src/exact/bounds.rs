@@ -5,7 +5,7 @@ use super::vector::Vector;
 use crate::exact::streams::{Stream, Streams};
 use crate::pair::Paired;
 
-/// The greatest exponent of a grid: squares and all bits that rounding takes from them stay far from over- and underflow.
+/// Greatest exponent of a grid: squares and their rounding errors stay far from over- and underflow.
 const GREATEST_TOP: i32 = 400;
 /// The grid of the terms of sMAPE, which are at most 2 before rounding.
 pub(super) const TERMS: Grid = Grid { top: 1 };
@@ -161,7 +161,7 @@ pub(super) fn best_top(values: impl Iterator<Item = f64>, reach: i32) -> i32 {
     (top + headroom.min(1)).min(GREATEST_TOP)
 }
 
-/// The exponent of the leading bit of a normal number; of others one that no grid has.
+/// Exponent of the leading bit of a normal number; for other numbers, an exponent of no grid.
 fn exponent(value: f64) -> i32 {
     let field = (value.to_bits() >> 52) & 0x7ff;
     i32::try_from(field).expect("eleven bits") - 1023

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::digits::DIGITS;
 
-/// Most digits of an external sum: far enough below the end that no number of merges overflows.
+/// Most digits of an external sum, so few that no number of merges overflows.
 const READABLE_DIGITS: usize = DIGITS - 4;
 
 /// An exact sum as sign, magnitude and place: equal sums have equal forms.
@@ -113,7 +113,7 @@ pub enum CanonicalError {
     ZeroAtTheEnd,
     /// No digit, but a sign or a place.
     Zero,
-    /// More than any sum of binary64 products holds.
+    /// Greater than any sum of binary64 products.
     Beyond {
         /// The digit after the highest.
         reach: usize,

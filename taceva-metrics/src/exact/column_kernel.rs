@@ -1,4 +1,4 @@
-//! The inner loops over columns: a block of one into units of its grid, and of two into units of the grids of their products.
+//! Inner loops that sum a block of one column, or of the products of two, in units of their grids.
 
 use super::bounds::Range;
 use super::grid::{Grid, GridSum, ProductSum, ProductUnits};

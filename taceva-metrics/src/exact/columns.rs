@@ -1,7 +1,7 @@
-//! Exact sums of columns of one length and of products of two of them, formed a block at a time.
+//! Exact sums of columns of one length and of products of two of them, computed block by block.
 //!
-//! As in `block_sums.rs`, blocks are summed in whole units of grids that fit the latest values, and a row that does not fit is added alone.
-//! Which rows those are depends on the history; the sums do not.
+//! As in `block_sums.rs`, blocks are summed in whole units of grids that fit the latest values. A row that does not fit is added alone. The
+//! choice of these rows depends on earlier rows, but the sums do not.
 
 use super::bounds::best_top;
 use super::column_kernel::{OfColumn, OfProducts, range_of};
@@ -19,7 +19,7 @@ const MOST_ROWS: usize = 1 << 18;
 /// New grids are chosen for a block in which more than one row in this many does not fit.
 const ROWS_PER_STRAY: usize = 8;
 
-/// Sums that rows of columns are added to.
+/// Sums of columns and of their products.
 pub(crate) trait ColumnSums {
     /// One sum per column, and one per product.
     fn sums(&mut self) -> [&mut [ExactSum]; 2];
@@ -113,7 +113,7 @@ impl ColumnAdder {
         true
     }
 
-    /// Adds a block with rows that do not fit: those one by one, and the others as a block.
+    /// Adds a block with rows that do not fit: those rows one by one, the others as a block.
     #[cold]
     #[inline(never)]
     fn add_strays_apart(&mut self, block: &[&[f64]], into: &mut impl ColumnSums) {
@@ -127,10 +127,7 @@ impl ColumnAdder {
         }
         if strays.len() < block[0].len() {
             let fitting: Vec<&[f64]> = fitting.iter().map(Vec::as_slice).collect();
-            assert!(
-                self.add_block(&fitting),
-                "what is out of range was taken out"
-            );
+            assert!(self.add_block(&fitting), "rows out of range were removed");
             into.take(&fitting);
         }
         strays
@@ -194,7 +191,7 @@ mod tests {
     use proptest::test_runner::RngSeed;
     use taceva_core::Isa;
 
-    /// Sums of two columns, of the square of the first and of their product; and what was noted.
+    /// Sums of two columns, of the square of the first and of their product, and the counts of rows.
     #[derive(Clone, Debug, Default, PartialEq)]
     struct Noted {
         columns: [ExactSum; 2],

@@ -1,4 +1,4 @@
-//! Digits of an exact sum: their positions, those of numbers and products, and the propagation of carries.
+//! Digits of an exact sum: positions of digits, numbers and products, and the propagation of carries.
 
 /// Digits of the whole range: from below the square of the least denormal to above 2⁶⁴ squares of the greatest number.
 pub(super) const DIGITS: usize = 140;
@@ -47,7 +47,7 @@ pub(super) fn low_digit(value: u128) -> i64 {
     (value & 0xffff_ffff) as i64
 }
 
-/// All above the lowest 32 bits, of a number below 2⁹⁵.
+/// All bits above the lowest 32, of a number below 2⁹⁵.
 #[inline]
 pub(super) fn high_digits(value: u128) -> i64 {
     #[expect(

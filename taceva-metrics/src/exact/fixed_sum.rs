@@ -5,7 +5,7 @@ use super::sum::ExactSum;
 
 /// Exponent of the unit, a power of two: the last place of numbers from 2⁻⁴⁴ on.
 const UNIT: i32 = -96;
-/// Position of a mantissa whose last place is this unit, counted from that of the least denormal.
+/// Position of a mantissa whose last place is this unit, counted from the position of the least denormal.
 const LEAST_POSITION: usize = 1074 - 96;
 /// Places from there on, so that numbers are below 2¹⁴.
 const POSITIONS: usize = 58;

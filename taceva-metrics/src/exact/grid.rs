@@ -1,9 +1,8 @@
 //! Sums of vectors without rounding, for values in a known range of magnitudes.
 //!
-//! A large first summand decides where the sum rounds: 1.5 × 2ᵏ plus small values is a multiple of 2^(k−52), and two subtractions find the
-//! cut-off part exactly. A second such sum takes that part. Both stay within one binade, so their bit patterns, as integers, give the
-//! number of units that they hold. After Demmel and Nguyen, "Parallel Reproducible Summation", 2015; they round the rest, here there is
-//! none.
+//! A large first summand determines the rounding: 1.5 × 2ᵏ plus small values is a multiple of 2^(k−52), and two subtractions give the
+//! cut-off part exactly. A second such sum collects that part. Each sum stays within one binade, so its bit pattern, read as an integer,
+//! counts its units. After Demmel and Nguyen, "Parallel Reproducible Summation", 2015, who round the remainder; here it is kept.
 
 use super::vector::Vector;
 
@@ -14,7 +13,7 @@ pub(super) const DEPTH: usize = 128;
 const COARSE: i32 = 10;
 /// Exponent offset of the fine sum. Cut-off parts are below 2^(e−42), and 2⁷ of them stay clear of the ends of this binade.
 const FINE: i32 = -34;
-/// Bits of a mantissa behind its leading one.
+/// Bits of a mantissa after its leading one.
 const FRACTION: i32 = 52;
 
 /// Grid for sums of values below 2^(top + 1) in magnitude.
@@ -66,7 +65,7 @@ pub(super) struct GridSum<V> {
 }
 
 impl<V: Vector> GridSum<V> {
-    /// The sum of nothing.
+    /// Empty sum.
     #[inline(always)]
     pub(super) fn new(proof: V::Proof, grid: Grid) -> GridSum<V> {
         let [coarse, fine] = grid.starts();
@@ -111,7 +110,7 @@ pub(super) struct ProductSum<V> {
 }
 
 impl<V: Vector> ProductSum<V> {
-    /// The sum of nothing, of products of a value on each of these grids.
+    /// Empty sum of products of values on these two grids.
     #[inline(always)]
     pub(super) fn new(proof: V::Proof, [left, right]: [Grid; 2]) -> ProductSum<V> {
         ProductSum {

@@ -45,7 +45,7 @@ impl Natural {
     pub(super) fn minus(&self, other: &Natural) -> Natural {
         let mut limbs = self.limbs.clone();
         let borrow = subtract_multiple(&mut limbs, &other.limbs, 1);
-        debug_assert!(!borrow, "the smaller is taken from the greater");
+        debug_assert!(!borrow, "subtracts the smaller number");
         Natural::from_limbs(limbs)
     }
 

@@ -1,4 +1,4 @@
-//! The inner loops: a block of pairs into units of its streams' grids.
+//! Inner loops that sum a block of pairs in units of its streams' grids.
 //!
 //! A block is visited twice: once for the sums of y − ŷ and once for the rest, so that the sums of one visit fit into the registers of any
 //! machine. The block stays in the L1 cache meanwhile. The first visit also checks that all pairs are within [`Bounds`]; if not, its sums

@@ -5,14 +5,14 @@ use taceva_core::{Nanometre, Unit};
 /// `value` in whole millionths of its unit, ties to even; `None` for NaN or above 2⁵³ millionths.
 #[inline]
 pub(crate) fn millionths(value: f64) -> Option<i64> {
-    /// 1.5 × 2⁵²: a sum with it has no places below one, and its bit pattern counts the ones.
+    /// 1.5 × 2⁵²: adding it rounds a number to an integer, which then stands in the bit pattern.
     const ONES: f64 = 6_755_399_441_055_744.0;
     const GREATEST: f64 = 1_125_899_906_842_624.0;
     let scaled = value * 1e6;
     if scaled.abs() <= GREATEST {
         return Some((scaled + ONES).to_bits().cast_signed() - ONES.to_bits().cast_signed());
     }
-    // A millionth is to one as a nanometre is to a millimetre.
+    // `from_millimetres` counts millionths of any unit.
     Nanometre::from_millimetres(value).map(|millionths| millionths.0)
 }
 

@@ -1,4 +1,4 @@
-//! Instruction sets for sums. All give the same bits; they differ in speed alone.
+//! Instruction sets for sums. All give the same bits and differ only in speed.
 //!
 //! `taceva-network` has a similar file, which is not shared. Each instruction set is a type of this crate's `simd/`, whose construction
 //! proves that the processor has it, and whose operations are those of sums.

@@ -8,7 +8,7 @@ use crate::exact::sorted_map::SortedMap;
 pub(crate) trait Merge {
     /// Adds `other`.
     fn merge(&mut self, other: &Self);
-    /// Adds `other`, `times` over.
+    /// Adds `other` as often as `times`.
     fn merge_times(&mut self, other: &Self, times: u32) {
         (0..times).for_each(|_| self.merge(other));
     }
@@ -32,7 +32,7 @@ impl<T: Merge, const N: usize> Merge for [T; N] {
 
 /// Entries by name; of equal names the last one stays.
 ///
-/// Same as `collect`. That sorts first, with separate code for each kind of iterator, which took a tenth of the compile time.
+/// Like `collect`, which would sort first with separate code for each kind of iterator: a tenth of the compile time.
 pub(crate) fn keyed<T>(entries: impl IntoIterator<Item = (String, T)>) -> BTreeMap<String, T> {
     let mut cells = BTreeMap::new();
     for (key, entry) in entries {
@@ -41,7 +41,7 @@ pub(crate) fn keyed<T>(entries: impl IntoIterator<Item = (String, T)>) -> BTreeM
     cells
 }
 
-/// Merges sums by key. A key without sums stays absent, so that equal sets have equal maps.
+/// Merges sums by key. A key without sums stays absent, so equal sets have equal maps.
 pub(crate) fn merge_cells<K: Ord + Clone, T: Merge + Clone>(
     ours: &mut SortedMap<K, T>,
     theirs: &SortedMap<K, T>,

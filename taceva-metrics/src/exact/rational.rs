@@ -83,7 +83,7 @@ impl Dyadic {
             |natural: &Natural| i64::try_from(natural.bits()).expect("bits that fit in memory");
         let up = (128 - (bits(&self.magnitude) - bits(&divisor.magnitude))).max(0);
         let exponent = i64::from(self.exponent) - i64::from(divisor.exponent);
-        // An even power of two comes out of the root whole.
+        // The root of an even power of two is exact.
         let up = up + (exponent - up).rem_euclid(2);
         let places = usize::try_from(up).expect("not below 0");
         let (quotient, is_exact) = self
@@ -232,7 +232,7 @@ mod tests {
         ] {
             let root = exact(value).root_over(&Dyadic::from(1));
             assert_eq!(root.to_bits(), value.sqrt().to_bits(), "{value:e}");
-            // Of the square of a value, whose square may be beyond the range, the root is the value.
+            // The root of a squared value is the value, even if the square exceeds the range of binary64.
             let square = &exact(value) * &exact(value);
             assert_eq!(
                 square.root_over(&Dyadic::from(1)).to_bits(),

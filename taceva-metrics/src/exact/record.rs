@@ -15,17 +15,17 @@ use crate::exact::sorted_map::SortedMap;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Record {
-    /// Counts, those of the schema in its order.
+    /// Counts, in the order of the schema.
     pub counts: Vec<u64>,
-    /// Sums, those of the schema in its order.
+    /// Sums, in the order of the schema.
     pub sums: Vec<ExactSum>,
-    /// Numbers that are stored unchanged, those of the schema in its order; empty if the schema has none.
+    /// Numbers that are stored unchanged, in the order of the schema; empty if the schema has none.
     #[cfg_attr(
         feature = "serde",
         serde(default, skip_serializing_if = "Vec::is_empty")
     )]
     pub values: Vec<f64>,
-    /// Records of places, scenes and the like by their key; only those with samples.
+    /// Records of places, scenes and the like by key; only records with samples.
     #[cfg_attr(
         feature = "serde",
         serde(default, skip_serializing_if = "BTreeMap::is_empty")

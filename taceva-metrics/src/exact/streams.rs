@@ -1,4 +1,4 @@
-//! Streams: the sums of pairs that wanted scores are finished from.
+//! Streams: sums of pairs from which scores are computed.
 
 use std::fmt;
 use std::ops::BitOr;

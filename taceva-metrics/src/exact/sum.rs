@@ -11,7 +11,7 @@ use super::rational::Dyadic;
 /// Digits of the inline window; a sum of one quantity rarely spans more.
 const WINDOW: usize = 8;
 
-/// The bit of weight one.
+/// Position of the bit of weight one.
 const UNIT_POSITION: usize = 2176;
 /// Deposits between carries: each changes a digit by less than 2⁵³, so 1000 of them stay within an `i64`.
 const DEPOSITS: u32 = 1000;
@@ -213,7 +213,7 @@ impl ExactSum {
             let mut full = Box::new([0; DIGITS]);
             add_to(&mut full[old_first..], &digits);
             self.full = Some(full);
-            // No index is within reach of the window from here on, however wide a `usize` is.
+            // From here on no index is within the window, for any width of a `usize`.
             self.first = u32::MAX / 2;
             return;
         }

@@ -6,7 +6,7 @@ use super::kernel::{ErrorUnits, ValueUnits};
 use super::sum::ExactSum;
 use crate::exact::streams::{Stream, Streams};
 
-/// Grids change once the rows that did not fit exceed one in this many, plus [`FREE_STRAYS`].
+/// Grids change once more than one row in this many did not fit, beyond [`FREE_STRAYS`].
 const ROWS_PER_STRAY: usize = 16;
 
 const FREE_STRAYS: usize = 16;
@@ -20,7 +20,7 @@ pub(super) struct Pending {
     pub(super) values: ValueUnits,
     /// Rows whose units are pending.
     pub(super) rows: usize,
-    /// Rows that fitted since these grids were chosen, and below it rows that did not.
+    /// Rows that fitted since these grids were chosen; `strays` counts the others.
     pub(super) rows_on_grids: usize,
     pub(super) strays: usize,
 }

@@ -40,7 +40,7 @@ pub(crate) trait Vector: Copy {
     fn least(self, other: Self) -> Self;
     /// Bit pattern less one: the next smaller number for a positive one, NaN for a zero.
     fn predecessor(self) -> Self;
-    /// True if each lane is at most that of `bound`; false if one is NaN.
+    /// True if each lane is at most the same lane of `bound`; false if one is NaN.
     fn all_at_most(self, bound: Self) -> bool;
 
     /// `value` in the lanes where `self` is at least `bound`, zero in the others.

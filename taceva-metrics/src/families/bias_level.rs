@@ -37,7 +37,7 @@ pub(crate) static BIAS_LEVEL: Metric = Metric {
     reference: "mean of truth − prediction in steps of the truth",
     documentation: "Greatest magnitude of the mean error over the levels of the truth with five samples or more. It shows over- and \
                     underestimation that cancel in the bias of all samples. Levels are 0.1 mm, 0.1 N, 1 degree or 1 N mm wide, from −∞ \
-                    to +∞, each with its lower edge; `curve` has every level with samples. A greatest value has no interval.",
+                    to +∞, and hold their lower edge; `curve` has every level with samples. A greatest value has no interval.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_least_samples(LEAST_SAMPLES),
     constants: width_and_least,

@@ -12,7 +12,7 @@ use crate::exact::sorted_map::SortedMap;
 pub(crate) struct CellKey {
     point: Option<Arc<str>>,
     step: u32,
-    /// Number of the draw: a bootstrap replicate holds a location several times, side by side. 0 elsewhere.
+    /// Number of the draw: a bootstrap replicate may contain a contact point several times. 0 elsewhere.
     copy: u32,
 }
 
@@ -44,9 +44,9 @@ impl CellKey {
     }
 }
 
-/// Summaries by cell. Copies share them, so each is finished once.
+/// Summaries by cell. Copies share them, so each is computed once.
 ///
-/// Once a row lacks a location, all cells are merged into one for good, because the presses cannot be grouped. The outcome depends on the
+/// Once a row lacks a location, all cells are merged into one permanently, because the presses cannot be grouped. The outcome depends on the
 /// set of rows alone.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cells<V> {
@@ -168,7 +168,7 @@ impl<V: Merge + Clone + Default> Merge for Cells<V> {
     }
 }
 
-/// Adds `other`, `times` over.
+/// Adds `other` as often as `times`.
 pub(crate) fn add_times(count: &mut u64, other: u64, times: u32) {
     *count = count.saturating_add(other.saturating_mul(u64::from(times)));
 }

@@ -13,7 +13,7 @@ use crate::families::accuracy::outputs;
 use crate::pair::Paired;
 use crate::score::value::InapplicableReason;
 
-/// Sums of one channel, and the scores finished from them.
+/// Sums of one channel, and the scores computed from them.
 pub(crate) trait Channelwise: Send + 'static {
     /// Sums of one channel; the default is empty.
     type Sums: Merge + Clone + Default + Send + 'static;
@@ -52,7 +52,7 @@ pub(crate) trait Channelwise: Send + 'static {
     fn inapplicable(&self, _output: &Output) -> Option<InapplicableReason> {
         None
     }
-    /// Details of the score beside its numbers.
+    /// Details of the score other than its numbers.
     fn details(&self, _metric: &Metric, _output: &Output, _parts: &[&Self::Sums]) -> Details {
         Details::default()
     }

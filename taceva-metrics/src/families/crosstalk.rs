@@ -36,7 +36,7 @@ pub(crate) static CROSSTALK: Metric = Metric {
                     full scale; full scale is the range of the truth. The score is the greatest magnitude between two different \
                     channels. `matrix` has a row for each predicted and a column for each true channel; its diagonal is 1 for a sensor \
                     without gain error. If no joint fit separates the truths, each slope is fitted on its own truth alone, and the score \
-                    is flagged. Computed over samples with all six channels, or with all available ones. A greatest value has no \
+                    is flagged. It uses samples that have truth and prediction of all scored channels among the six. A greatest value has no \
                     interval.",
     needs: Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_least_samples(3),

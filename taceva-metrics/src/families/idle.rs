@@ -24,7 +24,7 @@ pub(crate) const IDLE_NEEDS: Needs =
         .with_channels(&["Fz"])
         .with_least_samples(LEAST_SAMPLES);
 
-/// Formula of a metric that is finished from predictions without contact.
+/// Formula of a metric that is computed from predictions without contact.
 pub(crate) struct IdleFormula(pub(crate) fn(&Moments, Unit) -> Numbers);
 
 /// Family of predictions without contact.

@@ -1,7 +1,7 @@
 //! Properties of the sensor as its recording shows them: frame rate and sensing area.
 
 mod sums;
-mod times;
+pub(crate) mod times;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -155,7 +155,7 @@ impl Family for Intrinsic {
         sums.add_contacts(&places);
     }
 
-    /// All samples are one cluster: a time needs the one before it.
+    /// All samples are one cluster, because an interval of time needs the sample before.
     fn clusters<'a>(&self, _batch: &'a Batch) -> Option<Cow<'a, Labels>> {
         None
     }

@@ -35,7 +35,7 @@ pub(crate) const REPEAT_NEEDS: Needs = Needs::new(
 )
 .with_least_samples(2);
 
-/// Formula of a metric that is finished from the repeats of each press.
+/// Formula of a metric that is computed from the repeats of each press.
 pub(crate) struct RepeatFormula {
     /// The numbers, in the unit of the channel.
     pub(crate) finish: fn(&SpreadSums, Unit) -> Numbers,
@@ -63,7 +63,7 @@ pub(crate) struct RepeatSums {
 }
 
 impl RepeatSums {
-    /// True if the standard deviation of labels is below the pooled spread of repeats: then differences of predictions are no signal.
+    /// True if the standard deviation of labels is below the pooled spread of repeats: then differences of predictions are noise.
     fn is_low_stimulus(&self) -> bool {
         let stimulus = self.truth.deviation(1);
         let spread = SpreadSums::of(&self.cells).pooled().ok();
@@ -112,7 +112,7 @@ impl Channelwise for Repeats {
                 sums.n_invalid += 1;
                 return;
             };
-            // A press without usable values was made all the same: its cell is counted.
+            // A press without usable values still counts as a cell.
             let cell = sums
                 .cells
                 .at(points.and_then(|points| points.get(row)), step);
@@ -230,13 +230,13 @@ fn depth_curve(parts: &[&RepeatSums]) -> Value {
     })
 }
 
-/// Depth step from its number `step`; `None` if it is no whole number from 0 to 2³² − 1.
+/// Depth step from its number `step`; `None` if it is not a whole number from 0 to 2³² − 1.
 fn whole_step(step: f64) -> Option<u32> {
     let whole = (0.0..=f64::from(u32::MAX)).contains(&step) && step.fract().abs() <= 0.0;
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "it was seen to be whole and in range"
+        reason = "checked to be whole and in range"
     )]
     whole.then_some(step as u32)
 }

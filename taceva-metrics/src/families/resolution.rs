@@ -90,7 +90,7 @@ impl Family for Resolution {
         });
     }
 
-    /// A board is pressed many times and is the cluster, by its point or else by its grating.
+    /// Clusters are boards, which are pressed many times: by their contact point, or else by their grating.
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {
         if self.by_point {
             return batch.points().map(Cow::Borrowed);

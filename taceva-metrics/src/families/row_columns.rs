@@ -1,4 +1,4 @@
-//! Gathering of some rows of some columns.
+//! Gathers some rows of some columns.
 
 use std::ops::Range;
 
@@ -51,7 +51,7 @@ impl Gathered {
     }
 }
 
-/// The rows as a range, if they are one.
+/// The rows as a range, if they are consecutive.
 fn side_by_side(rows: &[u32]) -> Option<Range<usize>> {
     let (&first, &last) = (rows.first()?, rows.last()?);
     let range = first as usize..last as usize + 1;

@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Nanometre, Unit};
 
+use crate::count::as_f64;
 use crate::evaluate::family::{
     Details, Family, FamilyKind, Intervals, Numbers, Output, each_row, erased,
 };
@@ -57,7 +58,7 @@ impl Spatial {
         })
     }
 
-    /// The mean absolute error over the centres of the bins.
+    /// Mean absolute error at the centres of the bins.
     fn curve(&self, bins: &SortedMap<u8, Moments>, extent: Nanometre) -> Value {
         let of = |bin: u8| {
             bins.get(&bin)
@@ -150,7 +151,7 @@ impl Family for Spatial {
         let mut details = Details {
             parameters: vec![
                 parameter("bins", f64::from(BINS)),
-                parameter("n_min", sensor_facts::as_f64(self.settings.n_min)),
+                parameter("n_min", as_f64(self.settings.n_min)),
                 parameter("ddof", f64::from(self.settings.ddof)),
                 parameter("window", f64::from(self.settings.smoothing_window)),
             ],

@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Unit};
 
+use crate::count::as_f64;
 use crate::evaluate::family::{
     Details, Family, FamilyKind, Intervals, Numbers, Output, each_row, erased,
 };
@@ -29,7 +30,7 @@ use sums::{NORMAL_ONLY, Place, Press, SurfaceSums};
 pub(crate) static SURFACE: FamilyKind =
     FamilyKind::new("taceva.surface/1", |plan| erased(Surface::for_plan(plan)?));
 
-/// Formula of a metric that is finished from the compliance of the surface.
+/// Formula of a metric that is computed from the compliance of the surface.
 pub(crate) struct SurfaceFormula {
     /// Channels of the score.
     pub(crate) of: &'static [&'static str],
@@ -74,7 +75,7 @@ impl Surface {
         })
     }
 
-    /// Cell of the sample at `row`; `None` if a coordinate is no usable number.
+    /// Cell of the sample at `row`; `None` if a coordinate is not a usable number.
     fn place(&self, batch: &Batch, row: usize) -> Option<Place> {
         let (Some(grid), Some([x, y])) = (&self.grid, self.place) else {
             return Some(Place::Unknown);
@@ -244,7 +245,7 @@ impl Family for Surface {
         let parameter = |name, value| Parameter { name, value };
         details.parameters.extend([
             parameter("bins", f64::from(grid.bins())),
-            parameter("n_min", sensor_facts::as_f64(self.settings.n_min)),
+            parameter("n_min", as_f64(self.settings.n_min)),
             parameter("ddof", f64::from(self.settings.ddof)),
         ]);
         if formula(metric).is_some_and(|formula| formula.has_map) {

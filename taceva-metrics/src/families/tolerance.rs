@@ -69,7 +69,7 @@ pub(crate) static KIND: FamilyKind = FamilyKind {
 
 /// Magnitudes of errors.
 pub(crate) struct Tolerances {
-    /// Best constant prediction of each channel, in millionths of the unit; `None` if the training part is unknown.
+    /// Constant prediction of each channel, as for skill, in millionths of the unit; `None` if the training part is unknown.
     constants: Vec<Option<i64>>,
     gathered: Gathered,
 }
@@ -85,7 +85,7 @@ impl Tolerances {
         }
     }
 
-    /// Share that the constants of the channels at `positions` reach, for a plane the mean of both; `None` unless all are known.
+    /// Share that the constants of the channels at `positions` reach, for a plane the mean of both; `None` if a constant is unknown.
     fn of_constant(&self, positions: &[usize], parts: &[&ErrorCounts]) -> Option<f64> {
         let share = |(position, sums): (&usize, &&ErrorCounts)| {
             let of_constant = sums.of_constant.filter(|_| sums.n > 0)?;
@@ -101,7 +101,7 @@ impl Tolerances {
     }
 }
 
-/// Index of the least of `tolerances` that `error` is within; one past the last for none.
+/// Index of the least of `tolerances` that is at least `error`; the number of tolerances if there is none.
 #[inline]
 fn class(error: i64, tolerances: &[i64; 8]) -> usize {
     // Bisection without branches, as the class of an error is unpredictable.
@@ -116,7 +116,7 @@ fn class(error: i64, tolerances: &[i64; 8]) -> usize {
 pub(crate) struct ErrorCounts {
     n: u64,
     n_invalid: u64,
-    /// Errors within each tolerance but above the one before.
+    /// Number of errors in each class: above the tolerance before, up to this one.
     classes: [u64; TOLERANCES.len()],
     /// Counts of the channel's constant; `None` if it is unknown, or if samples have models with different constants.
     of_constant: Option<OfConstant>,
@@ -131,7 +131,7 @@ struct OfConstant {
 }
 
 impl OfConstant {
-    /// Sum of both counts, if they have the same constant.
+    /// The sum of both counts, if they have the same constant.
     fn and(self, other: OfConstant) -> Option<OfConstant> {
         (self.constant == other.constant).then(|| OfConstant {
             met: self.met.saturating_add(other.met),

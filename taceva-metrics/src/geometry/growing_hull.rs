@@ -1,15 +1,15 @@
-//! Convex hull of many points that come a few at a time; interior points are skipped quickly.
+//! Convex hull of points that come in groups; interior points are skipped quickly.
 
 use super::hull::Hull;
 use super::hull_core::Core;
 use super::orientation::Place;
 
-/// Least points for a core to pay.
+/// Least points for which a core saves time.
 const LEAST_POINTS: u64 = 64;
 
-/// Hull with a core, in which most new points are.
+/// Hull with a core, in which most new points lie.
 ///
-/// The core belongs to the hull of some of the points, and so is inside the hull of all. It changes the points examined, never the hull.
+/// The core lies in the hull of some of the points, and so in the hull of all. It changes the points examined, never the hull.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GrowingHull {
     hull: Hull,

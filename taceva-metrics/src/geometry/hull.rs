@@ -142,7 +142,7 @@ mod tests {
         }
     }
 
-    /// A coarse grid, so that many points share a line, and values of every size.
+    /// Points on a coarse grid, of any magnitude, so that many share a line.
     fn points() -> impl Strategy<Value = Vec<Place>> {
         let coordinate = prop_oneof![
             6 => (-4_i32..5).prop_map(|step| f64::from(step) * 0.1),

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use super::hull::Hull;
 use super::orientation::{Place, turn};
 
-/// Stretches of x. With fewer the core is smaller; with more it takes longer to find and more cache.
+/// Number of stretches of x. Fewer make the core smaller; more take longer to find and more cache.
 const STRETCHES: u32 = 64;
 
 /// Overlap of neighbouring stretches, as a share of their width: rounding may assign a point to the next stretch.
@@ -14,7 +14,7 @@ const OVERLAP: f64 = 1.0 / 1024.0;
 /// Bound of the rounding of a height, as a share of the greatest height: far above the few roundings of each.
 const MARGIN: f64 = 1.0 / 35_184_372_088_832.0;
 
-/// Lower and upper height of the core over each of some stretches of x. y is taken less a multiple of x, so that the hull is level.
+/// Lower and upper height of the core over each stretch of x. A multiple of x is subtracted from y, so that the hull is level.
 #[derive(Clone, Debug)]
 pub(crate) struct Core {
     slope: f64,
@@ -66,7 +66,7 @@ impl Core {
         })
     }
 
-    /// True if the point at `place` is in the core. False is no proof that it is outside the hull.
+    /// True if the point at `place` is in the core. If false, it may still be in the hull.
     #[inline]
     pub(crate) fn holds(&self, [x, y]: Place) -> bool {
         let [first, last] = self.ends;
@@ -86,7 +86,7 @@ impl Core {
 }
 
 impl Core {
-    /// True if the point at `place` is in the hull of this core or on its edge, by the two edges of the outline above and below it.
+    /// True if the point at `place` is in the hull or on its edge. Compares it with the edges of the outline above and below it.
     pub(crate) fn outline_holds(&self, place: Place) -> bool {
         let [first, last] = self.ends;
         let along = |chain: &[Place]| {
@@ -136,7 +136,7 @@ impl Heights {
     }
 
     fn at(&mut self, x: f64) -> f64 {
-        // The next stretch begins a little before the last one ended.
+        // The next stretch begins before the end of the last one.
         while self.at > 0 && self.corners[self.at][0] > x {
             self.at -= 1;
         }
@@ -183,7 +183,7 @@ mod tests {
         ) {
             let hull = Hull::of(corners.iter().copied());
             let Some(core) = Core::of(&hull) else { return Ok(()) };
-            // Others, and points on edges up to rounding, which are as often outside as inside.
+            // Other points, and points on edges up to rounding, which are inside or outside.
             let ends = hull.corners().iter().zip(hull.corners().iter().cycle().skip(1));
             let on_edges = ends.cycle().zip(&weights).map(|((start, end), weight)| {
                 [0, 1].map(|axis| start[axis] + weight * (end[axis] - start[axis]))

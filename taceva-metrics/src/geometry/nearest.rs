@@ -1,13 +1,13 @@
-//! The nearest of many points, and of equally near ones the first.
+//! Nearest of many points; of equally near points the first.
 
 use super::rigid::Point;
 
 use crate::exact::number_key::ranked;
 
-/// Points sorted for a nearest-point search that need not visit all.
+/// Points sorted for a nearest-point search that skips most of them.
 #[derive(Clone, Debug)]
 pub(crate) struct NearestPoints {
-    /// By x, then by index.
+    /// Sorted by x, then by index.
     sorted: Vec<(Point, usize)>,
 }
 
@@ -23,7 +23,7 @@ pub(crate) struct Nearest {
 }
 
 impl NearestPoints {
-    /// The given points; their order decides between equally near ones.
+    /// Sorts the points. Their given order decides between equally near ones.
     pub(crate) fn new(points: impl IntoIterator<Item = Point>) -> NearestPoints {
         let points: Vec<Point> = points.into_iter().collect();
         let order = ranked(points.len(), &|left, right| {

@@ -19,7 +19,7 @@ pub(crate) fn turn(start: Place, middle: Place, end: Place) -> Ordering {
     /// (3 + 16 ε) ε, ε = 2⁻⁵³.
     const BOUND: f64 = (3.0 + 16.0 * EPSILON) * EPSILON;
     const EPSILON: f64 = f64::EPSILON / 2.0;
-    /// Below this size a product may have lost bits to underflow, which the bound ignores.
+    /// Below this size a product may have lost bits by underflow, which the bound ignores.
     const LEAST: f64 = 1e-290;
     let left = (middle[0] - start[0]) * (end[1] - start[1]);
     let right = (middle[1] - start[1]) * (end[0] - start[0]);
@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn points_on_one_line_turn_nowhere_though_rounding_says_otherwise() {
-        // The classic failure: neighbours of one half along the diagonal, seen from 12 and 24.
+        // Known case in which rounding fails: neighbours of 0.5 along the diagonal, seen from 12 and 24.
         let far = [24.0, 24.0];
         for steps in 0..64_u32 {
             let near = 0.5 + f64::from(steps) * f64::EPSILON;

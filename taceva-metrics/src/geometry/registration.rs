@@ -3,7 +3,7 @@
 use super::nearest::NearestPoints;
 use super::rigid::{Motion, Point};
 
-/// Steps after which the registration ends, settled or not.
+/// Steps after which the registration ends, even without convergence.
 const MOST_STEPS: u32 = 50;
 
 /// A motion, and the convergence of its search.
@@ -15,10 +15,10 @@ pub(crate) struct Registration {
     pub(crate) settled: bool,
 }
 
-/// Moves `from` onto `onto`, from their given positions: each step pairs every point with the nearest one and solves for the motion of the
+/// Moves `from` onto `onto`, from their given positions. Each step pairs every point with the nearest one and fits the motion of the
 /// original cloud.
 ///
-/// `None` if some pairing does not determine the rotation.
+/// `None` if a pairing does not determine the rotation.
 ///
 /// # Reference
 /// Besl and McKay, A method for registration of 3-D shapes (1992).

@@ -25,7 +25,7 @@ impl Motion {
         std::array::from_fn(|axis| turned[axis] + self.shift[axis])
     }
 
-    /// The motion of `from` for which the squared distances to the points of `onto`, one by one, have the least sum.
+    /// The motion of `from` that minimises the sum of squared distances to the points of `onto`, paired by index.
     ///
     /// `None` if the points do not determine the rotation: fewer than three, or all on one line.
     ///
@@ -64,7 +64,7 @@ fn quaternion_form(products: &[[f64; 3]; 3]) -> [[f64; 4]; 4] {
 
 /// The eigenvector of the greatest eigenvalue by Jacobi's rotations; `None` if the next eigenvalue is as great.
 fn leading_vector(mut matrix: [[f64; 4]; 4]) -> Option<[f64; 4]> {
-    /// Sweeps over all pairs; convergence is quadratic, so that six or so are enough.
+    /// Sweeps over all pairs; convergence is quadratic, so about six are enough.
     const SWEEPS: usize = 20;
     /// Least relative gap between the two greatest eigenvalues. Points on one line bring them within rounding of each other, and a smaller
     /// gap determines no direction.
@@ -89,7 +89,7 @@ fn leading_vector(mut matrix: [[f64; 4]; 4]) -> Option<[f64; 4]> {
     determined.then(|| vectors.map(|row| row[first]))
 }
 
-/// One rotation of Jacobi: makes the entry at (`low`, `high`) zero.
+/// One Jacobi rotation: makes the entry at (`low`, `high`) zero.
 fn clear(matrix: &mut [[f64; 4]; 4], vectors: &mut [[f64; 4]; 4], low: usize, high: usize) {
     let entry = matrix[low][high];
     if entry.abs() <= f64::MIN_POSITIVE {

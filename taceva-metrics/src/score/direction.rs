@@ -1,4 +1,4 @@
-//! Direction of good values, and its sign beside a name.
+//! Direction of good values, and its sign after a name.
 
 /// Direction of good values of a metric.
 ///
@@ -17,7 +17,7 @@ pub enum Better {
     Higher,
     /// Values near zero are good.
     NearZero,
-    /// No direction: values only describe.
+    /// No direction: values only describe the sensor.
     Described,
 }
 
@@ -39,7 +39,7 @@ impl Better {
         format!("{name}{sign}")
     }
 
-    /// The word for it in files: `lower`, `higher`, `near zero` or `none`.
+    /// Word in files: `lower`, `higher`, `near zero` or `none`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

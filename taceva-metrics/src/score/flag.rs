@@ -21,16 +21,19 @@ pub enum Flag {
     CollinearTruths,
     /// The training labels are unknown: skill is measured against the mean of the evaluated truth.
     MeanOfTruth,
+    /// Every cluster gives the same value: the interval has no width, which does not show that the value is certain.
+    EqualClusters,
 }
 
 impl Flag {
     /// Every flag.
-    pub const ALL: [Flag; 5] = [
+    pub const ALL: [Flag; 6] = [
         Flag::OneBin,
         Flag::LowStimulus,
         Flag::ImprovedError,
         Flag::CollinearTruths,
         Flag::MeanOfTruth,
+        Flag::EqualClusters,
     ];
 }
 
@@ -42,6 +45,7 @@ impl fmt::Display for Flag {
             Flag::ImprovedError => "improved error",
             Flag::CollinearTruths => "collinear truths",
             Flag::MeanOfTruth => "constant is the mean of truth",
+            Flag::EqualClusters => "equal clusters",
         })
     }
 }

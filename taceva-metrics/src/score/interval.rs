@@ -23,14 +23,14 @@ pub enum ClusteredBy {
     Point,
     /// Single samples, which the caller declared independent.
     Sample,
-    /// Whole recordings, for samples of several.
+    /// Whole recordings, if there are several.
     Recording,
     /// Groups of samples that depend on each other: blocks of time, clips, objects.
     Group,
 }
 
 impl ClusteredBy {
-    /// Text behind the name of a method.
+    /// Text after the name of a method.
     const fn words(self) -> &'static str {
         match self {
             ClusteredBy::Point => " by point_id",

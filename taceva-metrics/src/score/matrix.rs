@@ -5,7 +5,7 @@
 /// # Shapes
 /// `values[row][column]` belongs to `rows[row]` and `columns[column]`.
 /// # Units
-/// Those of the [`Variant`](crate::Variant) that holds the matrix.
+/// Unit of the [`Variant`](crate::Variant) that holds the matrix.
 ///
 /// ```
 /// use taceva_metrics::Matrix;

@@ -11,10 +11,10 @@
 pub enum Range {
     /// Any number: a mean error, a slope.
     Any,
-    /// Above 0: errors, areas, spreads. Infinitely many samples would not give 0.
+    /// Above 0: errors, areas, spreads. Infinitely many samples do not give 0.
     Positive,
-    /// Above 0, and the greatest of several numbers, without an interval. One sample, level or pair of channels decides it, and resampling
-    /// does not show its variation.
+    /// Above 0, and the greatest of several numbers, so without an interval. One sample, level or pair of channels determines it, and
+    /// resampling does not show its variation.
     Greatest,
     /// From 0, and 0 possible even for infinitely many samples: a spread without its part by chance.
     NotNegative,

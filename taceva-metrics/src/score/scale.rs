@@ -24,7 +24,7 @@ pub enum Scale {
 }
 
 impl fmt::Display for Scale {
-    /// Text behind the name of a method; empty for the quantity's own scale.
+    /// Text after the name of a method; empty for the quantity's own scale.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Scale::Own => "",

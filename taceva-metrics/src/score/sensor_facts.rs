@@ -1,4 +1,4 @@
-//! Facts about a sensor beside its samples.
+//! Facts about a sensor that are not in its samples.
 
 use taceva_core::{Footprint, Outline, SkipReason};
 
@@ -127,11 +127,4 @@ pub(crate) fn written(footprint: &Footprint) -> String {
         Some(depth) => format!("{outline} depth {}", depth.0),
         None => outline,
     }
-}
-
-/// Number of a constant in reports.
-pub(crate) fn as_f64(count: u64) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "constants are far below 2^53")]
-    let count = count as f64;
-    count
 }

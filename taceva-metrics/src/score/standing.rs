@@ -59,7 +59,7 @@ impl Standing {
         matches!(self, Standing::Counts | Standing::SkillUnknown)
     }
 
-    /// Words for it in files and for programs; `None` for a score that counts. [`Standing::phrase`] has those for people.
+    /// Words in files and for programs; `None` for a score that counts. [`Standing::phrase`] returns the words for people.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -80,7 +80,7 @@ impl Standing {
         }
     }
 
-    /// Words for it beside a value, for people; `None` for a score that counts.
+    /// Words beside a value, for people; `None` for a score that counts.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -176,7 +176,8 @@ impl Standing {
         }
     }
 
-    /// The same for a score with its `value`. A value that is not above zero shows no skill, with an interval or without.
+    /// As [`of_skill`](Standing::of_skill), for a score with its `value`. A value of zero or less shows no skill, with or without an
+    /// interval.
     ///
     /// ```
     /// use taceva_metrics::Standing;

@@ -1,8 +1,8 @@
-//! Values of a score: a number, many numbers in their places, or the reason for a missing one.
+//! Values of a score: one number, many numbers, or the reason for a missing value.
 
-use std::fmt;
+use std::fmt::{self, Write as _};
 
-use taceva_core::Unit;
+use taceva_core::{Unit, counted};
 
 use crate::score::curve::Curve;
 use crate::score::digits::significant;
@@ -10,6 +10,7 @@ use crate::score::map::Map;
 use crate::score::matrix::Matrix;
 
 /// A finished value. It prints to four digits, or to the decimals of a precision such as `{:.2}`; [`scalar`](Value::scalar) has all digits.
+/// A width such as `{:>24}` holds for numbers and words alike.
 ///
 /// ```
 /// use taceva_metrics::{UndefinedReason, Value};
@@ -17,6 +18,7 @@ use crate::score::matrix::Matrix;
 /// assert_eq!(Value::Scalar(1.0 / 3.0).to_string(), "0.3333");
 /// assert_eq!(format!("{:.2}", Value::Scalar(0.5)), "0.50");
 /// assert_eq!(Value::Undefined(UndefinedReason::Empty).to_string(), "undefined: empty");
+/// assert_eq!(format!("{:>18}", Value::Undefined(UndefinedReason::Empty)), "  undefined: empty");
 /// assert_eq!(Value::Undefined(UndefinedReason::Empty).scalar(), None);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -51,13 +53,27 @@ impl fmt::Display for Value {
         match self {
             Value::Scalar(value) if f.precision().is_some() => fmt::Display::fmt(value, f),
             Value::Scalar(value) => f.pad(&significant(*value)),
-            Value::Map(_) => f.write_str("a map"),
-            Value::Curve(_) => f.write_str("a curve"),
-            Value::Matrix(_) => f.write_str("a matrix"),
-            Value::Undefined(reason) => write!(f, "undefined: {reason}"),
-            Value::NotApplicable(reason) => write!(f, "not applicable: {reason}"),
+            Value::Map(_) => pad(f, "a map"),
+            Value::Curve(_) => pad(f, "a curve"),
+            Value::Matrix(_) => pad(f, "a matrix"),
+            Value::Undefined(reason) => pad(f, &format!("undefined: {reason}")),
+            Value::NotApplicable(reason) => pad(f, &format!("not applicable: {reason}")),
         }
     }
+}
+
+/// Words in the width of a formatter. Its precision holds for numbers, while [`fmt::Formatter::pad`] would cut words by it.
+fn pad(f: &mut fmt::Formatter<'_>, words: &str) -> fmt::Result {
+    let room = f.width().unwrap_or(0).saturating_sub(words.chars().count());
+    let before = match f.align() {
+        Some(fmt::Alignment::Right) => room,
+        Some(fmt::Alignment::Center) => room / 2,
+        Some(fmt::Alignment::Left) | None => 0,
+    };
+    let fill = f.fill();
+    (0..before).try_for_each(|_| f.write_char(fill))?;
+    f.write_str(words)?;
+    (before..room).try_for_each(|_| f.write_char(fill))
 }
 
 /// A finite number, or the reason for a missing one.
@@ -134,6 +150,19 @@ pub enum UndefinedReason {
     NoForce,
     /// No sample is without contact.
     NoIdleSamples,
+    /// No press is light.
+    NoLightPresses,
+    /// Light presses are worth fewer independent places than the formula needs.
+    TooFewPlaces {
+        /// Number found.
+        have: u64,
+        /// Least number that is needed.
+        least: u64,
+    },
+    /// Predictions do not rise with the force of light presses.
+    NoRise,
+    /// The limit exceeds every force that it would rest on.
+    BeyondLightPresses,
     /// No sample is in contact and has a place.
     NoContact,
     /// Only one channel; a comparison needs two.
@@ -194,24 +223,45 @@ impl fmt::Display for UndefinedReason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             UndefinedReason::Empty => f.write_str("empty"),
-            UndefinedReason::TooFew { least } => write!(f, "fewer than {least} samples"),
+            UndefinedReason::TooFew { least } => {
+                write!(f, "fewer than {}", counted(*least, "sample"))
+            }
             UndefinedReason::ConstantTruth { .. } => f.write_str("constant truth"),
             UndefinedReason::BelowGate => f.write_str("no truth reaches the gate"),
             UndefinedReason::OutsideFootprint => f.write_str("no sample on the footprint"),
-            UndefinedReason::NoBin { least } => write!(f, "no bin has {least} samples"),
+            UndefinedReason::NoBin { least } => {
+                write!(f, "no bin has {}", counted(*least, "sample"))
+            }
             UndefinedReason::TooFewBins { have, least } => {
-                write!(f, "{have} bins, {least} are needed")
+                write!(f, "{}, {least} are needed", counted(*have, "bin"))
             }
             UndefinedReason::NoRepeats => f.write_str("no bin has two samples"),
             UndefinedReason::NoRepeatedPress => f.write_str("no press was repeated"),
             UndefinedReason::TooFewCells { have, least } => {
-                write!(f, "{have} repeated presses, {least} are needed")
+                let presses = counted(*have, "repeated press");
+                write!(f, "{presses}, {least} are needed")
             }
             UndefinedReason::EqualRepeats => f.write_str("repeats do not differ"),
             UndefinedReason::ShortBranch => f.write_str("no point has two depths on both branches"),
             UndefinedReason::NoOverlap => f.write_str("no common range"),
             UndefinedReason::NoForce => f.write_str("no force was measured"),
             UndefinedReason::NoIdleSamples => f.write_str("no sample is without contact"),
+            UndefinedReason::NoLightPresses => {
+                f.write_str("no light press: press ten places or more with 0.02 N to 0.2 N")
+            }
+            UndefinedReason::TooFewPlaces { have, least } => {
+                let places = if *have == 1 { "place" } else { "places" };
+                write!(
+                    f,
+                    "light presses are worth {have} {places}, {least} are needed"
+                )
+            }
+            UndefinedReason::NoRise => {
+                f.write_str("predictions do not rise with the force of light presses")
+            }
+            UndefinedReason::BeyondLightPresses => {
+                f.write_str("the limit exceeds the force of every light press")
+            }
             UndefinedReason::NoContact => f.write_str("no sample in contact has a place"),
             UndefinedReason::OneChannel => f.write_str("one channel, two are needed"),
             UndefinedReason::OneUnit => f.write_str("one unit, two are needed"),
@@ -244,8 +294,7 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::Overflow => f.write_str("beyond the range of binary64"),
             UndefinedReason::TooFewClusters { have } => {
                 let least = crate::score::least::LEAST_CLUSTERS;
-                let clusters = if *have == 1 { "cluster" } else { "clusters" };
-                write!(f, "{have} {clusters}, {least} are needed")
+                write!(f, "{}, {least} are needed", counted(*have, "cluster"))
             }
             UndefinedReason::TooFewReplicates { defined, drawn } => {
                 let least = crate::score::least::LEAST_REPLICATES;

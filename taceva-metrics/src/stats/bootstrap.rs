@@ -10,10 +10,10 @@ use crate::score::{BootstrapEnds, ClusteredBy, Interval, Scale};
 /// One in this many replicates may have no value.
 const UNDEFINED_IN: usize = 20;
 
-/// Interval from replicates, in each of which every cluster counts a random number of times.
+/// Interval from replicates in which every cluster counts a random number of times.
 ///
 /// In replicate b the cluster c counts w = Poisson(1) times, drawn by inverting the 64-bit hash of (seed, c, b). The replicate's score is
-/// finished from Σ_c w_c × sums of c, exactly. The bootstrap needs no more state than the jackknife, and states still merge. The interval
+/// computed from Σ_c w_c × sums of c, exactly. The bootstrap needs no more state than the jackknife, and states still merge. The interval
 /// depends only on the set of samples, the seed and the number of replicates. Clusters are identified by name, or by bucket if locations
 /// are [hashed](crate::Clusters::Hashed): all locations of a bucket then share one weight.
 ///

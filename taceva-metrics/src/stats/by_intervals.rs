@@ -3,12 +3,13 @@
 use super::difference::{Difference, DifferenceTest, Inverse, Tested};
 use super::error::ComparisonError;
 use super::estimate::Estimate;
+use super::parts::root_of_squares;
 use super::sides::Sides;
 use super::student::beyond;
 use crate::score::value::UndefinedReason;
 
 /// Least p value distinguished from 0: below it 1 − p is 1 in binary64.
-const LEAST_P: f64 = f64::EPSILON / 2.0;
+pub(super) const LEAST_P: f64 = f64::EPSILON / 2.0;
 
 /// Difference of two scores of different samples: of two sensors, or of two sessions.
 ///
@@ -17,8 +18,8 @@ const LEAST_P: f64 = f64::EPSILON / 2.0;
 /// is the level at which that interval ends at 0, so verdict, p and all three intervals rest on the same numbers. Its least value is
 /// 1.1e-16.
 ///
-/// Without a true difference about 0.04 of pairs are shown to differ, more if few locations make most of the error. `docs/coverage.md` has
-/// the simulation, with Welch's test beside it.
+/// If two sensors are equal, about 0.04 of pairs are still shown to differ, and more if few locations cause most of the error.
+/// `docs/coverage.md` has the simulation, with Welch's test for comparison.
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Sides, by_intervals};
@@ -118,16 +119,5 @@ impl Pair {
             }
         }
         rejected
-    }
-}
-
-/// √(x² + y²), scaled so that squares stay in the range of binary64.
-fn root_of_squares(x: f64, y: f64) -> f64 {
-    let larger = x.max(y);
-    if larger > 0.0 && larger.is_finite() {
-        let (x, y) = (x / larger, y / larger);
-        larger * (x * x + y * y).sqrt()
-    } else {
-        larger
     }
 }

@@ -129,7 +129,7 @@ impl ClusterSums {
         }
         self.cells
             .get_mut(cluster)
-            .expect("it was there or was inserted")
+            .expect("the entry exists or was inserted")
     }
 }
 

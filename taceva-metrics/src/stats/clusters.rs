@@ -6,7 +6,7 @@ use super::row_groups::{Grouped, HASHED_CLUSTERS, bucket};
 use crate::exact::merge::Merge;
 use taceva_core::random::fnv_1a;
 
-/// Most distinct locations that are each a cluster of their own.
+/// Most locations that are clusters of their own.
 pub const NAMED_CLUSTERS: usize = 64;
 /// Name of the only cluster of an undivided summary.
 const WHOLE: &str = "all";
@@ -128,7 +128,7 @@ impl<T: Merge + Clone> Clustering<T> {
         }
     }
 
-    /// Adds `rows` rows to one summary. It stays known that they are clustered, but not by which clusters.
+    /// Adds `rows` rows to one summary. Records that they are clustered, but not their clusters.
     pub(crate) fn deposit_whole(
         &self,
         clusters: &mut Clusters<T>,
@@ -205,7 +205,9 @@ impl<T: Merge + Clone> Clustering<T> {
         if !cells.contains_key(name) {
             cells.insert(name.to_owned(), self.empty.clone());
         }
-        cells.get_mut(name).expect("it was there or was inserted")
+        cells
+            .get_mut(name)
+            .expect("the entry exists or was inserted")
     }
 
     fn hash_if_crowded(&self, clusters: &mut Clusters<T>) {

@@ -95,9 +95,9 @@ impl ClusteredBins {
     /// The spread of the means beyond chance.
     ///
     /// Each mean has a variance from the variances between and within clusters of a bin, pooled over bins. Clusters in several bins move
-    /// their means together, which is no spread. The rest of the variance is noise. The interval inverts the test of the ratio of both
-    /// variances by the F distribution in Paulson's approximation, with the degrees of freedom of Satterthwaite, because other bins would
-    /// have had other clusters.
+    /// their means together, which is not a spread. The rest of the variance is noise. The interval inverts the test of the ratio of both
+    /// variances by the F distribution in Paulson's approximation. The degrees of freedom are Satterthwaite's, because other bins would
+    /// have other clusters.
     ///
     /// # Reference
     /// Thomas and Hultquist, Annals of Statistics 6 (1978); Searle, Casella and McCulloch, Variance Components (1992), chapter 3; Paulson, Annals
@@ -130,7 +130,7 @@ impl ClusteredBins {
             return Err(UndefinedReason::Overflow);
         }
         if noise.variance <= 0.0 {
-            // Nothing scatters within bins, so the differences between them are exact.
+            // Without scatter within bins, the differences between them are exact.
             let value = variance.sqrt();
             return Ok(Excess {
                 value,
@@ -307,7 +307,7 @@ struct Noise {
     variance: f64,
     /// Number of bins.
     bins: f64,
-    /// Sum of the variances of their means, and below it the sum of their squares with a part for heavy tails.
+    /// Sum of the variances of their means; the next field is the sum of their squares, with a part for heavy tails.
     sum: f64,
     squares: f64,
     /// Degrees of freedom of the noise.
@@ -385,10 +385,7 @@ fn count(of: usize) -> u64 {
 }
 
 fn number(count: u64) -> f64 {
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "no bin has 2^53 samples, each of which was one"
-    )]
+    #[expect(clippy::cast_precision_loss, reason = "no bin has 2^53 samples")]
     let number = count as f64;
     number
 }

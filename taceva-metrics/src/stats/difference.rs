@@ -6,11 +6,11 @@ use super::by_intervals::Pair;
 use super::error::ComparisonError;
 use super::holm::{LEVEL, Step, steps};
 use super::sides::Sides;
-use super::student::upper;
+use super::student::{beyond, upper};
 
-/// Score of A less that of B.
+/// Score of A minus score of B.
 ///
-/// Verdict, p value and interval rest on one decision. [`decide`] makes it for a family of differences at once; until then a difference is
+/// Verdict, p value and interval follow from one decision. [`decide`] makes it for a family of differences at once; until then a difference is
 /// its own family.
 ///
 /// ```
@@ -27,7 +27,7 @@ pub struct Difference {
     pub value: f64,
     /// Both scores.
     pub scores: Sides<f64>,
-    /// Standard error of the difference between choices of clusters.
+    /// Standard error of the difference between choices of clusters, and between trainings if their spread was given.
     pub standard_error: f64,
     /// Differences that the test at `1 − confidence` does not reject; it excludes 0 exactly if a difference is shown. An end is infinite if
     /// too few clusters reject any difference on that side.
@@ -51,8 +51,10 @@ pub struct Difference {
 pub(super) enum Inverse {
     /// Intervals of both scores, at any level.
     Intervals(Pair),
-    /// Differences at which each pattern of signs begins to count, to either side.
+    /// Differences at which each pattern of signs begins to count, on either side.
     Flips(Flips),
+    /// Student's distribution about the difference, for its standard error.
+    Student { freedom: f64 },
 }
 
 /// Sorted from below and from above: the differences at which another pattern of signs gives as large a sum as the observed one. Patterns
@@ -138,6 +140,13 @@ pub enum DifferenceTest {
         /// Degrees of freedom of both intervals.
         freedom: Sides<f64>,
     },
+    /// On the same samples, with the variance between trainings of the models: Student's t.
+    PairedTrainings {
+        /// Clusters that were paired.
+        clusters: usize,
+        /// Degrees of freedom of the difference.
+        freedom: f64,
+    },
 }
 
 /// A tested difference before it has an interval.
@@ -188,6 +197,10 @@ impl Difference {
                 [self.value - below, self.value + above]
             }
             Inverse::Flips(flips) => flips.interval(step.level),
+            Inverse::Student { freedom } => {
+                let half = beyond(step.level, *freedom) * self.standard_error;
+                [self.value - half, self.value + half]
+            }
         };
         let (low, high) = (low.min(self.value), high.max(self.value));
         // If p equals the level the end is 0, up to rounding.
@@ -234,6 +247,7 @@ impl Difference {
         }
         Ok(match &self.inverse {
             Inverse::Flips(flips) => upper(inside / self.standard_error, flips.freedom),
+            Inverse::Student { freedom } => upper(inside / self.standard_error, *freedom),
             Inverse::Intervals(pair) => {
                 let beyond = pair.p(margin.copysign(self.value)) / 2.0;
                 if inside > 0.0 { beyond } else { 1.0 - beyond }
@@ -257,6 +271,10 @@ impl fmt::Display for DifferenceTest {
                 )
             }
             DifferenceTest::Intervals { .. } => f.write_str("by the intervals of both"),
+            DifferenceTest::PairedTrainings { clusters, .. } => write!(
+                f,
+                "paired t by cluster with the variance between trainings, G={clusters}"
+            ),
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::exponential::exponential;
 use super::logarithm::logarithm;
 use super::student::quantile;
+use crate::count::as_f64;
 use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 use crate::score::{COVERAGE, Scale};
@@ -171,15 +172,6 @@ fn wilson(share: f64, samples: u64, moved: &Moved) -> [f64; 2] {
         u32::try_from(moved.clusters).map_or(samples, f64::from)
     };
     super::wilson::ends(share, worth, quantile(COVERAGE, moved.freedom))
-}
-
-fn as_f64(count: u64) -> f64 {
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "beyond 2^53 samples the interval has no digits left to lose"
-    )]
-    let count = count as f64;
-    count
 }
 
 #[cfg(test)]

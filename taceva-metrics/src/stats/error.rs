@@ -35,14 +35,14 @@ pub enum ComparisonError {
     NoInterval(UndefinedReason),
     /// The two scores differ in definition, unit or constants.
     Meaning(Sides<String>),
-    /// Clusters of both sides are paired, and one is on one side only.
+    /// A cluster that is on one side only, where both sides must be paired.
     Unpaired {
         /// Side that has the cluster.
         side: Side,
         /// Name of the unpaired cluster.
         cluster: String,
     },
-    /// Samples of both sides are paired, and a cluster has more of them on one side.
+    /// A cluster with different numbers of samples, where both sides must be paired.
     Counts {
         /// Name of the cluster.
         cluster: String,

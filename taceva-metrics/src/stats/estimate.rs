@@ -1,5 +1,7 @@
 //! A score with its interval, at any level of confidence.
 
+mod over_trainings;
+
 use super::error::ComparisonError;
 use super::exponential::exponential;
 use super::logarithm::logarithm;
@@ -278,7 +280,7 @@ fn odds(value: f64, ends: [f64; 2], t: f64) -> Option<Shape> {
     nearest([within(1.0), within(2.0)])
 }
 
-/// More symmetric of both shapes.
+/// The more symmetric of two shapes.
 fn nearest(shapes: [Option<(f64, Shape)>; 2]) -> Option<Shape> {
     let found = shapes.into_iter().flatten();
     let nearest = found.min_by(|(one, _), (other, _)| one.total_cmp(other));

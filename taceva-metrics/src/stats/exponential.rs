@@ -1,4 +1,4 @@
-//! e^x from + − × ÷ alone: a platform's own exponential would not give the same bytes on every machine.
+//! e^x by + − × ÷ only: a platform's own exponential would not give the same bytes on every machine.
 
 /// ln 2 in two parts. The first has so few digits that its integer multiples are exact.
 pub(super) const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
@@ -23,7 +23,7 @@ pub(super) fn exponential(x: f64) -> f64 {
     scaled(sum, twos)
 }
 
-/// sum × 2^twos, in steps that binary64 has.
+/// sum × 2^twos, in steps within the range of binary64.
 fn scaled(sum: f64, twos: f64) -> f64 {
     const STEP: f64 = 512.0;
     let (mut result, mut left) = (sum, twos);

@@ -1,13 +1,14 @@
 //! Delete-one-cluster jackknife: variation of a score between contact points.
 
 use super::ends::{Ends, Estimated, Moved};
+use crate::count::as_f64;
 use crate::score::least::LEAST_CLUSTERS;
 use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 use crate::score::{ClusteredBy, Interval};
 
-/// Least degrees of freedom of a variance of few clusters. If one cluster makes all of the variance, fewer would widen the interval several
-/// times and contain the truth no more often.
+/// Least degrees of freedom of a variance of few clusters. If one cluster causes all of the variance, fewer would widen the interval
+/// several times without containing the truth more often.
 const LEAST_FREEDOM: f64 = 3.0;
 
 /// The score with one cluster left out.
@@ -163,15 +164,6 @@ pub(crate) fn delta_interval(value: f64, range: Range, variance: f64, clusters: 
     }
 }
 
-fn as_f64(count: u64) -> f64 {
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "beyond 2^53 samples the interval has no digits left to lose"
-    )]
-    let count = count as f64;
-    count
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -226,7 +218,7 @@ mod tests {
 
     #[test]
     fn one_cluster_that_makes_all_of_an_error_leaves_a_finite_interval() {
-        // Nine of ten locations are read perfectly, or all but: what is left without the tenth is nothing, or next to nothing.
+        // Nine of ten locations have almost no error: the rest without the tenth is zero or nearly zero.
         let ends = |rest: f64| {
             let of_others = (0..9).map(|_| 1e-6 * 10.0 / 9.0);
             let left_out = of_others.chain([rest]).map(|left| LeftOut {

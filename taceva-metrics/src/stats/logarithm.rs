@@ -1,10 +1,10 @@
-//! ln x from + − × ÷ alone: a platform's own logarithm would not give the same bytes on every machine.
+//! ln x by + − × ÷ only: a platform's own logarithm would not give the same bytes on every machine.
 
 use super::exponential::LN_2;
 
 /// ln x, to a few roundings; minus infinity at 0, and NaN below.
 pub(super) fn logarithm(x: f64) -> f64 {
-    /// Raises the least numbers to where all have 53 digits.
+    /// Factor that raises subnormal numbers to a full mantissa of 53 bits.
     const RAISED: f64 = 18_014_398_509_481_984.0;
     const RAISED_BY: f64 = 54.0;
     if x.is_nan() || x < 0.0 {

@@ -12,9 +12,9 @@ use super::bootstrap::PoissonBootstrap;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum IntervalMethod {
-    /// Leaves out one cluster after the other: the score is finished once more per cluster.
+    /// Leaves out one cluster after the other: the score is computed once more per cluster.
     #[default]
     Jackknife,
-    /// Weights clusters at random, for skewed scores: the score is finished once per replicate.
+    /// Weights clusters at random, for skewed scores: the score is computed once per replicate.
     PoissonBootstrap(PoissonBootstrap),
 }

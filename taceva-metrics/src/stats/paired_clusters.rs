@@ -1,4 +1,4 @@
-//! The same samples on both sides, cluster by cluster.
+//! Pairs of clusters of the same samples on both sides.
 
 use super::cluster_sums::{ClusterSum, ClusterSums};
 use super::error::ComparisonError;
@@ -66,7 +66,7 @@ impl PairedClusters {
         &self.counts
     }
 
-    /// Σ of A less Σ of B, of each cluster in the order of names.
+    /// Σ of A minus Σ of B, for each cluster in the order of names.
     pub(super) fn differences(&self) -> &[ExactSum] {
         &self.differences
     }

@@ -24,9 +24,9 @@ const THRESHOLDS: [u64; 20] = [
     0xffff_ffff_ffff_fffd,
 ];
 
-/// The draw that belongs to 64 uniform random bits: the least k with bits < 2⁶⁴ P(X ≤ k).
+/// Weight for 64 uniform random bits: the least k with bits < 2⁶⁴ P(X ≤ k).
 pub(super) fn weight(bits: u64) -> u32 {
-    // Three draws in four are below 2: a walk from the bottom is shorter than a bisection.
+    // Three draws in four are below 2, so a linear search is shorter than a bisection.
     let reached = THRESHOLDS
         .iter()
         .take_while(|&&threshold| bits >= threshold);
@@ -56,7 +56,7 @@ mod tests {
         let e: u128 = (0..40).map(term).sum();
         for (k, &threshold) in (0..).zip(&THRESHOLDS) {
             let below: u128 = (0..=k).map(term).sum();
-            // The series is cut off, which may move the last place by one.
+            // The truncated series may change the last place by one.
             assert!(fraction(below, e).abs_diff(threshold) <= 1, "{k}");
         }
     }

@@ -1,4 +1,4 @@
-//! Random bits by counter: each draw is a function of a seed and its purpose, so no order can change it.
+//! Random bits by counter: each draw is a function of a seed and its purpose, so it is independent of the order.
 
 use taceva_core::random::mix;
 

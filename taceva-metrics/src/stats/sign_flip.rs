@@ -56,7 +56,7 @@ impl Default for SignFlip {
 }
 
 impl SignFlip {
-    /// The same test with at most so many [`flips`](SignFlip::flips).
+    /// The same test with at most this many [`flips`](SignFlip::flips).
     #[must_use]
     pub const fn with_flips(self, flips: u32) -> SignFlip {
         SignFlip { flips, ..self }
@@ -77,9 +77,9 @@ impl SignFlip {
     /// one of those means, found by counting.
     ///
     /// # Errors
-    /// [`ComparisonError::Unpaired`] or [`ComparisonError::Counts`] if the two do not have the same clusters with as many
-    /// samples, [`ComparisonError::TooFewClusters`] if there are fewer than five with samples,
-    /// [`ComparisonError::NoInterval`] if a number is beyond the range of binary64.
+    /// - [`ComparisonError::Unpaired`] or [`ComparisonError::Counts`] if the two do not have the same clusters with as many samples.
+    /// - [`ComparisonError::TooFewClusters`] if there are fewer than five with samples.
+    /// - [`ComparisonError::NoInterval`] if a number is beyond the range of binary64.
     pub fn test(&self, sums: Sides<&ClusterSums>) -> Result<Difference, ComparisonError> {
         let pairs = PairedClusters::of(sums)?;
         let mean = pairs.mean_difference()?;
@@ -162,7 +162,7 @@ struct Tried {
 
 /// Clusters for averages over both halves of a pattern.
 struct Halves {
-    /// Samples and Σ of A less Σ of B of each cluster.
+    /// Number of samples, and Σ of A minus Σ of B, of each cluster.
     clusters: Vec<[f64; 2]>,
 }
 
@@ -200,7 +200,7 @@ impl Halves {
 mod tests {
     use super::*;
 
-    /// One sample a cluster, whose errors are `error_a` and 1.
+    /// One sample per cluster, with the errors `error_a` and 1.
     fn sides(errors_a: &[f64]) -> Sides<ClusterSums> {
         let mut sums: Sides<ClusterSums> = Sides::default();
         for (at, &error_a) in errors_a.iter().enumerate() {
@@ -220,9 +220,9 @@ mod tests {
 
     #[test]
     fn few_clusters_are_enumerated() {
-        // Differences 1, 2, 3, 4, 5, −6, sum 9. A sum of 21 − 2 S of the same magnitudes, where S is what is negated, is at
-        // least 9 for S ≤ 6 and at most −9 for S ≥ 15. Subsets of {1…6} with sum 0…6: 1, 1, 1, 2, 2, 3, 4 = 14, as many by
-        // symmetry with sum 15…21: p = 28/64.
+        // Differences 1, 2, 3, 4, 5, −6, sum 9. If numbers of sum S among the magnitudes are negated, the sum is 21 − 2 S: at least 9 for S
+        // ≤ 6, at most −9 for S ≥ 15. Subsets of {1…6} with sum 0…6: 1, 1, 1, 2, 2, 3, 4 = 14. As many have sum 15…21, by symmetry: p =
+        // 28/64.
         let sums = sides(&[2.0, 3.0, 4.0, 5.0, 6.0, -5.0]);
         let difference = test(SignFlip::default(), &sums).expect("six clusters");
         assert_eq!(difference.p.to_bits(), (28.0_f64 / 64.0).to_bits());
@@ -233,8 +233,8 @@ mod tests {
             exhaustive: true,
         };
         assert_eq!(difference.test, expected);
-        // A twentieth of 64 patterns is 3.2: the fourth mean from below and from above. Two patterns have an empty half; then
-        // come, each for a half and for the other one, −6 of the last cluster alone, and 5 of the fifth.
+        // A twentieth of 64 patterns is 3.2, so the fourth mean from below and from above counts. Two patterns have an empty half. The next
+        // means are −6, of the last cluster alone, and 5, of the fifth, each twice.
         assert_eq!(
             difference.interval.map(f64::to_bits),
             [-6.0, 5.0].map(f64::to_bits)

@@ -1,4 +1,4 @@
-//! Exact sums of the same numbers with other signs, fast enough for ten thousand patterns.
+//! Exact sums of the same numbers with varying signs, fast enough for ten thousand patterns.
 
 use crate::exact::ExactSum;
 
@@ -9,7 +9,7 @@ pub(super) struct SignedSums {
     width: usize,
 }
 
-/// Magnitude of a sum: digits from the highest, so that the order is that of the numbers.
+/// Magnitude of a sum: digits from the highest, so that magnitudes sort like numbers.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Magnitude(Vec<i64>);
 

@@ -1,28 +1,28 @@
 //! Student's t distribution, for any positive number of degrees of freedom.
 //!
-//! Only + − × ÷ and √ are used, which IEEE 754 rounds alike everywhere. A platform's own logarithm or gamma function would not give the
+//! Only + − × ÷ and √ are used, which IEEE 754 rounds the same everywhere. A platform's own logarithm or gamma function would not give the
 //! same bytes on every machine.
 
 use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 
 /// The t for which ±t encloses the share `central` of the distribution.
 ///
-/// Newton's steps climb towards it, because the probability is concave there; the first that does not climb ends them. `central` is in 0..1
-/// and `freedom` above 0.
+/// Newton's steps increase towards it, because the probability is concave there. The first step that does not increase ends them. `central`
+/// is in 0..1 and `freedom` above 0.
 pub(super) fn quantile(central: f64, freedom: f64) -> f64 {
     climb(freedom, |split| central - split.within)
 }
 
-/// The t for which the share `level` is outside ±t: a quantile that keeps its digits for a small `level`.
+/// The t for which the share `level` is outside ±t. Unlike [`quantile`], it keeps its digits for a small `level`.
 ///
 /// `level` is above 0 and at most 1.
 pub(super) fn beyond(level: f64, freedom: f64) -> f64 {
     climb(freedom, |split| split.beyond - level)
 }
 
-/// Newton's steps from 0, as long as they climb.
+/// Newton's steps from 0, while they increase.
 fn climb(freedom: f64, missing: impl Fn(&Split) -> f64) -> f64 {
-    /// Far more than 95 % needs, which takes about ten.
+    /// A multiple of the ten steps that 95 % takes.
     const MOST_STEPS: usize = 200;
     let mut t = 0.0;
     for _ in 0..MOST_STEPS {
@@ -74,7 +74,7 @@ impl Split {
         // √near × far^(ν/2) / B(ν/2, 1/2), which both series share.
         let front = near.sqrt() * power(far, half) * gamma_ratio(half) * (FRAC_2_SQRT_PI / 2.0);
         if front <= 0.0 {
-            // At 0, or so far out that the rest underflows.
+            // At 0, or so far out that the remainder underflows.
             let within = if near < far { 0.0 } else { 1.0 };
             return Split {
                 within,
@@ -183,7 +183,7 @@ mod tests {
         for freedom in [1.0, 3.0, 7.5, 31.0, 400.0] {
             for level in [1.0, 0.5, 0.05, 1e-3, 1e-6, 1e-9, 1e-12, 1.2e-16] {
                 let found = two_sided(beyond(level, freedom), freedom);
-                // Just inside 4 standard deviations it is what 1 − within leaves of it.
+                // Just inside 4 standard deviations the result is 1 minus the probability within.
                 assert!(
                     (found / level - 1.0).abs() < 1e-10,
                     "{freedom} {level}: {found}"
@@ -250,7 +250,7 @@ mod tests {
         ];
         for (freedom, t, expected) in calculated {
             let found = two_sided(t, freedom);
-            // Half as many roundings in the power as there are degrees, where P is the rest of 1.
+            // The power rounds half as often as there are degrees of freedom; P is computed as 1 minus the rest.
             let tolerance = 1e-12 * expected + freedom * 1.2e-16;
             assert!(
                 (found - expected).abs() < tolerance,
@@ -264,7 +264,7 @@ mod tests {
         for freedom in (1..=260).map(|quarters| f64::from(quarters) / 4.0) {
             for central in [0.5, 0.9, 0.95, 0.99] {
                 let back = Split::at(quantile(central, freedom), freedom).within;
-                // A few roundings of numbers near 1, and half as many in the power as there are degrees of freedom.
+                // A few roundings of numbers near 1; the power rounds half as often as there are degrees of freedom.
                 let tolerance = 4e-15 + freedom * 1.2e-16;
                 assert!((back - central).abs() < tolerance, "{freedom}: {back}");
             }

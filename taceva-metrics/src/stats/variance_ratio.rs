@@ -1,4 +1,4 @@
-//! The distribution of the ratio of two variances.
+//! Distribution of the ratio of two variances.
 
 /// Distance of a ratio of two variances from 1, as a standard normal number.
 pub(super) fn paulson(ratio: f64, above: f64, below: f64) -> f64 {
@@ -12,7 +12,7 @@ fn cube_root(of: f64) -> f64 {
     if of <= 0.0 {
         return 0.0;
     }
-    // From above, steps only fall.
+    // From above, steps only decrease.
     let mut root = if of > 1.0 { of } else { 1.0 };
     loop {
         let next = (2.0 * root + of / (root * root)) / 3.0;

@@ -28,7 +28,7 @@ pub struct Question {
 }
 
 impl Question {
-    /// Question of the better of two scores in `unit`, without equivalence.
+    /// Question for the better of two scores in `unit`, without equivalence.
     pub const fn new(unit: Unit, better: Better) -> Question {
         Question {
             unit,

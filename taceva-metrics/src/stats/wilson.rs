@@ -1,5 +1,6 @@
 //! Wilson's interval of a share of independent trials.
 
+use crate::count::as_f64;
 use crate::score::Interval;
 
 /// z for which ±z encloses 95 % of the normal distribution.
@@ -21,20 +22,11 @@ pub(super) fn ends(share: f64, n: f64, z: f64) -> [f64; 2] {
     let centre = (share + z * z / (2.0 * n)) / scale;
     let spread = share * (1.0 - share) / n + z * z / (4.0 * n * n);
     let half = z * spread.sqrt() / scale;
-    // At the ends the formula gives 0 and 1 exactly, but for rounding.
+    // At the ends the formula gives 0 and 1 up to rounding.
     [
         if share <= 0.0 { 0.0 } else { centre - half },
         if share >= 1.0 { 1.0 } else { centre + half },
     ]
-}
-
-fn as_f64(count: u64) -> f64 {
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "beyond 2^53 trials the interval has no digits left to lose"
-    )]
-    let count = count as f64;
-    count
 }
 
 #[cfg(test)]

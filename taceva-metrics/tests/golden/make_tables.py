@@ -69,7 +69,7 @@ def table(seed, rows, low, high, noise):
         "rmse": str(rmse.quantize(Decimal(1).scaleb(rmse.adjusted() - 49))),
         "r2": decimal(1 - squares / spread),
         "smape": decimal(terms / n),
-        # How large errors are beside the mean error: cancellation.
+        # Size of errors relative to the mean error: cancellation.
         "absolute": float(sum(abs(v) for v in d) / n),
     }
 

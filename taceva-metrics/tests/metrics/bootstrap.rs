@@ -1,4 +1,4 @@
-//! The Poisson bootstrap depends on the set of samples, the seed and the number of replicates, and on nothing else.
+//! The Poisson bootstrap depends only on the set of samples, the seed and the number of replicates.
 
 use crate::support::rows::{Row, batch, plan};
 use proptest::prelude::*;
@@ -36,7 +36,7 @@ fn score(evaluation: &Evaluation, metric: &str) -> Score {
     evaluation.score(metric, "Fx").cloned().expect("a score")
 }
 
-/// Few locations, which keep their names, or many, which are hashed.
+/// Few locations, clustered by name, or many, clustered by hash.
 fn rows() -> impl Strategy<Value = Vec<Row>> {
     prop_oneof![Just(12_u32), Just(300_u32)].prop_flat_map(|points| {
         let row = (-2.0..2.0, -2.0..2.0, 0..points);
@@ -68,7 +68,7 @@ proptest! {
     }
 }
 
-/// Errors that depend on the location, on `points` of them.
+/// Errors that depend on the location, at `points` locations.
 fn uneven(points: u32) -> Vec<Row> {
     let row = |row: u32| {
         let point = row % points;
@@ -91,7 +91,7 @@ fn it_agrees_with_the_jackknife_on_a_smooth_score() {
                 | Interval::Bootstrap { standard_error, .. } => standard_error,
                 other => panic!("{metric}: {other:?}"),
             });
-            // 2,000 replicates know their deviation to 1.6 %; of 32 clusters the two methods differ by a few per cent more.
+            // The deviation of 2,000 replicates is known to 1.6 %. With 32 clusters the two methods differ by a few per cent more.
             let quotient = errors[1] / errors[0];
             assert!(
                 (quotient - 1.0).abs() < 0.1,
@@ -127,7 +127,7 @@ fn a_report_says_how_the_interval_was_found() {
 
 #[test]
 fn a_score_that_many_replicates_lack_has_no_interval_and_says_so() {
-    // The truth varies at one location of five only: R² has no value wherever that one is left out, e⁻¹ of the replicates.
+    // The truth varies at one of five locations only. R² has no value in replicates without that location, e⁻¹ of them.
     let rows: Vec<Row> = (0..50)
         .map(|row| {
             Row::same(
@@ -144,13 +144,13 @@ fn a_score_that_many_replicates_lack_has_no_interval_and_says_so() {
     let UndefinedReason::TooFewReplicates { defined, drawn } = reason else {
         panic!("{reason}");
     };
-    // Four standard deviations of 200 draws about 126.4.
+    // Within four standard deviations of 126.4, the expected number of 200.
     assert!(drawn == 200 && defined.abs_diff(126) <= 28, "{defined}");
     assert_eq!(
         reason.to_string(),
         format!("{defined} of 200 replicates have a value, 95 % and at least 39 are needed")
     );
-    // With five clusters all of them are left out in e⁻⁵ = 0.7 % of the replicates: the mean error has a value in the others.
+    // All five clusters are left out in e⁻⁵ = 0.7 % of the replicates; the mean error has a value in the others.
     assert!(matches!(
         score(&evaluation, "mae").interval,
         Interval::Bootstrap { .. }

@@ -1,4 +1,4 @@
-//! Splitting, ordering and merging change nothing of what is kept by press, unit, time or level, and states survive a file.
+//! Splitting, ordering and merging do not change sums by press, unit, time or level, and states survive a file.
 
 use crate::support::laws::{self, states};
 use proptest::prelude::*;
@@ -8,7 +8,7 @@ use taceva_core::{
 };
 use taceva_metrics::{Evaluator, MetricError, MetricPlan, SensorFacts, State, catalogue};
 
-const METRICS: [&str; 12] = [
+const METRICS: [&str; 13] = [
     "repeatability",
     "signal_to_repeatability",
     "hysteresis",
@@ -16,6 +16,7 @@ const METRICS: [&str; 12] = [
     "intrinsic",
     "noise_equivalent_force",
     "zero_error",
+    "detection_limit",
     "linearity",
     "crosstalk",
     "bias_level",
@@ -45,7 +46,7 @@ fn plan() -> MetricPlan {
     plan
 }
 
-/// Few values, so that many are equal, now and then one of any size, none, or no number.
+/// Few distinct values, so that many are equal; sometimes one of any size, none, or NaN.
 fn value() -> impl Strategy<Value = Option<f64>> {
     prop_oneof![
         12 => (-8_i32..9).prop_map(|step| Some(f64::from(step) * 0.3)),
@@ -56,7 +57,7 @@ fn value() -> impl Strategy<Value = Option<f64>> {
     ]
 }
 
-/// Samples of few points, units and times; at times some name no point.
+/// Samples of few points, units and times; some name no point.
 fn samples() -> impl Strategy<Value = Vec<Sample>> {
     let points = prop_oneof![4 => Just(3_u32), 1 => Just(100_u32)];
     (points, prop::bool::weighted(0.8)).prop_flat_map(|(points, all_named)| {

@@ -1,4 +1,4 @@
-//! Whether two models or two sensors differ: published examples, and the words that come of them.
+//! Comparison of two models or two sensors: published examples, and the resulting words.
 
 use crate::support::rows::{Row, evaluate};
 use taceva_core::Unit;
@@ -13,7 +13,7 @@ const SLEEP: Sides<[f64; 10]> = Sides {
     b: [1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4],
 };
 
-/// The mean and its standard error, by the textbook.
+/// Mean and its standard error, by the textbook formula.
 fn estimate(values: &[f64; 10]) -> Estimate {
     let mean = values.iter().sum::<f64>() / 10.0;
     let squares = values.iter().map(|value| (value - mean).powi(2));
@@ -45,13 +45,13 @@ fn sleep_of_patients() -> Difference {
 }
 
 fn near(found: f64, expected: f64) {
-    // The digits that were published, or half of a float's.
+    // Half of the last published decimal, or of a float's.
     assert!((found - expected).abs() < 5e-8, "{found} is not {expected}");
 }
 
 #[test]
 fn intervals_of_two_means_give_the_interval_and_p_of_their_difference() {
-    // Each mean ± t(9) × its standard error, put together and inverted with mpmath, apart from this program.
+    // Each mean ± t(9) × its standard error, combined and inverted independently with mpmath.
     let difference = sleep_of_strangers();
     near(difference.value, -1.58);
     near(difference.value / difference.standard_error, -1.860_813_47);
@@ -65,7 +65,7 @@ fn intervals_of_two_means_give_the_interval_and_p_of_their_difference() {
 
 #[test]
 fn intervals_on_a_logarithmic_scale_are_inverted_on_it() {
-    // 0.5 and 0.9 with standard errors 0.2 and 0.25 of their logarithms, of 10 and 5 degrees of freedom; by mpmath.
+    // Scores 0.5 and 0.9. Standard errors 0.2 and 0.25 of their logarithms, 10 and 5 degrees of freedom; by mpmath.
     let estimate = |value, ends, freedom| {
         let stated = StatedInterval::new(ends, freedom, 12).on(Scale::Logarithm);
         Estimate::try_from_interval(value, stated).expect("an estimate")
@@ -102,11 +102,10 @@ fn intervals_that_cannot_be_are_refused() {
 
 #[test]
 fn the_paired_test_meets_the_published_interval_and_its_p_is_counted() {
-    // No difference is positive and one is 0, so that of the 2¹⁰ patterns only
-    // 2 × 2 give a sum as large.
+    // No difference is positive and one is 0, so only 2 × 2 of the 2¹⁰ patterns give as large a sum.
     let difference = sleep_of_patients();
     near(difference.value, -1.58);
-    // The 52nd of the 1,024 means of halves from below and from above, counted apart from this program.
+    // The 52nd of the 1,024 means of halves, from below and from above, counted independently.
     near(difference.interval[0], -7.4 / 3.0);
     near(difference.interval[1], -2.5 / 3.0);
     near(difference.p, 4.0 / 1024.0);
@@ -322,7 +321,7 @@ fn success_rates_are_compared_board_by_board() {
         .expect("six boards");
     near(difference.scores.a, 390.0 / 600.0);
     near(difference.value, 40.0 / 600.0);
-    // Differences 10, 5, 10, 10, −5, 10, sum 40 of 50: as large are those whose negated part has 5 or less of the
-    // magnitudes, nothing or one of the two fives: 3 of 2⁶, and as many reversed.
+    // Differences 10, 5, 10, 10, −5, 10: sum 40 of 50. A sum is as large if the negated magnitudes add up to at most 5: none, or one of the
+    // two fives. That is 3 of 2⁶ patterns, and as many reversed.
     near(difference.p, 6.0 / 64.0);
 }

@@ -1,4 +1,4 @@
-//! What must hold whatever is compared: neither the order of samples nor the naming of the sides changes an answer.
+//! Laws of comparisons: the order of samples and the names of the sides change no answer.
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -30,7 +30,7 @@ fn test(sums: &Sides<ClusterSums>, flips: u32) -> Difference {
     sign_flip.test(sides).expect("enough clusters")
 }
 
-/// At least five clusters; values of every size, and such as make ties.
+/// At least five clusters; values of any size, many of them equal.
 fn samples() -> impl Strategy<Value = Samples> {
     let value = || {
         prop_oneof![
@@ -48,7 +48,7 @@ fn samples() -> impl Strategy<Value = Samples> {
     })
 }
 
-/// The p value by counting in whole numbers.
+/// p value, by counting patterns in whole numbers.
 fn counted(differences: &[i64]) -> f64 {
     let observed = differences.iter().sum::<i64>().abs();
     let patterns = 0..1_u32 << differences.len();
@@ -150,7 +150,7 @@ proptest! {
             prop_assert_eq!(decided.is_shown, adjusted_p <= 0.05);
             prop_assert!(low <= decided.value && decided.value <= high);
             prop_assert!(decided.confidence >= raw.confidence);
-            // An end at 0 is the p value at the level itself.
+            // An interval that ends at 0 has a p value equal to the level.
             let excludes = low >= 0.0 || high <= 0.0;
             let includes = low <= 0.0 && high >= 0.0;
             prop_assert!(if decided.is_shown { excludes } else { includes }, "{:?}", decided);
@@ -168,7 +168,7 @@ proptest! {
                 other => prop_assert!(false, "{other}"),
             }
         }
-        // The clamp at 0 hides nothing: of symmetric intervals the middle is the difference, to nine digits.
+        // The clamp at 0 hides nothing: the middle of a symmetric interval is the difference, to nine digits.
         for difference in &family {
             let [low, high] = difference.interval;
             if matches!(difference.test, DifferenceTest::Intervals { .. }) && low.abs() > 0.0 && high.abs() > 0.0 {

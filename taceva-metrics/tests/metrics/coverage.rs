@@ -1,10 +1,10 @@
-//! Intervals by contact point hold the expected score as often as they say; intervals by sample do not. On simulated
-//! presses; `examples/coverage.rs` does the same at length.
+//! Intervals by contact point contain the expected score as often as stated; intervals by sample do not. Simulated presses;
+//! `examples/coverage.rs` runs more of them.
 
 use crate::support::simulation::{Design, METRICS, Method, coverage};
 use taceva_metrics::BootstrapEnds;
 
-/// As in a calibration: four presses at each of 400 locations.
+/// Design of a calibration: four presses at each of 400 locations.
 const CALIBRATION: Design = Design {
     locations: 400,
     presses: 4,
@@ -31,18 +31,18 @@ fn intervals_of_few_locations_hold_90_percent() {
         .zip(coverage(few, Method::Jackknife, 0..RUNS))
     {
         assert_eq!(coverage.intervals, RUNS, "{metric}");
-        // 0.90 less three standard errors of 300 runs.
+        // 0.90 minus three standard errors of 300 runs.
         assert!(coverage.share() >= 0.85, "{metric}: {coverage:?}");
     }
 }
 
 #[test]
 fn intervals_by_sample_hold_too_little() {
-    // Presses at one location are alike: their mean is less certain than that of as many unrelated ones.
+    // Presses at one location are alike: their mean is less certain than the mean of as many independent presses.
     let by_location = coverage(CALIBRATION, Method::Jackknife, 0..RUNS);
     let by_sample = coverage(CALIBRATION, Method::JackknifeBySample, 0..RUNS);
     let scores = METRICS.iter().zip(by_sample.iter().zip(by_location));
-    // The sizes of errors at one location are alike, their signs are not.
+    // The magnitudes of errors at one location are alike; their signs are independent.
     for ((metric, _), (by_sample, by_location)) in
         scores.filter(|((metric, _), _)| *metric != "bias")
     {
@@ -67,7 +67,7 @@ fn bootstrap_intervals_hold_nearly_as_much() {
                 continue;
             }
             assert_eq!(coverage.intervals, RUNS);
-            // Percentiles hold 0.925 at the least at length; three standard errors of 150 runs are 0.065.
+            // Percentiles cover at least 0.925 in long runs; three standard errors of 150 runs are 0.065.
             assert!(coverage.share() >= 0.86, "{ends}: {coverage:?}");
         }
     }

@@ -1,11 +1,11 @@
-//! What a program that embeds the crate relies on.
+//! Guarantees for programs that embed the crate.
 
 use taceva_metrics::{
-    Channel, Channels, Evaluation, Evaluator, FieldSet, MetricPlan, Readings, Rows, Sample,
-    SampleSink, UndefinedReason, Unit, Value, catalogue,
+    Channel, Channels, Evaluation, Evaluator, FieldSet, InapplicableReason, MetricPlan, Readings,
+    Rows, Sample, SampleSink, UndefinedReason, Unit, Value, catalogue,
 };
 
-/// Predictions of 100 samples that all differ, and their truth.
+/// Predictions of 100 different samples, and their truth.
 fn drawn() -> (Vec<f64>, Vec<f64>) {
     let truth: Vec<f64> = (0..100).map(|row| f64::from(row) / 10.0).collect();
     let error = |row: u32| f64::from(row * 37 % 101) / 1000.0;
@@ -95,7 +95,7 @@ fn many_pairs_are_summed_block_by_block_to_the_same_bits() {
         let updated = evaluator.update_pairs(Channel::FZ, &truth, &prediction);
         updated.expect("as many");
     });
-    // Nobody knows beforehand how many pass a filter.
+    // The length of a filtered iterator is unknown.
     let of_unknown_length = of(&|evaluator| {
         let (some, others) = (
             truth.iter().filter(|_| true),
@@ -233,6 +233,20 @@ fn a_value_prints_to_four_digits_or_to_the_decimals_of_a_precision() {
     assert_eq!(format!("{third:>8}|"), "  0.3333|");
     let empty = Value::Undefined(UndefinedReason::Empty);
     assert_eq!(empty.to_string(), "undefined: empty");
+}
+
+#[test]
+fn a_value_in_words_fills_its_column_and_no_precision_cuts_it() {
+    let empty = Value::Undefined(UndefinedReason::Empty);
+    assert_eq!(format!("{empty:>24}|"), "        undefined: empty|");
+    assert_eq!(format!("{empty:24}|"), "undefined: empty        |");
+    assert_eq!(format!("{empty:.^19.2}|"), ".undefined: empty..|");
+    assert_eq!(format!("{empty:>9.1}|"), "undefined: empty|");
+    let absent = Value::NotApplicable(InapplicableReason::NotOneNumber);
+    assert_eq!(
+        format!("{absent:>41}|"),
+        "  not applicable: not one number but many|"
+    );
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Sums where every usual way to add goes wrong: beside whole numbers, across the whole range, after many carries.
+//! Sums at which common algorithms fail: among whole numbers, across the whole range, after many carries.
 
 use taceva_metrics::ExactSum;
 
@@ -6,12 +6,12 @@ fn sum(values: impl IntoIterator<Item = f64>) -> ExactSum {
     values.into_iter().collect()
 }
 
-/// 2^exponent to the bit: below the normal numbers `powi` gives one thing where the compiler computes it and another where the machine does.
+/// 2^exponent to the bit. For subnormal results, `powi` differs between the compiler and the machine.
 fn power(exponent: i32) -> f64 {
     let bits = match exponent {
         -1022..=1023 => u64::from((exponent + 1023).unsigned_abs()) << 52,
         -1074..=-1023 => 1 << (exponent + 1074),
-        _ => panic!("2^{exponent} is no binary64"),
+        _ => panic!("2^{exponent} is not a binary64"),
     };
     f64::from_bits(bits)
 }
@@ -19,7 +19,7 @@ fn power(exponent: i32) -> f64 {
 #[test]
 fn more_deposits_than_a_digit_can_hold_without_carrying() {
     const TIMES: u64 = 1_000_003;
-    // Every bit of the mantissa is set, at each place within a digit.
+    // Mantissa with all bits set, at each position within a digit.
     const MANTISSA: u64 = (1 << 53) - 1;
     for exponent in -40..-5 {
         #[expect(clippy::cast_precision_loss, reason = "53 bits")]
@@ -51,7 +51,7 @@ fn the_least_and_the_greatest_stand_side_by_side() {
     both.add_product(-f64::MAX, f64::MAX);
     assert_eq!(both.to_f64().to_bits(), 1.0_f64.to_bits());
     both.add(-1.0);
-    // −2⁻²¹⁴⁸ is left: below the range, with its sign.
+    // The remainder is −2⁻²¹⁴⁸: below the range, with its sign.
     assert_eq!(both.to_f64().to_bits(), (-0.0_f64).to_bits());
     assert!(both.to_canonical().is_negative());
     both.add_product(least, least);

@@ -1,4 +1,4 @@
-//! What must hold of scores by place, scene and grating whatever the samples.
+//! Laws of scores by place, scene and grating, for any samples.
 
 use crate::support::laws::{self, states};
 use crate::support::press::{METRICS, evaluate, evaluator, plan, press as pressed};
@@ -33,7 +33,7 @@ fn length() -> impl Strategy<Value = Option<Nanometre>> {
     prop_oneof![4 => level, 1 => Just(None)]
 }
 
-/// Samples of all kinds, some with holes, some with values that are no numbers.
+/// Samples of all kinds, some with missing values, some with NaN.
 fn samples() -> impl Strategy<Value = Vec<Sample>> {
     let place = [
         reading(-13.0, 13.0),
@@ -125,7 +125,7 @@ proptest! {
     fn a_surface_that_yields_alike_everywhere_is_uniform(
         places in prop::collection::vec((-8.0..8.0, -8.0..8.0, 1_u32..64), 2..60),
     ) {
-        // Powers of two keep depth over force the same number everywhere.
+        // Powers of two keep depth over force exact.
         let samples: Vec<Sample> = places
             .iter()
             .enumerate()
@@ -147,7 +147,7 @@ proptest! {
     fn moving_truth_and_prediction_together_moves_no_error(
         errors in prop::collection::vec((-12_i32..12, -64_i32..64), 1..60), offset in -1024_i32..1024,
     ) {
-        // Multiples of 1/64 up to 2^20 are exact, so that the errors are the same numbers.
+        // Multiples of 1/64 up to 2^20 are exact, so the errors are equal.
         let score = |offset: i32| {
             let samples: Vec<Sample> = errors
                 .iter()

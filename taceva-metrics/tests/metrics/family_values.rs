@@ -1,4 +1,4 @@
-//! Scores by place, scene and grating: values by hand, reasons where there is none, and states that are refused.
+//! Scores by place, scene and grating: values by hand, reasons for missing values, and rejected states.
 
 mod lighting;
 mod states;

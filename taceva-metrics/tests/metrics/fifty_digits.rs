@@ -1,6 +1,6 @@
-//! Scores of sixty ordinary tables beside the true values to fifty digits: what is the true value rounded once, and what is nearly.
+//! Scores of sixty ordinary tables against the true values to fifty digits: correctly rounded scores, and nearly correct ones.
 //!
-//! The tables are recipes, and the digits were computed by rational arithmetic in `tests/golden/make_tables.py`.
+//! The tables are recipes. `tests/golden/make_tables.py` computes the digits in rational arithmetic.
 
 use std::collections::BTreeMap;
 
@@ -13,7 +13,8 @@ fn apart(found: f64, truth: f64) -> u64 {
     found.to_bits().abs_diff(truth.to_bits())
 }
 
-/// The scores that are compared; how many of sixty are at least the true value rounded once, and how far off the others are at most.
+/// Compared scores: the least number of sixty that equal the rounded true value, and the greatest distance of the others, units in the last
+/// place.
 const BOUNDS: [(&str, usize, u64); 4] = [
     ("mae", 50, 1),
     ("rmse", 50, 1),
@@ -31,7 +32,7 @@ fn scores_of_sixty_tables_are_the_true_values_rounded_once_or_their_neighbours()
     for table in tables {
         let number = |key: &str| table[key].as_f64().expect("a number");
         let count = |key: &str| table[key].as_u64().expect("a count");
-        // Digits of a decimal beyond those of a binary64 decide how it is rounded.
+        // The digits of a decimal beyond binary64 decide its rounding.
         let truth = |key: &str| -> f64 {
             let digits = table[key].as_str().expect("digits");
             digits.parse().expect("a number")
@@ -60,7 +61,7 @@ fn scores_of_sixty_tables_are_the_true_values_rounded_once_or_their_neighbours()
             let off = apart(score(metric), truth(metric));
             found.entry(metric).or_default().push(off);
         }
-        // A mean of errors of both signs cancels: it is as near as a residual is rounded.
+        // A mean of errors of both signs cancels: its error is the rounding of a residual.
         let off = (score("bias") - truth("bias")).abs();
         assert!(off <= f64::EPSILON / 2.0 * 12.5, "bias {off:e}");
         let once = u64::from(score("bias").to_bits() != truth("bias").to_bits());

@@ -23,7 +23,7 @@ fn cases() -> Vec<Case> {
     read_cases(&text)
 }
 
-/// What both ways to the scores give: the sums alone, and a whole evaluation.
+/// Results of both ways to the scores: the sums alone, and a whole evaluation.
 struct Outcome {
     sums: PairSums,
     evaluator: Evaluator,
@@ -87,7 +87,7 @@ impl Outcome {
     }
 }
 
-/// The value that the golden file calls `key`.
+/// Value of `key` in the golden file.
 fn canonical(
     key: &str,
     sums: &PairSums,
@@ -97,7 +97,7 @@ fn canonical(
     let sum = |stream| Some(sums.sum(stream).to_f64());
     let score = |metric| match value(evaluation, metric) {
         Value::Scalar(value) => Some(value),
-        // Beyond binary64 the golden file has an infinity, and the score a reason.
+        // Beyond binary64 the golden file has an infinity; the score has a reason.
         Value::Undefined(UndefinedReason::Overflow) => {
             expected.filter(|expected| expected.is_infinite())
         }
@@ -109,7 +109,8 @@ fn canonical(
         "sst" => Some(sums.total_sum_of_squares()),
         "rmse_sq" => {
             let squared = sums.mean_squared_error();
-            // The root of the exact quotient is within a unit of that of the rounded one, and may lie in the range where the square does not.
+            // The root of the exact quotient is within one unit of the root of the rounded quotient. It may be in range even if the square
+            // is not.
             let root = score("rmse").unwrap_or(f64::INFINITY);
             if squared.is_normal() {
                 let apart = root.to_bits().abs_diff(squared.sqrt().to_bits());
@@ -163,7 +164,7 @@ fn shuffled_chunks(case: &Case, random: &mut SplitMix64) -> Vec<Outcome> {
     chunks
 }
 
-/// Runs the other test in a process of its own for each instruction set, as which one is used is decided once a process.
+/// Runs the other test in a separate process for each instruction set, because a process selects one once.
 #[test]
 fn every_golden_value_is_met_on_every_instruction_set_of_the_machine() {
     let program = std::env::current_exe().expect("this program");
@@ -180,7 +181,7 @@ fn every_golden_value_is_met_on_every_instruction_set_of_the_machine() {
     }
 }
 
-/// The name of the test below.
+/// Name of the test below.
 const EVERY_VALUE: &str = "golden::every_golden_value_is_met_bit_for_bit_however_the_samples_come";
 
 #[test]

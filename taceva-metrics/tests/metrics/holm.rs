@@ -1,4 +1,4 @@
-//! Holm's procedure on families that were worked out by hand, in halves of halves so that every product is exact.
+//! Holm's procedure on families worked out by hand, in powers of 1/2 so that every product is exact.
 
 use taceva_metrics::holm;
 
@@ -19,10 +19,10 @@ fn each_p_value_is_multiplied_by_the_tests_that_are_left() {
 
 #[test]
 fn the_first_test_that_is_kept_keeps_all_after_it_though_they_alone_would_not_be() {
-    // 2 × 0.04 is above a level of 0.05, 1 × 0.045 is not.
+    // 2 × 0.04 exceeds a level of 0.05; 1 × 0.045 does not.
     let found = adjusted(&[0.045, 0.04]);
     assert_eq!(found, [0.08, 0.08]);
-    // The smallest falls, the next one holds, and with it those behind.
+    // The smallest is rejected. The next one is kept, and so are the larger ones.
     let found = adjusted(&[PART / 4.0, 4.0 * PART, 4.0 * PART, 5.0 * PART]);
     assert_eq!(found, [PART, 12.0 * PART, 12.0 * PART, 12.0 * PART]);
 }

@@ -1,4 +1,4 @@
-//! Scores of sensors and classifiers that are ideal in one way, by algebra.
+//! Scores of sensors and classifiers that are ideal in one respect, by algebra.
 
 use crate::support::press::{METRICS, evaluate, press as pressed};
 use taceva_core::{GratingKind, Nanometre, Sample};
@@ -34,7 +34,7 @@ fn a_perfect_classifier_predicts_every_spacing() {
 fn a_classifier_that_guesses_evenly_is_right_as_often_as_spacings_have_neighbours() {
     let guesses = |truth: i64| LEVELS.map(move |guess| classified(truth, guess));
     let samples: Vec<Sample> = LEVELS.flat_map(guesses).collect();
-    // Each of 31 spacings with itself, and each of 30 neighbours twice.
+    // Each of 31 spacings paired with itself, and 30 pairs of neighbours counted twice.
     assert_eq!(
         success_rate(&samples),
         Value::Scalar((31.0 + 2.0 * 30.0) / (31.0 * 31.0))

@@ -11,6 +11,7 @@ mod bootstrap;
 mod cells_laws;
 mod comparison;
 mod comparison_laws;
+mod comparison_trainings;
 mod coverage;
 mod embedding;
 mod exact_sum;

@@ -1,4 +1,4 @@
-//! Scores beside plain fractions of small integers, rounded by schoolbook division, and a report as it is written.
+//! Scores against fractions of small integers, rounded by long division, and the text of a report.
 
 use crate::support::rows::{Row, evaluate};
 use proptest::prelude::*;
@@ -11,7 +11,7 @@ fn nearest(numerator: i128, denominator: i128) -> f64 {
     if numerator == 0 {
         return 0.0;
     }
-    // Scale the fraction into 2^52..2^53 and remember by what.
+    // Scale the fraction into 2^52..2^53 and count the powers of two.
     let (mut top, mut bottom, mut exponent) = (numerator, denominator, 0);
     while top / bottom < 1 << 52 {
         top *= 2;
@@ -29,14 +29,14 @@ fn nearest(numerator: i128, denominator: i128) -> f64 {
     if negative { -magnitude } else { magnitude }
 }
 
-/// Tells the binary64 nearest to √(squared / n): halfway to both neighbours lies on either side of it.
+/// True if `root` is the binary64 nearest to √(squared / n): the midpoints to both neighbours enclose it.
 fn is_nearest_root(root: f64, squared: i128, n: i128) -> bool {
     if squared == 0 {
         return root.to_bits() == 0;
     }
     let field = i32::try_from(root.to_bits() >> 52).expect("a positive number");
     let mantissa = i128::from(root.to_bits() & ((1 << 52) - 1) | 1 << 52);
-    // root = mantissa × 2^exponent, which is below 0 for roots below 2^53.
+    // root = mantissa × 2^exponent; the exponent is negative for roots below 2^53.
     let places = 2 * (1075 - field);
     let scaled = (4 * squared) << places;
     let half = |doubled: i128| n * doubled * doubled;

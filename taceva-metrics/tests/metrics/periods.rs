@@ -1,4 +1,4 @@
-//! Angles that begin again: errors go the short way round.
+//! Periodic angles: an error is the shortest way round.
 
 use std::collections::BTreeMap;
 

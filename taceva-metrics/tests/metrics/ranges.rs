@@ -1,4 +1,4 @@
-//! No interval leaves the range of its quantity, nor its value, whatever the samples: every metric of the catalogue.
+//! Every interval stays in the range of its quantity and contains its value, for every metric of the catalogue and any samples.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use taceva_metrics::{
     Range, SensorFacts, UndefinedReason, catalogue,
 };
 
-/// Every metric of a sensor of which everything is known.
+/// Every metric, for a sensor with all facts declared.
 fn plan() -> MetricPlan {
     let fields: FieldSet = Field::ALL.into_iter().collect();
     let channels = Channels::new(Channel::SIX).expect("distinct channels");
@@ -23,20 +23,20 @@ fn plan() -> MetricPlan {
     MetricPlan::new(&catalogue::ALL, channels, fields).with_facts(facts)
 }
 
-/// How predictions err.
+/// Kind of prediction errors.
 #[derive(Clone, Copy, Debug)]
 enum Errors {
-    /// Not at all.
+    /// No errors.
     Perfect,
-    /// The prediction is one number.
+    /// The prediction is constant.
     Constant,
-    /// By one number.
+    /// The error is constant.
     Shifted,
-    /// At one location only.
+    /// Errors at one location only.
     OnePoint,
-    /// Mostly little and seldom much.
+    /// Mostly small errors, few large ones.
     HeavyTailed,
-    /// At random.
+    /// Random errors.
     Spread,
 }
 
@@ -68,7 +68,7 @@ impl Recording {
             (0..2_u32).map(move |repeat| {
                 let mut truth = truth;
                 if self.phases && repeat == 1 {
-                    // A gel pushes less hard on the way out.
+                    // A gel pushes less during unloading.
                     truth[5] *= 0.8 + 0.1 * y;
                 }
                 let error = match self.errors {
@@ -158,7 +158,7 @@ fn evaluate(plan: &MetricPlan, samples: &[Sample]) -> Evaluation {
     evaluator.finish().expect("the plan's channels")
 }
 
-/// What is wrong with an interval, and whether there is one.
+/// Fault of an interval, if any, and true if the score has one.
 fn checked(
     what: &str,
     range: Range,
@@ -177,7 +177,7 @@ fn checked(
     }
 }
 
-/// The scores and variants that have an interval, or the first whose interval is none.
+/// Scores and variants with an interval, or an error for the first invalid one.
 fn intervals(evaluation: &Evaluation) -> Result<BTreeSet<String>, String> {
     let mut found = BTreeSet::new();
     for (metric, label, score) in evaluation.scores() {
@@ -234,7 +234,7 @@ fn every_metric_that_can_have_an_interval_is_among_those_tried() {
         })
         .collect();
     let mut found = BTreeSet::new();
-    // Every third press touches nothing: of 12 points at four, of 13 at all of them.
+    // Every third press is without contact: at four of 12 points, or at all of 13.
     for (points, phases) in [(12, false), (12, true), (13, false)] {
         let recording = Recording {
             points,
@@ -247,13 +247,14 @@ fn every_metric_that_can_have_an_interval_is_among_those_tried() {
     }
     let metrics = catalogue::ALL.iter().map(|metric| metric.id);
     let absent: Vec<&str> = metrics.filter(|metric| !found.contains(*metric)).collect();
-    // Greatest values and what is read off all times at once have none; units are compared by surfaces, which these samples have not.
+    // Maxima, limits and scores of all times together have no interval. These samples lack the surfaces that units are compared by.
     let expected = [
         "linearity",
         "crosstalk",
         "bias_level",
         "inter_sensor",
         "intrinsic",
+        "detection_limit",
     ];
     assert!(absent.iter().all(|id| expected.contains(id)), "{absent:?}");
     assert_eq!(absent.len(), expected.len(), "{absent:?} {found:?}");

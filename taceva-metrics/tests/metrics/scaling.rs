@@ -1,4 +1,4 @@
-//! What must hold whatever the samples: powers of two scale exactly, and an error has no direction.
+//! Laws for any samples: powers of two scale exactly, and an error has no direction.
 
 use crate::support::rows::{Row, evaluate};
 use proptest::prelude::*;
@@ -66,7 +66,7 @@ proptest! {
             prop_assert_eq!(&plane.value, &single.value);
             prop_assert_eq!(plane.n, single.n);
             prop_assert_eq!(&plane.of, &["Fx", "Fy"]);
-            // Both axes have the same clusters with the same shares: the interval is the same too, bit for bit.
+            // Both axes have the same clusters and shares, so the interval is the same, bit for bit.
             prop_assert_eq!(plane.interval, single.interval);
         }
     }

@@ -1,13 +1,13 @@
-//! Which scores take part in verdicts.
+//! Standing of scores in verdicts.
 
 use std::collections::BTreeMap;
 
 use taceva_metrics::{
-    Channel, Channels, Evaluation, Evaluator, Field, FieldSet, MetricPlan, Rows, Standing, Value,
-    catalogue,
+    Channel, Channels, Evaluation, Evaluator, Field, FieldSet, Flag, MetricPlan, Rows, Standing,
+    Value, catalogue,
 };
 
-/// Ten presses at each of eight points, with truths 0 to 0.08 N and one of 2 N. The constant 0 is within 0.05 N of six of ten.
+/// Ten presses at each of eight points, with truths 0 to 0.08 N and one of 2 N. The constant 0 is within 0.05 N of six truths in ten.
 fn evaluated(errors: [f64; 2], constant: Option<f64>) -> Evaluation {
     let channels = Channels::new([Channel::FZ]).expect("one channel");
     let fields = FieldSet::PAIRS.with(Field::Point);
@@ -32,7 +32,7 @@ fn evaluated(errors: [f64; 2], constant: Option<f64>) -> Evaluation {
     evaluator.finish().expect("scores")
 }
 
-/// The standing of `tolerance`, and the share that the constant reaches.
+/// Standing of `tolerance`, and the share that the constant reaches.
 fn tolerance(evaluation: &Evaluation) -> (Standing, Option<f64>) {
     let score = evaluation.score("tolerance", "Fz").expect("a score");
     let of_constant = score.variant("of_constant");
@@ -44,7 +44,7 @@ fn tolerance(evaluation: &Evaluation) -> (Standing, Option<f64>) {
 fn a_share_within_tolerance_counts_above_what_the_constant_reaches_and_not_below() {
     let near = evaluated([0.001, 0.06], Some(0.0));
     assert_eq!(tolerance(&near), (Standing::Counts, Some(0.6)));
-    // Nine of ten errors lie beyond the tolerance: the constant meets more, though the model is much nearer in the mean square.
+    // Nine of ten errors exceed the tolerance. The constant meets more samples, although the model has a much smaller mean squared error.
     let far = evaluated([0.06, 0.001], Some(0.0));
     assert_eq!(tolerance(&far), (Standing::NotAboveConstant, Some(0.6)));
 }
@@ -82,7 +82,7 @@ fn what_a_constant_reaches_is_merged_with_that_of_the_same_constant_and_lost_bes
     assert_eq!(share([0.25, 0.0]), None);
 }
 
-/// Six presses at each of so many points, read to within 1 % of a spread of 1 N.
+/// Six presses at each of `points` points, predicted to within 1 % of a spread of 1 N.
 fn of_points(points: usize) -> Evaluation {
     let channels = Channels::new([Channel::FZ]).expect("one channel");
     let plan = MetricPlan::new(
@@ -121,4 +121,33 @@ fn too_few_points_for_an_interval_are_no_verdict_that_there_is_no_skill() {
         assert_eq!(standing(8, metric), (Standing::Counts, true), "{metric}");
     }
     assert!(!Standing::NoInterval.takes_part());
+}
+
+#[test]
+fn an_interval_without_width_is_flagged_as_no_certainty() {
+    let flags = |errors: [f64; 2]| {
+        let truth: Vec<f64> = (0..20).map(f64::from).collect();
+        let errors = errors.into_iter().cycle();
+        let prediction: Vec<f64> = truth
+            .iter()
+            .zip(errors)
+            .map(|(truth, error)| truth + error)
+            .collect();
+        let points = (0..20).map(|row| (row / 2).to_string());
+        let mut evaluator = Evaluator::of_channels([Channel::FZ]).expect("one channel");
+        let rows = Rows::new().pairs(Channel::FZ, &truth, &prediction);
+        evaluator.update_rows(rows.points(points)).expect("rows");
+        let evaluation = evaluator.finish().expect("scores");
+        ["mae", "r2"].map(|metric| {
+            let score = evaluation.score(metric, "Fz").expect("a score");
+            let ends = score.interval.ends().expect("ten points");
+            (score.flags.contains(&Flag::EqualClusters), ends)
+        })
+    };
+    let [(is_flagged, ends), (of_r2, _)] = flags([0.25, 0.25]);
+    assert!(is_flagged && !of_r2);
+    assert_eq!(ends.map(f64::to_bits), [0.25_f64.to_bits(); 2]);
+    // Two errors at each point: every mean error is the same again.
+    let [(is_flagged, _), _] = flags([0.25, -0.5]);
+    assert!(is_flagged);
 }

@@ -1,4 +1,4 @@
-//! NIST's univariate reference datasets, whose deviations lose up to all digits where sums are rounded.
+//! NIST's univariate reference datasets: with rounded sums their deviations lose up to all digits.
 
 use serde_json::Value;
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet};
@@ -7,7 +7,7 @@ use taceva_metrics::{
     Evaluator, ExactSum, Isa, MetricPlan, PairSpec, PairSums, Paired, Stream, Streams, catalogue,
 };
 
-/// Digits that have to be right: the best that a result in binary64 can have, less the last rounding of a root.
+/// Required correct digits: the most that binary64 allows, less the rounding of a root.
 const DIGITS: f64 = 15.8;
 
 struct Dataset {
@@ -40,8 +40,8 @@ fn datasets() -> Vec<Dataset> {
     .collect()
 }
 
-/// Sums of the values as truths, beside their least as the estimate: all differences are exact and none is negative, so that
-/// the variance of the errors is that of the values.
+/// Sums with the values as truths and their least value as the estimate. All differences are exact and none is negative, so the variance of
+/// the errors equals that of the values.
 fn sums(values: &[f64], isa: Isa) -> PairSums {
     let spec = PairSpec::new(Streams::ALL);
     let mut sums = PairSums::with_isa(spec, isa).expect("it is available");
@@ -51,7 +51,7 @@ fn sums(values: &[f64], isa: Isa) -> PairSums {
     sums
 }
 
-/// The mean, as the bias of predictions that are all zero.
+/// Mean, as the bias of predictions that are all zero.
 fn mean_of(values: &[f64]) -> f64 {
     let channels = Channels::new([Channel::FZ]).expect("one channel");
     let plan = MetricPlan::new(&catalogue::ALL, channels.clone(), FieldSet::PAIRS);
@@ -99,7 +99,7 @@ fn means_and_deviations_have_all_digits_on_every_instruction_set() {
 fn the_sets_distinguish_ways_to_sum() {
     let hardest = datasets().into_iter().find(|set| set.name == "NumAcc4");
     let values = hardest.expect("it is one of them").values;
-    // As errors of 1 % of the truth's spread: R² is then decided by the spread alone.
+    // Errors of 1 % of the truth's spread, so that the spread alone decides R².
     let estimate: Vec<f64> = values.iter().map(|value| value + 0.001).collect();
     let pairs = Paired::try_columns(&estimate, &values).expect("one length");
     let truth = Kernel::truth(pairs).r2.expect("the truth varies");

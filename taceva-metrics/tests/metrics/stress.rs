@@ -1,4 +1,4 @@
-//! What no input may break: laws of the scores on every instruction set, and programs of random bytes.
+//! Laws of the scores on every instruction set, and programs of random bytes.
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -51,7 +51,7 @@ fn nasty_inputs_give_their_true_scores_in_every_order_on_every_instruction_set()
 
 #[test]
 fn more_rows_than_units_fit_into_a_word_are_settled_in_time() {
-    // Every row holds as many units as one can: 2^20 rows of the greatest value of its grid.
+    // Every row holds the most units possible: 2^20 rows of the greatest value of its grid.
     const ROWS: usize = (1 << 20) + 7;
     let greatest = f64::from_bits(2.0_f64.to_bits() - 1);
     let columns = Paired {

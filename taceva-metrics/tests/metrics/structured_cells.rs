@@ -35,7 +35,7 @@ fn number(value: &Value) -> f64 {
     }
 }
 
-/// The repeats of the recipe; those that it drops are presses of which the prediction is no number.
+/// Repeats of the recipe; dropped ones are presses with a NaN prediction.
 fn repeats(params: &Value) -> Vec<Sample> {
     let mut random = Random::new(whole(&params["seed"]));
     let count = |key: &str| u32::try_from(whole(&params[key])).expect("a small count");

@@ -1,4 +1,4 @@
-//! What several modules build: samples in, evaluators out, golden files read.
+//! Shared helpers: samples, evaluators and golden files.
 
 #[cfg(feature = "bench")]
 pub(crate) mod golden_pairs;

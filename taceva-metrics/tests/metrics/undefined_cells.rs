@@ -1,5 +1,6 @@
-//! What scores by press, unit, time and level say of samples whose answer is known, and why some have none.
+//! Scores by press, unit, time and level of samples with a known answer, and reasons for missing ones.
 
+mod detection;
 mod loops;
 mod predictions;
 mod recording;
@@ -13,7 +14,7 @@ use taceva_metrics::{
     Evaluation, Evaluator, Flag, Interval, MetricPlan, Score, SensorFacts, Value, catalogue,
 };
 
-/// Evaluates samples whose readings are of `channels`.
+/// Evaluates samples with readings of `channels`.
 fn evaluate(metric: &str, channels: &[&str], samples: &[Sample]) -> Evaluation {
     let channel = |name: &&str| {
         let unit = match name.as_bytes() {
@@ -95,6 +96,9 @@ fn an_empty_stream_has_no_value_of_any_kind() {
         for (_, label, score) in evaluation.scores() {
             let expected = match metric.id {
                 "noise_equivalent_force" | "zero_error" => "no sample is without contact",
+                "detection_limit" => {
+                    "no light press: press ten places or more with 0.02 N to 0.2 N"
+                }
                 _ => "empty",
             };
             let undefined = !matches!(score.value, Value::NotApplicable(_));

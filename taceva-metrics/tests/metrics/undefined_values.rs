@@ -1,4 +1,4 @@
-//! Where there is no value there is a reason, in words that a report prints.
+//! A missing value has a reason, in words that a report prints.
 
 use crate::support::rows::{Row, evaluate};
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet, Unit};

@@ -1,4 +1,4 @@
-//! What no score has an interval of is kept once and not by contact point: scores and reasons stay what they would be by cluster.
+//! Sums without intervals are kept once instead of by contact point: scores and reasons equal those by cluster.
 
 use crate::support::rows::{Row, batch};
 use taceva_core::{Channel, Channels, FieldSet};
@@ -6,7 +6,7 @@ use taceva_metrics::{
     Clusters, Evaluator, Interval, MetricPlan, State, UndefinedReason, catalogue,
 };
 
-/// The schemas of what is kept once.
+/// Schemas of sums that are kept once.
 const WHOLE: [&str; 2] = ["taceva.joint/2", "taceva.levels/2"];
 
 fn plan(channels: &[Channel]) -> MetricPlan {
@@ -20,7 +20,7 @@ fn of_shear() -> Evaluator {
     Evaluator::new(&plan(&[Channel::FX, Channel::FY]))
 }
 
-/// Samples of so many contact points, five of each.
+/// Samples of `points` contact points, five of each.
 fn rows(points: u32) -> Vec<Row> {
     let value = |row: u32, step: u32| f64::from(row * step % 101) * 0.02 - 1.0;
     let row = |row: u32| Row {

@@ -8,7 +8,7 @@ mod race;
 mod settlement;
 mod validate;
 
-use taceva_core::{Features, ModelError, Progress, SignalInfo, TrainingSet};
+use taceva_core::{Features, ModelError, Progress, SignalInfo, TrainingSet, counted};
 
 use self::candidates::candidates;
 use self::cost::{NETWORK, Sizes};
@@ -27,15 +27,15 @@ use crate::training::fit::{Chosen, ModelEstimator, ModelFit, estimator};
 use crate::training::info::ModelInfo;
 use crate::training::problem::Problem;
 
-/// Tries models, the cheapest first, and takes one.
+/// Tries models, the cheapest first, and chooses one.
 ///
 /// The training part is divided into five folds of whole groups, or runs of neighbouring samples. A trial learns from three folds,
 /// chooses settings on a fourth and scores the fifth. All models are tried on the first fold. The small network trains a quarter of
-/// its epochs, and all of them if the result is open. If it is clearly ahead, it is taken, and costlier models are not tried.
+/// its epochs, and all of them if the result is open. If it is clearly ahead, it is chosen, and costlier models are not tried.
 ///
 /// Otherwise the other models continue to the next fold. Models drop out if the best is ahead by three standard errors of the
 /// difference, by group. They also drop out if another model is as good with a tenth of their work. The remaining model of least
-/// error is taken, or the baseline unless that model is better by more than two standard errors. The network replaces it if it is
+/// error is chosen, or the baseline unless that model is better by more than two standard errors. The network replaces it if it is
 /// better on the first fold, by more than two standard errors and a twentieth of the squared error.
 ///
 /// The budget counts work, not time: seconds of a core with 10⁹ multiplications per second. A model is tried if its trial and final
@@ -44,11 +44,11 @@ use crate::training::problem::Problem;
 #[derive(Clone, Debug)]
 pub struct Auto {
     budget_s: f64,
-    /// Library models that are tried beside those of this crate.
+    /// Library models to try in addition to the models of this crate.
     libraries: Vec<&'static LibraryModel>,
     /// Signals to learn from. `None` for pictures.
     of_signals: Option<SignalInfo>,
-    /// Checkpoints for the training of a network, if one is taken.
+    /// Checkpoints for the training of a network, if one is chosen.
     checkpoints: Option<Checkpoints>,
 }
 
@@ -68,7 +68,7 @@ impl Auto {
         settings: &[BUDGET],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Auto::from_settings(settings)?)),
-        // A file names the taken model instead.
+        // A model file names the chosen model instead.
         load: |_| Err(FormatError::Card),
     };
 
@@ -147,7 +147,8 @@ impl ModelEstimator for Auto {
         let samples = training.features.samples();
         if samples < FOLDS {
             return Err(invalid(format!(
-                "{samples} training samples, expected at least {FOLDS} to try models"
+                "{}, expected at least {FOLDS} to try models",
+                counted(samples, "training sample")
             )));
         }
         let mut pictures = *training;

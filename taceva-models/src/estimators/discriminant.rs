@@ -37,7 +37,7 @@ pub struct LinearDiscriminant {
 }
 
 /// Most classes of a channel.
-const VALUES_MAX: usize = 256;
+pub(crate) const VALUES_MAX: usize = 256;
 
 /// Most features of a covariance matrix: 134 MB.
 const FEATURES_MAX: usize = 4096;

@@ -23,14 +23,14 @@ use super::statistics::Statistics;
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
 /// use taceva_models::{Extractor, FeatureSpec, ModelSettings};
 ///
-/// // A gel that the red lamp, at 0°, lights by an eighth more than before.
+/// // The red lamp, at 0°, lights the gel by an eighth more than before.
 /// let info = FrameInfo { width: 16, height: 16, format: PixelFormat::Rgb8 };
 /// let even = |light: [u8; 3]| Frame::new(info, light.repeat(16 * 16));
 /// let settings = ModelSettings::parse(["features=gradients+statistics", "size=1"])?;
 /// let spec = FeatureSpec::from_settings(&settings)?;
 /// let extractor = Extractor::new(spec, info, Some((&even([80, 80, 80])?).into()))?;
 /// let features = extractor.extract_all([&even([90, 80, 80])?])?;
-/// // The slope towards the lamp is two thirds of the change, across it 0. The mean is that of luma, without spread.
+/// // The slope towards the lamp is two thirds of the change; the slope across it is 0. The mean is luma, and the spread is 0.
 /// let expected = [0.125 * 2.0 / 3.0, 0.0, 0.125 / 3.0, (80.0 + 0.299 * 10.0) / 255.0, 0.0];
 /// for (found, expected) in features.values().iter().zip(expected) {
 ///     assert!((found - expected).abs() < 1e-4, "{found} for {expected}");

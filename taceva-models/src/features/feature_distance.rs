@@ -25,7 +25,7 @@ const ROUNDING: f64 = 1e-5;
 /// Distance of features from a training part, relative to the limit that holds for 99 of 100 held-out training samples.
 ///
 /// The part is described by its leading principal components. Two numbers describe a sample: its distance along these directions in
-/// standard deviations of the part (Hotelling's T), and its distance beside them (the root of Q, the residual). Each is divided by its
+/// standard deviations of the part (Hotelling's T), and its distance orthogonal to them (the root of Q, the residual). Each is divided by its
 /// limit, and the greater quotient is the distance. Limits are quantiles over samples, held out by contact point or block.
 ///
 /// ```
@@ -60,7 +60,7 @@ pub struct FeatureDistance {
 pub(crate) struct DistanceLimits {
     /// Limit along the directions, in standard deviations of the part.
     pub(crate) along: f64,
-    /// Limit beside the directions, in units of the features.
+    /// Limit orthogonal to the directions, in units of the features.
     pub(crate) beside: f64,
 }
 
@@ -118,7 +118,7 @@ impl FeatureDistance {
     pub fn of(&self, sample: &[f32]) -> Result<f64, ModelError> {
         if sample.len() != self.shape.len() {
             return Err(invalid(format!(
-                "{} features for a distance of {}",
+                "a sample of {} features, expected {}",
                 sample.len(),
                 self.shape.len()
             )));
@@ -157,7 +157,7 @@ impl FeatureDistance {
     }
 }
 
-/// Distances of a sample along the directions of a part and beside them.
+/// Distances of a sample along the directions of a part and orthogonal to them.
 #[derive(Clone, Copy, Debug)]
 struct Apart {
     along: f64,

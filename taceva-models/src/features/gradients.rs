@@ -83,7 +83,7 @@ impl Gradients {
                 bytes.extend(step(number).to_le_bytes());
             }
         }
-        Frame::new(slopes_info(frame.info()), bytes).expect("three numbers a pixel")
+        Frame::new(slopes_info(frame.info()), bytes).expect("three numbers per pixel")
     }
 }
 
@@ -140,7 +140,7 @@ mod tests {
         }
     }
 
-    /// A surface that leans by `slope` of its place, in 16 bits, each lamp as bright as `lamps` says, all dimmed by `dimming`.
+    /// A surface with slopes `slope` of its place, in 16 bits, lit by lamps of brightness `lamps` and dimmed by `dimming`.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -183,7 +183,7 @@ mod tests {
                 let middle = |cell: usize| 3.0 * cell as f64 + 1.0;
                 let [gx, gy] = bowl(middle(position % 8), middle(position / 8));
                 for (found, truth) in cell.iter().zip([gx, gy, -0.1]) {
-                    // Half a step of a pixel, and half a level of a 16-bit camera at a fifth of full scale.
+                    // Tolerance: half a step of a pixel, and half a level of a 16-bit camera at a fifth of full scale.
                     assert!(
                         (f64::from(*found) - truth).abs() < 1e-4,
                         "{found} for {truth}"
@@ -208,7 +208,7 @@ mod tests {
         bytes.iter_mut().step_by(3).for_each(|red| *red = 2);
         let noisy = Frame::new(info, bytes).expect("whole");
         let found = features(&of(1), &noisy, 2);
-        // One level against a sixteenth of full scale, two thirds of it; not the doubling that it is.
+        // One level relative to a sixteenth of full scale, times two thirds; the true change is a doubling.
         assert!(
             (found[0] - 2.0 / 3.0 * 16.0 / 255.0).abs() < 1e-4,
             "{}",

@@ -1,7 +1,7 @@
 //! Principal components of the training part.
 
 use faer::Mat;
-use taceva_core::{FeatureShape, Features, ModelError, Progress};
+use taceva_core::{FeatureShape, Features, ModelError, Progress, by_count, counted};
 
 use crate::linalg::invalid;
 use crate::linalg::{Design, FeatureScale, Spectrum};
@@ -30,8 +30,10 @@ impl Pca {
         match known.variance_ratio.len() {
             found if found == count => Ok(known),
             found => Err(invalid(format!(
-                "`pca={count}`: {} training samples vary in {found} directions",
-                training.samples()
+                "`pca={count}`: {} {} in {}",
+                counted(training.samples(), "training sample"),
+                by_count(training.samples(), "varies", "vary"),
+                counted(found, "direction")
             ))),
         }
     }

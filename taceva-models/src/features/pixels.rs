@@ -87,7 +87,7 @@ pub(super) fn signed(sum: u64) -> i64 {
 /// Divides to a feature.
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "features are kept in single precision; this is the one rounding"
+    reason = "features are kept in single precision; this is the only rounding"
 )]
 pub(super) fn ratio(sum: i64, full_scale: i64) -> f32 {
     (sum as f64 / full_scale as f64) as f32

@@ -7,9 +7,8 @@ use super::error::FeatureError;
 
 /// Reduces frames of one kind to a coarser grid, in 8 bits.
 ///
-/// A pixel is the mean of its area. Pixels at the rim count by their overlap, as in features of the same grid. The mean is rounded
-/// once to the nearest of the 255 steps of full scale, halves up; a step is 257 of 16-bit levels. Features of a model therefore change
-/// by at most half a step.
+/// A pixel is the mean of its area. Pixels at the rim count by their overlap, as in features of the same grid. The mean is rounded once,
+/// half up, to a step of full scale / 255, which is 257 levels of 16 bits. Features of a model therefore change by at most half a step.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -83,7 +82,7 @@ impl FrameReduction {
         self.areas.for_each(frame, |cell| {
             bytes.extend(cell.iter().map(|sum| rounded(*sum, full_scale)));
         });
-        Ok(Frame::new(self.to, bytes).expect("a byte a sample of every cell"))
+        Ok(Frame::new(self.to, bytes).expect("one byte per sample of every cell"))
     }
 }
 

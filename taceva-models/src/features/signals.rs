@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn channels_are_divided_by_their_own_spread_and_lose_no_bit() {
-        // Two places of two channels: one spreads by 3 at both, with an offset that counts for nothing, the other never changes.
+        // Two places of two channels: the first channel spreads by 3 at both places, with an offset; the second is constant.
         let shape = FeatureShape {
             height: 1,
             width: 2,

@@ -179,7 +179,7 @@ impl FeatureSpec {
         })
     }
 
-    /// Changes the kinds. For kinds besides pixels, uses the coarsest of their default grids.
+    /// Changes the kinds. For kinds other than pixels, uses the coarsest of their default grids.
     fn with_kinds(self, kinds: FeatureKinds) -> FeatureSpec {
         let others = kinds.iter().filter(|_| !kinds.are_pixels());
         let side = others.map(FeatureKind::side).min();

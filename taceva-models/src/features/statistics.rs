@@ -17,9 +17,9 @@ const NUMBERS: usize = 2 + QUANTILES.len();
 /// Statistics of each colour of each cell: mean, standard deviation (divided by n), and the quantiles of 5, 25, 50, 75 and 95 %. A
 /// quantile of q % is the nearest rank: the least pixel value that at least q % of the pixels do not exceed.
 ///
-/// A pixel belongs to one cell, which has columns `floor(i W / width) .. floor((i + 1) W / width)`, and rows alike. Sums are integers, so
-/// every statistic depends only on the values of the cell's pixels, not on their order. The statistics describe the distribution of
-/// light, but not its position within a cell: a press and the same press elsewhere in the cell look the same.
+/// A pixel belongs to one cell, which has columns `floor(i W / width) .. floor((i + 1) W / width)`, and rows likewise. Sums are integers, so
+/// every statistic depends only on the values of the cell's pixels, not on their order. The statistics describe the distribution of light
+/// in a cell, but not positions: a press gives the same values anywhere in its cell.
 #[derive(Debug)]
 pub(super) struct Statistics {
     color: Color,

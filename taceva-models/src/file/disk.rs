@@ -64,7 +64,7 @@ impl Models {
     }
 }
 
-/// Reads at most one byte more than the limit of a model, enough to reject the file.
+/// Reads at most one byte more than the size limit of a model, so that a larger file is rejected.
 fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
     // Checks before opening: opening a pipe would block until it has a writer.
     if !fs::metadata(path)?.is_file() {

@@ -10,6 +10,7 @@ use super::part::Part;
 use super::spec::{ColumnSplit, SplitKind, SplitSpec};
 use crate::settings::Suggestion;
 use taceva_core::random::SplitMix64;
+use taceva_core::{by_count, counted};
 
 /// Rows of each part, ascending.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -239,10 +240,13 @@ fn by_recording(
         });
     }
     let mut assigned = Split::of(recordings.iter().map(|name| parts.get(name).copied()));
-    if !assigned.left_out.is_empty() {
+    let count = assigned.left_out.len();
+    if count > 0 {
         assigned.note = Some(format!(
-            "{} samples are left out: their recording is assigned to no part",
-            assigned.left_out.len()
+            "{} {} left out: {} recording is assigned to no part",
+            counted(count, "sample"),
+            by_count(count, "is", "are"),
+            by_count(count, "its", "their")
         ));
     }
     Ok(assigned)
@@ -323,10 +327,13 @@ fn by_column(
         });
     }
     let mut assigned = Split::of(values.iter().map(|value| split.parts.get(value).copied()));
-    if !assigned.left_out.is_empty() {
+    let count = assigned.left_out.len();
+    if count > 0 {
         assigned.note = Some(format!(
-            "{} samples are left out: their `{name}` is assigned to no part",
-            assigned.left_out.len()
+            "{} {} left out: {} `{name}` is assigned to no part",
+            counted(count, "sample"),
+            by_count(count, "is", "are"),
+            by_count(count, "its", "their")
         ));
     }
     Ok(assigned)

@@ -1,7 +1,7 @@
 //! Checked, scaled and centred training data, the start of every fit.
 
 use faer::Mat;
-use taceva_core::{Features, ModelError, TrainingSet};
+use taceva_core::{Features, ModelError, TrainingSet, counted};
 
 use crate::linalg::invalid;
 use crate::training::label_scaling::LabelScaling;
@@ -26,7 +26,8 @@ impl<'a> Problem<'a> {
         let samples = training.features.samples();
         if samples < Problem::SAMPLES_MIN {
             return Err(invalid(format!(
-                "{samples} training samples, at least {} are needed",
+                "{}, at least {} are needed",
+                counted(samples, "training sample"),
                 Problem::SAMPLES_MIN
             )));
         }

@@ -34,7 +34,7 @@ pub(crate) trait FittedModel: Regressor + Any + fmt::Debug {
         Ok(None)
     }
 
-    /// Folds the components of `pca` into a regressor of pixels. `None` if the components must be stored beside the model.
+    /// Folds the components of `pca` into a regressor of pixels. `None` if the components must be stored with the model.
     fn through(&self, _: &Pca) -> Result<Option<ModelRegressor>, ModelError> {
         Ok(None)
     }

@@ -1,10 +1,10 @@
-//! Pictures of a blob, drawn to any size.
+//! Pictures of a blob, drawn in any size.
 
 use taceva_core::{
     Channel, Channels, FeatureShape, Features, FrameInfo, PixelFormat, Targets, TrainingSet,
 };
 
-/// Pictures, and where the blob is in each.
+/// Pictures, and the position of the blob in each.
 #[derive(Clone)]
 pub(crate) struct Recording {
     pub(crate) features: Features,
@@ -12,7 +12,7 @@ pub(crate) struct Recording {
     pub(crate) labels: Vec<f64>,
 }
 
-/// Even numbers in 0..1 from a linear congruential generator (Knuth's MMIX constants).
+/// Uniform numbers in 0..1 from a linear congruential generator (Knuth's MMIX constants).
 pub(crate) fn numbers(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed;
     move || {
@@ -29,16 +29,16 @@ pub(crate) struct Blob {
     pub(crate) shape: FeatureShape,
     /// Least y and x of the centre.
     pub(crate) from: f64,
-    /// Range of y and x of the centre from there on.
+    /// Range of y and x of the centre, above `from`.
     pub(crate) reach: [f64; 2],
     /// Twice the square of the standard deviation.
     pub(crate) spread: f64,
-    /// Labels a pixel.
+    /// Label units per pixel.
     pub(crate) scale: f64,
 }
 
 impl Blob {
-    /// Frames that these features could be of.
+    /// Frames with these features.
     pub(crate) fn frame(&self) -> FrameInfo {
         let twice = |side: usize| 2 * u32::try_from(side).expect("small");
         FrameInfo {

@@ -1,4 +1,4 @@
-//! The models as the suite fits them.
+//! Models with the settings of this suite.
 
 use taceva_core::{Features, ModelError, Regressor, SilentProgress};
 use taceva_models::{
@@ -9,12 +9,12 @@ use taceva_models::{
 use super::cases::{BUILT_IN, LIBRARIES};
 use crate::blobs::{BLOB, Blob, Recording};
 
-/// A model as the suite fits it, and what it promises beyond what all do.
+/// A model with the settings of this suite, and its own guarantees beyond the common ones.
 pub(crate) struct Case {
     pub(crate) name: &'static str,
-    /// Settings that make it quick.
+    /// Settings that make the fit fast.
     pub(crate) words: &'static [&'static str],
-    /// Samples without which it cannot be fitted.
+    /// Fewest samples for a fit.
     pub(crate) least: usize,
     /// Largest change of predictions, relative to the largest one, when training samples are reordered. `None` if the order is
     /// drawn at random.
@@ -23,13 +23,13 @@ pub(crate) struct Case {
     pub(crate) deeper: bool,
     /// True if principal components may replace pixels.
     pub(crate) components: bool,
-    /// The largest root mean square error on the blobs, whose labels deviate by 4.
+    /// Largest root mean square error on the blobs; the labels have a standard deviation of 4.
     pub(crate) error: f64,
-    /// The pictures that it learns from.
+    /// Pictures to learn from.
     pub(crate) blob: Blob,
 }
 
-/// Every case of this build: models that are built in, and those of libraries.
+/// All cases of this build: built-in models and library models.
 pub(crate) fn cases() -> impl Iterator<Item = &'static Case> {
     BUILT_IN.iter().chain(LIBRARIES)
 }
@@ -52,7 +52,7 @@ pub(crate) fn case_of(name: &str) -> &'static Case {
 }
 
 impl Case {
-    /// The models among which it is found: without those of libraries, which `auto` would try too, unless it is of one.
+    /// Models to search. Library models are excluded for a built-in model, because `auto` would try them too.
     pub(crate) fn models(&self) -> Models {
         match self.name.contains('/') {
             false => Models::builtin(),

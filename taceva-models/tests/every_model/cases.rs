@@ -1,4 +1,4 @@
-//! Every registered model, as the suite fits it.
+//! Every registered model, with the settings of this suite.
 
 use super::case::{Case, case};
 use crate::blobs::SMALL;
@@ -16,7 +16,7 @@ pub(crate) const BUILT_IN: &[Case] = &[
     case("baseline", &[], 5.0),
     case("ridge", &[], 0.6),
     case("pls", &[], 0.6),
-    // The path ends where a sweep changes little, wherever it started.
+    // The path ends once a sweep changes little, for any start.
     Case {
         order: Some(1e-3),
         ..case("elastic-net", &[], 0.9)
@@ -34,7 +34,7 @@ pub(crate) const BUILT_IN: &[Case] = &[
         order: Some(1e-5),
         ..case("knn", &[], 1.0)
     },
-    // As many values as samples: the label of the nearest picture is predicted.
+    // As many label values as samples: the label of the nearest picture is predicted.
     case("lda", &[], 1.5),
     Case {
         order: None,
@@ -62,13 +62,13 @@ pub(crate) const BUILT_IN: &[Case] = &[
     },
 ];
 
-/// Models of linfa and smartcore, where this build has both.
+/// Models of linfa and smartcore, if this build has both.
 pub(crate) const LIBRARIES: &[Case] = match cfg!(all(feature = "linfa", feature = "smartcore")) {
     false => &[],
     true => &[
         case("linfa/linear", &[], 0.6),
         case("linfa/pls", &[], 0.6),
-        // The descent ends where a sweep changes little.
+        // The descent ends once a sweep changes little.
         Case {
             order: Some(1e-3),
             ..case("linfa/elastic-net", &["strength=0.01"], 0.9)
@@ -77,7 +77,7 @@ pub(crate) const LIBRARIES: &[Case] = match cfg!(all(feature = "linfa", feature 
             order: Some(1e-2),
             ..case("linfa/svr", &[], 0.6)
         },
-        // As many values as samples: the label of the nearest picture is predicted.
+        // As many label values as samples: the label of the nearest picture is predicted.
         case("linfa/logistic", &["strength=100"], 1.5),
         case("smartcore/ridge", &["strength=0.01"], 0.6),
         Case {

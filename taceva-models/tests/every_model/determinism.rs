@@ -1,4 +1,4 @@
-//! Independence of predictions from threads, other samples and the order of training samples.
+//! Predictions are independent of threads, of other samples and of the order of training samples.
 
 use super::case::{bits, cases, predict};
 

@@ -1,4 +1,4 @@
-//! Models in files, whole and damaged.
+//! Model files, whole and damaged.
 
 use taceva_core::ErrorKind;
 use taceva_models::Model;
@@ -47,7 +47,7 @@ fn no_damaged_file_panics() {
                 damaged[below(within)] = u8::try_from(below(256)).expect("a byte");
             }
             if let Ok(opened) = case.models().read(&damaged) {
-                // A number may have changed, but never so that predicting fails in any but the said way.
+                // A number may have changed, but a prediction may fail only in the stated way.
                 if let Err(error) = opened.predict(&test.features) {
                     let said = [ErrorKind::OutOfRange, ErrorKind::InvalidArgument];
                     assert!(said.contains(&error.kind()), "{}: {error}", case.name);

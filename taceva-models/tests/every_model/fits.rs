@@ -63,7 +63,7 @@ fn the_unit_of_labels_does_not_matter() {
     for case in cases().filter(|case| !case.deeper) {
         let (training, test) = (case.recording(60, 16), case.recording(20, 17));
         let mut larger = training.clone();
-        // A power of two changes no digit on the way.
+        // A power of two changes no digits.
         larger.labels.iter_mut().for_each(|label| *label *= 1024.0);
         let small = predict(&case.fitted(&training, None).regressor, &test.features);
         let large = predict(&case.fitted(&larger, None).regressor, &test.features);

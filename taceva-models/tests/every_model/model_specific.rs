@@ -1,4 +1,4 @@
-//! Promises of single models beyond those of all.
+//! Guarantees of single models beyond the common ones.
 
 use taceva_core::Features;
 use taceva_models::Model;
@@ -20,9 +20,9 @@ fn deviations_of_a_gaussian_process_cover_its_errors() {
         .zip(&deviations)
         .filter(|(error, deviation)| *error < 1.96 * **deviation);
     let coverage = inside.count() as f64 / found.len() as f64;
-    // 0.95 is nominal; its landmarks are all the samples there are.
+    // 0.95 is nominal; here every sample is a landmark.
     assert!((0.85..=1.0).contains(&coverage), "{coverage}");
-    // A picture without any blob is like none that was learnt from.
+    // A picture without a blob resembles no training picture.
     let empty = Features::new(SHAPE, vec![0.2; SHAPE.len()]).expect("one sample");
     let unsure = regressor
         .deviations(&empty)
@@ -113,7 +113,7 @@ fn a_choice_among_models_says_what_was_tried_and_keeps_the_one_it_took() {
 #[test]
 fn levels_are_predicted_as_classes_and_too_many_are_refused() {
     let levels = |mut recording: Recording| {
-        // Thirds of the gel: values that no arithmetic gives back by chance.
+        // Thirds of the gel, as label values that arithmetic does not produce by chance.
         let level = |label: &mut f64| *label = 0.1 + (*label / 8.0).floor() / 3.0;
         recording.labels.iter_mut().for_each(level);
         recording
@@ -128,7 +128,7 @@ fn levels_are_predicted_as_classes_and_too_many_are_refused() {
         .iter()
         .zip(&test.labels)
         .filter(|(a, b)| a.to_bits() == b.to_bits());
-    // A blob near the edge of a third looks like one beyond it.
+    // A blob near the edge of a third looks like one in the next third.
     assert!(right.count() > 180);
 
     let said = case_of("lda").refusal(&recording(257, 37), None);

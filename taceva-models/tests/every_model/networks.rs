@@ -1,4 +1,4 @@
-//! Promises of networks beyond those of all models.
+//! Guarantees of networks beyond those of all models.
 
 use taceva_core::{ErrorKind, Frame, SilentProgress};
 use taceva_models::{Model, ModelEstimator, ModelSettings, NetworkRegressor, find};
@@ -184,7 +184,7 @@ fn no_damaged_network_panics_or_opens_as_something_else() {
     let mut below = |bound: usize| (next() * bound as f64) as usize;
     for _ in 0..3_000 {
         let mut damaged = bytes.clone();
-        // Most of the damage where the file says what it is.
+        // Most damage is in the metadata.
         for _ in 0..=below(3) {
             let within = if below(4) > 0 { header } else { bytes.len() };
             damaged[below(within)] = u8::try_from(below(256)).expect("a byte");

@@ -1,4 +1,4 @@
-//! Data that cannot be learnt from, and cancelled fits.
+//! Invalid training data, and cancelled fits.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -70,11 +70,14 @@ fn parts_that_do_not_fit_each_other_are_refused() {
         let error = regressor
             .predict(&training.features, &mut [0.0; 6])
             .expect_err("buffer");
-        assert_eq!(error.to_string(), "6 places for 24 samples of 2 channels");
+        assert_eq!(
+            error.to_string(),
+            "a buffer of 6 values for 24 samples of 2 channels"
+        );
     }
 }
 
-/// Cancels after some questions.
+/// Cancels after a number of progress queries.
 struct Cancel(usize, AtomicUsize);
 
 impl Progress for Cancel {

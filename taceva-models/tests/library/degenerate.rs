@@ -1,4 +1,4 @@
-//! Recordings on which libraries panic or predict no finite number: every model fits them or refuses them by name.
+//! Recordings on which libraries panic or predict NaN: every model fits them or returns an error with its name.
 
 use taceva_core::{
     Channel, Channels, ErrorKind, FeatureShape, Features, Regressor, SilentProgress, Targets,
@@ -8,7 +8,7 @@ use taceva_models::{ModelSettings, Models, library_models};
 
 const WIDTH: usize = 6;
 
-/// Samples of six features, and the labels of some channels.
+/// Samples of six features, with the labels of some channels.
 #[derive(Clone)]
 struct Data {
     features: Vec<f32>,
@@ -16,7 +16,7 @@ struct Data {
     labels: Vec<f64>,
 }
 
-/// Features and labels without a pattern that any model needs.
+/// Random features and labels.
 fn data(samples: usize, channels: usize) -> Data {
     let number = |seed: usize| {
         let mixed = (seed as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
@@ -34,7 +34,7 @@ fn data(samples: usize, channels: usize) -> Data {
     }
 }
 
-/// Fits every model; what is fitted predicts finite numbers, what is refused is no panic. Gives the names of those that refuse.
+/// Fits every model: a fitted one predicts finite numbers, and a rejecting one does not panic. Returns the names of the rejecting models.
 fn fit_all(training: &Data, held: Option<&Data>) -> Vec<String> {
     let features = |data: &Data| {
         Features::new(FeatureShape::flat(WIDTH), data.features.clone()).expect("whole samples")
@@ -144,7 +144,7 @@ fn a_class_that_only_the_validation_part_has_is_learnt_with_it() {
     let (training, mut held) = (data(30, 1), data(10, 1));
     held.labels[3] = 17.0;
     assert_eq!(fit_all(&training, Some(&held)), [] as [&str; 0]);
-    // One that the training part has in one sample is missing where that is held out.
+    // A class with one training sample is missing when that sample is held out.
     let mut rare = data(30, 1);
     rare.labels[4] = 17.0;
     assert_eq!(fit_all(&rare, None), [] as [&str; 0]);

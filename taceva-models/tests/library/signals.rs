@@ -1,4 +1,4 @@
-//! Models of libraries on the signals of taxels: as they are, and back from their file.
+//! Library models on the signals of taxels: fitted, and loaded from their file.
 
 use taceva_core::{
     Channel, Channels, SignalInfo, Signals, SilentProgress, Targets, TrainingSet, Unit,
@@ -52,7 +52,7 @@ fn every_model_of_a_library_takes_signals() {
             .map(|(found, force)| (found - force).powi(2))
             .sum();
         let rmse = (squares / 80.0).sqrt();
-        // For forces from 0 to 19 N, with a standard deviation of 5.8 N.
+        // Forces are 0 to 19 N, with a standard deviation of 5.8 N.
         assert!(rmse < 3.0, "{name}: {rmse}");
         fitted += 1;
     }

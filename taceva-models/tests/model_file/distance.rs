@@ -1,4 +1,4 @@
-//! The distance from the training part in a file.
+//! Training distance in a model file.
 
 use std::collections::HashMap;
 
@@ -8,7 +8,7 @@ use taceva_models::Model;
 use super::refused::{sealed, with_card};
 use super::{SPEC, fit};
 
-/// A model's bytes as they were before models knew what they had seen.
+/// Bytes of a model without the training distance, as older versions wrote it.
 fn without_distance(bytes: &[u8]) -> Vec<u8> {
     let (_, header) = SafeTensors::read_metadata(bytes).expect("a header");
     let metadata = header.metadata().clone().expect("a card");

@@ -1,4 +1,4 @@
-//! Content that survives writing and reading a model.
+//! Contents that survive writing and reading a model.
 
 use taceva_core::{FeatureShape, Features, FrameInfo, Unit};
 use taceva_models::{FeatureError, FeatureKind, FeatureSpec, Model, NetworkCard, NetworkRegressor};
@@ -51,7 +51,7 @@ fn a_network_predicts_in_the_form_that_its_card_says() {
         let network = model.regressor().get::<NetworkRegressor>();
         network.expect("a network").card()
     }
-    // Large enough for tiles.
+    // Large enough for several tiles.
     let spec = FeatureSpec {
         width: 20,
         height: 15,
@@ -114,7 +114,7 @@ fn weights_of_pixels_equal_weights_of_principal_components() {
         components,
     );
     let (plain, _) = fit("pls", &["components=20", "scale=none", "refit=false"], SPEC);
-    // All twenty components are a rotation, which least squares does not see; coordinates are rounded to f32.
+    // All twenty components are a rotation, which does not change least squares. Coordinates are rounded to f32.
     for (found, expected) in model
         .predict(&features)
         .expect("finite")

@@ -1,4 +1,4 @@
-//! Rejected files: no model, or a changed one.
+//! Rejected files: other files, and changed models.
 
 use std::path::Path;
 
@@ -23,7 +23,7 @@ fn a_path_that_cannot_be_is_named() {
     ));
 }
 
-/// A card with a seal that holds, over the tensors of the file as well.
+/// Card with a valid seal, also over the tensors of the file.
 pub(crate) fn sealed(card: &str, bytes: &[u8]) -> String {
     use sha2::Digest as _;
     let file = safetensors::SafeTensors::deserialize(bytes).expect("a whole file");
@@ -42,7 +42,7 @@ pub(crate) fn sealed(card: &str, bytes: &[u8]) -> String {
     taceva_files::seal::json::seal_with(card, &attached).expect("a card")
 }
 
-/// A model's bytes with its card rewritten, and a seal that holds.
+/// Bytes of a model with a changed card and a valid seal.
 pub(crate) fn with_card(bytes: &[u8], change: impl Fn(&mut serde_json::Value)) -> Vec<u8> {
     with_card_text(bytes, |card| {
         let mut card: serde_json::Value = serde_json::from_str(card).expect("a card");
@@ -52,7 +52,7 @@ pub(crate) fn with_card(bytes: &[u8], change: impl Fn(&mut serde_json::Value)) -
     })
 }
 
-/// A model's bytes with the text of its card rewritten.
+/// Bytes of a model with a changed card text.
 fn with_card_text(bytes: &[u8], change: impl Fn(&str) -> String) -> Vec<u8> {
     let length = u64::from_le_bytes(*bytes.first_chunk().expect("a header"));
     let end = 8 + usize::try_from(length).expect("small");
@@ -158,7 +158,7 @@ fn a_card_that_does_not_fit_its_tensors_is_refused() {
     assert!(refused(|card| card["features"]["smell"] = true.into()).contains("smell"));
 }
 
-/// The place behind the numbers of a tensor in a file.
+/// Offset of the end of a tensor in a file.
 fn end_of(bytes: &[u8], tensor: &str) -> usize {
     let file = safetensors::SafeTensors::deserialize(bytes).expect("a whole file");
     let data = file.tensor(tensor).expect("there").data();
@@ -182,7 +182,7 @@ fn numbers_that_are_not_finite_are_refused() {
             _ => &f64::NAN.to_le_bytes(),
         };
         bytes[end - nan.len()..end].copy_from_slice(nan);
-        // With a seal over the new number.
+        // The seal covers the new number.
         let bytes = with_card(&bytes, |_| {});
         let error = Model::from_bytes(&bytes).expect_err("refused").to_string();
         assert!(error.starts_with(said), "{tensor}: {error}");

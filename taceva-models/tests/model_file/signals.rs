@@ -1,4 +1,4 @@
-//! Models of signals on disk, and what the card of one may not say.
+//! Models of signals on disk, and rejected cards of them.
 
 use taceva_core::{
     Channel, Channels, Features, Regressor, SignalInfo, Signals, SilentProgress, Targets,
@@ -16,7 +16,7 @@ fn grid() -> SignalInfo {
     SignalInfo::new(3, 2, 2, Unit::Count).expect("twelve numbers")
 }
 
-/// Thirty samples of twelve counts, which the force drives up and down.
+/// Thirty samples of twelve counts, which rise and fall with the force.
 fn signals() -> Vec<Signals> {
     let sample = |force: u16| {
         let values = (0..12_u16).map(|place| {

@@ -1,4 +1,4 @@
-//! A browser that is told what to do over two pipes (Chrome DevTools Protocol, `--remote-debugging-pipe`).
+//! Browser controlled over two pipes (Chrome DevTools Protocol, `--remote-debugging-pipe`).
 
 use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
@@ -8,7 +8,7 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
 
-/// Names under which it is installed.
+/// Program names of the browser.
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
 /// A browser with one page.
@@ -18,22 +18,22 @@ pub struct Browser {
     from: BufReader<ChildStdout>,
     next: u64,
     session: Option<String>,
-    /// What came unasked.
+    /// Received events.
     events: Vec<Value>,
 }
 
 impl Browser {
-    /// A browser that keeps its files in `folder`; none where there is no browser.
+    /// Starts a browser that keeps its files in `folder`. `None` if no browser is installed.
     ///
     /// # Panics
-    /// If a browser that is there does not start, or does not answer, as in every call of it.
+    /// If an installed browser does not start. Every call panics if the browser does not answer.
     pub fn start(folder: &Path) -> Option<Browser> {
         let paths = std::env::var_os("PATH")?;
         let found = std::env::split_paths(&paths).find_map(|path| {
             let mut names = NAMES.iter().map(|name| path.join(name));
             names.find(|program| program.is_file())
         })?;
-        // The protocol is spoken on the descriptors 3 and 4, which a shell can make of 0 and 1.
+        // The protocol uses the descriptors 3 and 4, which a shell duplicates from 0 and 1.
         let script = "exec \"$0\" \"$@\" 3<&0 4>&1 >/dev/null 2>&1";
         let mut child = Command::new("sh")
             .args(["-c", script])
@@ -74,7 +74,7 @@ impl Browser {
         Some(browser)
     }
 
-    /// Opens `address` and waits until it is there.
+    /// Opens `address` and waits until it is loaded.
     ///
     /// # Panics
     /// If the browser ends.
@@ -90,7 +90,7 @@ impl Browser {
         }
     }
 
-    /// What a script gives, or what its promise does.
+    /// Value of a script, or of its promise.
     ///
     /// # Panics
     /// If the script throws.
@@ -103,10 +103,10 @@ impl Browser {
         answer["result"]["value"].clone()
     }
 
-    /// The answer to a call; what comes in between is kept.
+    /// Answer to a call. Events received before it are kept.
     ///
     /// # Panics
-    /// If the browser refuses it.
+    /// If the browser rejects the call.
     pub fn call(&mut self, method: &str, parameters: Value) -> Value {
         self.next += 1;
         let id = self.next;
@@ -127,7 +127,7 @@ impl Browser {
         }
     }
 
-    /// Writes what is on the screen into `path`, as PNG.
+    /// Writes the visible page to `path`, as PNG.
     ///
     /// # Panics
     /// If it cannot be written.
@@ -146,12 +146,12 @@ impl Browser {
         serde_json::from_slice(&bytes).expect("JSON")
     }
 
-    /// Fails if anything was written to the console, requested from an address that is not `is_own`, or shown as a dialog.
+    /// Fails if the console has a message, an address that is not `is_own` was requested, or a dialog was shown.
     ///
     /// # Panics
-    /// If so.
+    /// If any of these happened.
     pub fn assert_quiet(&mut self, is_own: impl Fn(&str) -> bool) {
-        // Whatever is still on its way comes before this answer.
+        // Events on their way arrive before this answer.
         self.evaluate("1");
         for event in &self.events {
             let method = event["method"].as_str().unwrap_or_default();
@@ -174,13 +174,13 @@ impl Browser {
 
 impl Drop for Browser {
     fn drop(&mut self) {
-        // It may have ended by itself.
+        // The browser may have ended by itself.
         drop(self.child.kill());
         drop(self.child.wait());
     }
 }
 
-/// The bytes of a text in base64, in which the browser sends files.
+/// Decodes a text in base64, in which the browser sends files.
 ///
 /// # Panics
 /// If the text is not base64.

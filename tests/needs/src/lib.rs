@@ -1,5 +1,5 @@
-//! What tests need that a machine may not have. A test that finds one of them absent calls [`skip`] and returns: the skip is written
-//! into the list that `.ci/test` prints at its end, or fails the test where `TACEVA_REQUIRE` names the need.
+//! External needs of tests: programs, devices and data that a machine may lack. A test without its need calls [`skip`] and returns. The
+//! skip is added to the list that `.ci/test` prints at its end, or fails the test if `TACEVA_REQUIRE` names the need.
 
 #[cfg(feature = "browser")]
 mod browser;
@@ -13,9 +13,9 @@ pub use record::LIST;
 
 use std::fmt::Display;
 
-/// Says that the calling test is skipped, wholly or in part, because `need` is not met for this `reason`.
+/// Records that the calling test is skipped, wholly or in part, because `need` is not met for this `reason`.
 ///
-/// The test's name comes from its thread, which the test harness names after it.
+/// The test's name is the name of its thread, which the test harness sets.
 ///
 /// # Panics
 /// If `TACEVA_REQUIRE` names the need, names one that does not exist, or the list cannot be written: the test fails.
@@ -26,7 +26,7 @@ pub fn skip(need: Need, reason: impl Display) {
     let required = required.unwrap_or_else(|error| panic!("{error}"));
     assert!(
         !required.contains(&need),
-        "TACEVA_REQUIRE names `{need}`, which is not there: {reason}"
+        "TACEVA_REQUIRE names `{need}`, which is missing: {reason}"
     );
     eprintln!("skipped: {need}: {reason}");
     record::record(need, &reason);

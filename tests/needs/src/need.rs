@@ -1,69 +1,69 @@
-//! The words for what a machine may lack.
+//! Needs of tests, and their names.
 
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
 use std::fmt;
 
-/// What a test may need beside a Rust toolchain and a Unix shell.
+/// Need of a test beyond a Rust toolchain and a Unix shell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Need {
-    /// Chromium on the path, which pages are opened in.
+    /// Chromium on the path, to open pages.
     Browser,
-    /// axe-core, found by node or named by `TACEVA_AXE`, which checks the accessibility of a page.
+    /// axe-core, found by node or named by `TACEVA_AXE`, to check the accessibility of a page.
     Axe,
-    /// `pdflatex`, which sets tables for papers.
+    /// `pdflatex`, to set tables for papers.
     Latex,
-    /// `strace`, which follows what a program writes and makes a disk refuse it.
+    /// `strace`, to trace the writes of a program and to inject write errors.
     Strace,
-    /// The right to mount a disk in memory that is seen by one program alone.
+    /// Permission to mount a disk in memory that only one program sees.
     Mount,
     /// A compiler of C, and make.
     CCompiler,
     /// A compiler of C++.
     CppCompiler,
-    /// `clang`, a second compiler of C, whose plugins must keep the same contracts.
+    /// `clang`, a second C compiler, whose plugins must meet the same contracts.
     Clang,
-    /// `script`, which shows a program a terminal.
+    /// `script`, to run a program in a terminal.
     Terminal,
-    /// `djpeg`, which says what libjpeg warns of in a picture.
+    /// `djpeg`, to get libjpeg's warnings about a picture.
     Libjpeg,
-    /// `pdffonts` and `pdftotext` of Poppler, which say what a PDF holds.
+    /// `pdffonts` and `pdftotext` of Poppler, to read the content of a PDF.
     Poppler,
-    /// Real recordings, in the folder that `TACEVA_DATA` names.
+    /// Real recordings, in the folder named by `TACEVA_DATA`.
     Recordings,
-    /// The public collection of HDF5 files that broke other readers, in the folder `cve_hdf5` of the one that `TACEVA_DATA` names.
+    /// Public collection of HDF5 files that broke other readers, in the folder `cve_hdf5` below `TACEVA_DATA`.
     HostileHdf5,
-    /// A GPU that the features which were built in can reach.
+    /// A GPU supported by the features of this build.
     Gpu,
-    /// Python with the public clients of devices, and ports that they expect: what proves that emulated devices speak as real ones.
+    /// Python with the public clients of devices, and their fixed ports, to verify emulated devices.
     PublicClients,
-    /// `ffmpeg`, which serves a stream of pictures and decodes clips.
+    /// `ffmpeg`, to serve a stream of pictures and to decode clips.
     Ffmpeg,
     /// QEMU, a static busybox and a kernel with its modules: a virtual machine for devices that only a kernel can emulate.
     Kernel,
-    /// Python with OctoPrint, whose virtual printer speaks as Marlin does.
+    /// Python with OctoPrint, whose virtual printer emulates Marlin.
     VirtualPrinter,
-    /// Python with the libraries that exports are for: `datasets`, h5py, pandas, Pillow, pyarrow.
+    /// Python with the libraries that read exports: `datasets`, h5py, pandas, Pillow, pyarrow.
     Libraries,
-    /// Python with LeRobot and its torch, 8 GB, which nothing installs here; who has one names its interpreter in `TACEVA_LEROBOT`.
+    /// Python with LeRobot and its torch (8 GB), which nothing here installs; `TACEVA_LEROBOT` names its interpreter.
     Lerobot,
-    /// The right to make device files, which stand for cameras and scales that are not there.
+    /// Permission to create device files, which stand in for cameras and scales.
     DeviceFiles,
-    /// `slurmctld`, `slurmd`, `munged` and the right to start them: a cluster of two virtual nodes on loopback.
+    /// `slurmctld`, `slurmd`, `munged` and permission to start them: a cluster of two virtual nodes on loopback.
     Slurm,
-    /// `faketime`, which shows a program another time of day.
+    /// `faketime`, to run a program at another time of day.
     Faketime,
-    /// A machine without other load, on which bounds of milliseconds hold. No test can find that out: it is named in `TACEVA_REQUIRE`.
+    /// A machine without other load, for limits of milliseconds. No test can detect that, so `TACEVA_REQUIRE` must name it.
     QuietMachine,
-    /// An example that is built where a whole package is tested, and not by a single test of it.
+    /// An example, which is built with a whole package but not with a single test.
     Example,
 }
 
-/// `TACEVA_REQUIRE` names something that no test needs.
+/// `TACEVA_REQUIRE` names an unknown need.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownNeed(
-    /// The word that was found.
+    /// Word found.
     pub String,
 );
 
@@ -97,7 +97,7 @@ impl Need {
         Need::Example,
     ];
 
-    /// The word for it, in `TACEVA_REQUIRE` and in the list.
+    /// Word in `TACEVA_REQUIRE` and in the list.
     pub fn word(self) -> &'static str {
         match self {
             Need::Browser => "browser",
@@ -148,10 +148,10 @@ impl fmt::Display for UnknownNeed {
 
 impl std::error::Error for UnknownNeed {}
 
-/// The needs that the value of `TACEVA_REQUIRE` names: words with commas between them, none where it is not set.
+/// Needs named in `TACEVA_REQUIRE`, separated by commas; none if it is not set.
 ///
 /// # Errors
-/// [`UnknownNeed`] for a word that stands for none: a misspelt need would not be required at all.
+/// [`UnknownNeed`] for an unknown word, so that a misspelt need is noticed.
 pub fn required(value: Option<&OsStr>) -> Result<BTreeSet<Need>, UnknownNeed> {
     let value = value.unwrap_or_default().to_string_lossy();
     let words = value.split(',').map(str::trim);

@@ -1,4 +1,4 @@
-//! The list of what was skipped: one line per skip, in a file of the target folder, so that what a test runner hides is seen.
+//! List of skipped tests: one line per skip, in a file of the target folder, because test runners hide the output.
 
 use std::fs::OpenOptions;
 use std::io::Write;
@@ -6,19 +6,19 @@ use std::path::{Path, PathBuf};
 
 use crate::Need;
 
-/// The name of the list in the target folder.
+/// Name of the list in the target folder.
 pub const LIST: &str = "skipped-tests.tsv";
 
 /// Adds a line to the list: need, reason, test program and test, with tabs between them.
 ///
 /// # Panics
-/// If it cannot be written: no skip may stay unseen.
+/// If the file cannot be written, so that every skip is noticed.
 pub(crate) fn record(need: Need, reason: &str) {
     let program = std::env::current_exe().expect("a test knows where it is");
     let thread = std::thread::current();
     let line = line(need, reason, &program, thread.name().unwrap_or_default());
     let list = list(&program);
-    // One write to the end of the file: lines of several tests do not mix.
+    // A single append, so that lines of several tests do not mix.
     OpenOptions::new()
         .create(true)
         .append(true)
@@ -27,10 +27,10 @@ pub(crate) fn record(need: Need, reason: &str) {
         .unwrap_or_else(|error| panic!("cannot write {}: {error}", list.display()));
 }
 
-/// The variable of the environment that names the list: `.ci/test` sets it, and reads there what was skipped.
+/// Environment variable with the path of the list: `.ci/test` sets it and reads the list.
 const LIST_VARIABLE: &str = "TACEVA_SKIPPED";
 
-/// Where the list is: what the environment says, or a file beside everything that was built.
+/// Path of the list: from the environment, or beside the build output.
 fn list(program: &Path) -> PathBuf {
     match std::env::var_os(LIST_VARIABLE) {
         Some(list) => list.into(),
@@ -38,7 +38,7 @@ fn list(program: &Path) -> PathBuf {
     }
 }
 
-/// In the folder that cargo marks as its own, or beside the program where there is none, as in a folder restored from an archive.
+/// Path in the target folder that cargo marks, or beside the program if there is none, as in a folder restored from an archive.
 fn beside_what_was_built(program: &Path) -> PathBuf {
     let above = program.ancestors().skip(1);
     let target = above
@@ -50,7 +50,7 @@ fn beside_what_was_built(program: &Path) -> PathBuf {
 
 fn line(need: Need, reason: &str, program: &Path, test: &str) -> String {
     let name = program.file_stem().unwrap_or_default().to_string_lossy();
-    // Cargo adds a number to the name of a test program.
+    // Cargo appends a hash to the name of a test program.
     let name = name.rsplit_once('-').map_or(&*name, |(name, _)| name);
     let [reason, name, test] = [reason, name, test].map(plain);
     format!("{need}\t{reason}\t{name}\t{test}\n")

@@ -1,4 +1,4 @@
-//! A skip is written down, or fails where it is not allowed.
+//! A skip is recorded, or fails if the need is required.
 
 use std::ffi::OsStr;
 use std::io::ErrorKind;
@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use taceva_needs::{LIST, Need, UnknownNeed, required, skip};
 
-/// Not a test of its own: what the tests below run in a process with another environment.
+/// Helper of the tests below, which run it in a process with another environment.
 #[test]
 fn a_test_that_finds_no_gpu() {
     if std::env::var_os("TACEVA_NEEDS_TRIAL").is_some() {
@@ -14,7 +14,7 @@ fn a_test_that_finds_no_gpu() {
     }
 }
 
-/// The trial run with `TACEVA_REQUIRE` set to `value`, in a folder that cargo might have marked, and the list that it left.
+/// Runs the helper with `TACEVA_REQUIRE` set to `value`, in a folder like cargo's target folder. Returns its output and the list.
 fn trial(value: &str) -> (Output, String) {
     let this = std::env::current_exe().expect("a test knows where it is");
     let folder = std::env::temp_dir().join(format!(
@@ -34,7 +34,7 @@ fn trial(value: &str) -> (Output, String) {
         .env_remove("TACEVA_SKIPPED");
     let output = loop {
         match command.output() {
-            // A process that another test has just forked holds the copy open for writing until its own program begins.
+            // A process that another test has just forked holds the copy open for writing until it executes its own program.
             Err(error) if error.kind() == ErrorKind::ExecutableFileBusy => std::thread::yield_now(),
             done => break done.expect("it runs"),
         }
@@ -59,7 +59,7 @@ fn a_need_that_is_required_fails_its_test_and_says_so() {
     let (output, list) = trial("browser,gpu");
     assert!(!output.status.success());
     let said = String::from_utf8_lossy(&output.stdout);
-    let expected = "TACEVA_REQUIRE names `gpu`, which is not there: this is a trial";
+    let expected = "TACEVA_REQUIRE names `gpu`, which is missing: this is a trial";
     assert!(said.contains(expected), "{said}");
     assert_eq!(list, "");
 }

@@ -1,8 +1,8 @@
-//! Plays seeds of the fault simulation: `faults [COUNT] [FIRST]`, 1,000 from seed 0 by default.
+//! Plays seeds of the fault simulation: `faults [COUNT] [FIRST]`, by default 1,000 from seed 0.
 //!
-//! Ends with 1 and the failing seeds if anything happened that must not, or if a kind of fault hardly struck; `faults 1 SEED` plays one
-//! again.
-#![expect(clippy::print_stdout, reason = "it is run to be read")]
+//! Exits with 1 and prints the failing seeds if an invariant was violated or a kind of fault hardly occurred. `faults 1 SEED` repeats one
+//! seed.
+#![expect(clippy::print_stdout, reason = "an example shows its result")]
 
 use std::error::Error;
 use std::process::ExitCode;
@@ -57,11 +57,11 @@ fn summary(reports: &[SimulationReport], count: u64) -> ExitCode {
             kind.name(),
             struck.of(kind)
         );
-        // A fault that hardly ever strikes was hardly tried.
+        // A rare fault was hardly tested.
         all_struck &= seeds as u64 >= count / 100;
     }
     println!(
-        "  {} motions within limits, hardest at {:.3} of what is stated",
+        "  {} motions within limits, greatest force {:.3} of the stated limit",
         checks.motions, checks.greatest_force
     );
     println!(
@@ -71,7 +71,7 @@ fn summary(reports: &[SimulationReport], count: u64) -> ExitCode {
     );
     println!("  {} samples compared with the truth", checks.samples);
     println!(
-        "  {} presses broken off by silence and made again",
+        "  {} presses interrupted by silence and repeated",
         checks.redone
     );
     let failing: Vec<&SimulationReport> = reports
@@ -83,7 +83,7 @@ fn summary(reports: &[SimulationReport], count: u64) -> ExitCode {
     }
     println!("violations: {} seeds", failing.len());
     if !all_struck {
-        println!("a kind of fault struck in fewer than one seed of a hundred");
+        println!("a kind of fault occurred in fewer than 1 % of the seeds");
     }
     if failing.is_empty() && all_struck && reports.len() as u64 == count {
         ExitCode::SUCCESS

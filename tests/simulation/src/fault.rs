@@ -1,7 +1,7 @@
-//! Devices that go wrong on purpose: a device in a wrapper that, call by call and by a seed, does what failing hardware does.
+//! Faulty devices: wrappers that make a device fail like real hardware, call by call, determined by a seed.
 //!
-//! Nothing about a fault is announced but what a real one would show: a frozen force transducer answers promptly, and wrongly.
-//! What did go wrong is counted in the [`FaultLog`], so that a test can prove that each kind has happened.
+//! A fault shows only what a real device would show: a frozen force transducer answers promptly with old values. The [`FaultLog`] counts
+//! the faults, so that a test can prove that each kind occurred.
 
 mod draw;
 mod force;

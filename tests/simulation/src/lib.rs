@@ -1,4 +1,4 @@
-//! Rigs and devices that fail by a seed, for tests of acquisition and of drivers.
+//! Rigs and devices with seeded faults, for tests of acquisition and of drivers.
 //!
 //! [`simulation`] plays whole runs of the protocol on a simulated rig; [`fault`] wraps one device.
 

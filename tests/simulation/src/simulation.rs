@@ -1,8 +1,8 @@
-//! A rig, its supervisor, its recorder and its faults, driven by one seed: the same seed is the same run, to the last bit.
+//! Simulated rig, supervisor, recorder and faults, driven by one seed: the same seed gives the same run, bit for bit.
 //!
-//! Everything here is simulated: a tip on a spring, a clock that only devices advance, a disk that forgets what was not synced. What is
-//! real is the code under test: [`run`](taceva_protocol::run()), [`Supervisor`](taceva_protocol::Supervisor) and the way a run is resumed. (The simulated
-//! bench that measures like a sensor is another crate; this one only has to be pressed and to fail.)
+//! The simulation has a tip on a spring, a clock that only devices advance, and a disk that forgets unsynced data. Real is the code under
+//! test: [`run`](taceva_protocol::run()), [`Supervisor`](taceva_protocol::Supervisor) and the resumption of a run. The simulated bench that
+//! measures like a sensor is another crate.
 //!
 //! ```
 //! use taceva_simulation::simulation::simulate;

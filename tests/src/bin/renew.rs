@@ -1,4 +1,4 @@
-//! Renews every passage of the documents that a command wrote, or prints which are no longer true.
+//! Renews every generated passage of the documents, or prints the outdated ones.
 //!
 //! ```text
 //! cargo run --release -p taceva-tests --bin renew -- [--check] [--quick] [--no-times] [FILE …]
@@ -16,7 +16,7 @@ use anyhow::{Context as _, bail, ensure};
 use taceva_tests::renew::{Document, Kind, Passage, Runner, documents};
 use taceva_tests::root;
 
-/// What was asked for.
+/// Command line arguments.
 #[derive(Default)]
 struct Asked {
     is_check: bool,
@@ -61,7 +61,7 @@ fn main() -> anyhow::Result<ExitCode> {
     })
 }
 
-/// Builds the program as this one was built; the folder that it is in.
+/// Builds the program with the profile of this one; returns the folder of the programs.
 fn build(root: &Path) -> anyhow::Result<PathBuf> {
     let own = env::current_exe()?;
     let folder = own.parent().context("a program is in a folder")?;
@@ -87,7 +87,7 @@ fn build(root: &Path) -> anyhow::Result<PathBuf> {
     Ok(folder.to_owned())
 }
 
-/// Renews or checks one document; whether all that was looked at is true now.
+/// Renews or checks one document; true if every checked passage is up to date.
 fn renew(document: &mut Document, runner: &Runner, asked: &Asked) -> anyhow::Result<bool> {
     let read = |text: &str| {
         Passage::all(text)
@@ -96,7 +96,7 @@ fn renew(document: &mut Document, runner: &Runner, asked: &Asked) -> anyhow::Res
     let count = read(&document.text)?.len();
     let mut is_true = true;
     for number in 0..count {
-        // What was written before moves what comes after.
+        // Earlier passages may have shifted later ones.
         let passage = read(&document.text)?.swap_remove(number);
         let place = format!("{}:{}", document.name, passage.line);
         if let Some(reason) = left_out(passage.kind, asked) {
@@ -128,13 +128,15 @@ fn renew(document: &mut Document, runner: &Runner, asked: &Asked) -> anyhow::Res
     Ok(is_true)
 }
 
-/// Why a passage of `kind` is not looked at, if it is not.
+/// Reason why a passage of `kind` is skipped, if any.
 fn left_out(kind: Kind, asked: &Asked) -> Option<&'static str> {
     match kind {
         Kind::Quick => None,
-        _ if asked.is_quick => Some("takes longer than a test may"),
-        Kind::Times if asked.is_check => Some("times are never twice the same"),
-        Kind::Times if asked.without_times => Some("times were not asked for"),
+        _ if asked.is_quick => Some("takes too long for a test"),
+        Kind::Times if asked.is_check => Some("its output contains times"),
+        Kind::Times if asked.without_times => {
+            Some("its output contains times, which were excluded")
+        }
         Kind::Data if env::var_os("TACEVA_DATA").is_none() => {
             Some("TACEVA_DATA names no recordings")
         }

@@ -78,7 +78,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 
     let tuples = tuple_parameters(sources);
-    writeln!(out, "\nparameters that are tuples: {}", tuples.len())?;
+    writeln!(out, "\ntuple parameters: {}", tuples.len())?;
     list(&mut out, shows_all, &tuples)?;
     let named = files_named_by_participles(sources);
     writeln!(out, "files named by participles: {}", named.len())?;
@@ -97,7 +97,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// One line each, where all are asked for.
+/// One line each, if all are requested.
 fn list(
     out: &mut impl std::io::Write,
     shows_all: bool,

@@ -1,4 +1,4 @@
-//! A row of a Markdown table from scores as `evaluate --format csv` writes them: what documents are renewed with.
+//! A row of a Markdown table from the output of `evaluate --format csv`, for passages of documents.
 //!
 //! ```text
 //! taceva evaluate recording --format csv | table_row 'ridge' r2:Fx r2:Fz mae:Fz
@@ -6,7 +6,7 @@
 //! table_row 'seed 1' GelSight/r2:Fz < run/scores.csv
 //! ```
 //!
-//! Of one set of scores a cell is the value, its unit, its interval and its standing; of several it is the median and the quartiles.
+//! For one file of scores, a cell has the value, its unit, its interval and its standing; for several files, the median and the quartiles.
 
 #![expect(clippy::print_stdout, reason = "a program says what it found")]
 
@@ -61,7 +61,7 @@ fn main() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The score in a table of scores that `cell` names: `METRIC:CHANNEL`, or `SENSOR/METRIC:CHANNEL` in the table of a run.
+/// Score named by `cell` in a table of scores: `METRIC:CHANNEL`, or `SENSOR/METRIC:CHANNEL` for the table of a run.
 fn score(table: &str, cell: &str) -> anyhow::Result<Score> {
     let (sensor, named) = match cell.split_once('/') {
         Some((sensor, named)) => (Some(sensor), named),
@@ -97,7 +97,7 @@ fn score(table: &str, cell: &str) -> anyhow::Result<Score> {
         let ends = row[low].parse().ok().zip(row[high].parse().ok());
         let unit = &row[unit];
         return Ok(Score {
-            value: row[value].parse().context("a value that is no number")?,
+            value: row[value].parse().context("a value that is not a number")?,
             ends: ends.map(|(low, high)| [low, high]),
             unit: Unit::from_symbol(unit).with_context(|| format!("`{unit}`: no unit"))?,
             standing: row[standing].to_owned(),
@@ -106,7 +106,7 @@ fn score(table: &str, cell: &str) -> anyhow::Result<Score> {
     bail!("no score `{cell}`")
 }
 
-/// `0.91 N (0.69 … 1.20)`, and what bars it from verdicts.
+/// `0.91 N (0.69 … 1.20)`, and the reason if verdicts exclude it.
 fn with_standing(score: &Score) -> String {
     let printed = FormattedValue::number(score.value, score.ends).phrase(&spaced(score.unit));
     match &*score.standing {
@@ -122,7 +122,7 @@ fn with_standing(score: &Score) -> String {
 fn quartiles(scores: &[Score]) -> String {
     let mut values: Vec<f64> = scores.iter().map(|score| score.value).collect();
     values.sort_by(f64::total_cmp);
-    // In quarters of a step between two values, so that a quarter of the way is a whole number.
+    // Counted in quarters of a step between two values, so that quartiles are whole numbers.
     let at = |quarter: usize| {
         let place = quarter * (values.len() - 1);
         let (below, rest) = (values[place / 4], place % 4);

@@ -1,4 +1,4 @@
-//! From system calls to operations: the descriptors, offsets and names that the kernel holds, followed call by call.
+//! Conversion of system calls to operations: tracks the descriptors, offsets and names of the kernel, call by call.
 
 use std::collections::HashMap;
 use std::path::{Component, Path};
@@ -7,7 +7,7 @@ use super::model::Disk;
 use super::operation::{Kind, ObjectId, Operation, ROOT};
 use super::syscall::{Call, Lexer, bytes_of};
 
-/// An open file: descriptors that were duplicated share it.
+/// An open file, shared by duplicated descriptors.
 #[derive(Clone, Copy, Debug)]
 struct OpenFile {
     object: ObjectId,
@@ -15,7 +15,7 @@ struct OpenFile {
     appends: bool,
 }
 
-/// Goes through the calls and keeps what a kernel would: descriptors, offsets, names.
+/// Tracks the kernel state of each call: descriptors, offsets, names.
 pub(super) struct Follower<'a> {
     watched: &'a Path,
     pub(super) disk: Disk,
@@ -24,7 +24,7 @@ pub(super) struct Follower<'a> {
     /// Descriptor → position in `open`.
     descriptors: HashMap<String, usize>,
     open: Vec<OpenFile>,
-    /// Of standard output, the line that is not complete yet.
+    /// Incomplete last line of standard output.
     line: Vec<u8>,
 }
 
@@ -116,7 +116,7 @@ impl<'a> Follower<'a> {
         }
     }
 
-    /// An error if one of the arguments is a descriptor in the watched folder.
+    /// Returns an error if one of the arguments is a descriptor in the watched folder.
     fn unless_watched(&self, call: &Call, positions: &[usize]) -> Result<(), String> {
         let touched = positions
             .iter()
@@ -152,7 +152,7 @@ impl<'a> Follower<'a> {
                 });
                 object
             }
-            (None, place) => return Err(format!("opened {place:?}, which nobody made")),
+            (None, place) => return Err(format!("opened {place:?}, which does not exist")),
         };
         if flags.contains("O_TRUNC") && self.disk.length(object) > 0 {
             self.act(Operation::Resize {
@@ -196,7 +196,10 @@ impl<'a> Follower<'a> {
             return Ok(());
         };
         if bytes.len() < length {
-            return Err(format!("{length} bytes written and {} shown", bytes.len()));
+            return Err(format!(
+                "{length} bytes written, but the trace shows {}",
+                bytes.len()
+            ));
         }
         bytes.truncate(length);
         let end = self.disk.length(object);
@@ -239,7 +242,7 @@ impl<'a> Follower<'a> {
                 self.act(Operation::Resize { file, length });
                 Ok(())
             }
-            (Some(_), None) => Err(format!("`{}` to no length", call.name)),
+            (Some(_), None) => Err(format!("truncated `{}` without a length", call.name)),
             (None, _) => Ok(()),
         }
     }
@@ -257,7 +260,7 @@ impl<'a> Follower<'a> {
                 Ok(())
             }
             _ => Err(format!(
-                "`{}({})`: over the edge of the watched folder",
+                "`{}({})`: outside the watched folder",
                 call.name,
                 call.arguments.join(", ")
             )),
@@ -269,7 +272,10 @@ impl<'a> Follower<'a> {
         match (self.name(from_at, from), self.name(to_at, to)) {
             (None, None) => Ok(()),
             (Some((from, old)), Some((folder, name))) => {
-                let object = self.disk.lookup(from, &old).ok_or("a link to nothing")?;
+                let object = self
+                    .disk
+                    .lookup(from, &old)
+                    .ok_or("a link to a missing file")?;
                 self.act(Operation::Link {
                     folder,
                     name,
@@ -277,7 +283,7 @@ impl<'a> Follower<'a> {
                 });
                 Ok(())
             }
-            _ => Err("a link over the edge of the watched folder".to_owned()),
+            _ => Err("a link to a file outside the watched folder".to_owned()),
         }
     }
 
@@ -309,13 +315,13 @@ impl<'a> Follower<'a> {
         self.open.get(position).map(|file| file.object)
     }
 
-    /// The folder and the name in it that a path means; `None` outside the watched folder.
+    /// Folder and name of a path; `None` outside the watched folder.
     fn name(&self, at: &str, path: &str) -> Option<(ObjectId, String)> {
         let (folder, name) = self.place(at, path)?;
         name.map(|name| (folder, name))
     }
 
-    /// As [`name`](Follower::name), with no name for the folder that the path is relative to.
+    /// Like [`name`](Follower::name), without a name for the folder that the path is relative to.
     fn place(&self, at: &str, path: &str) -> Option<(ObjectId, Option<String>)> {
         let bytes = bytes_of(path);
         let text = String::from_utf8_lossy(&bytes).into_owned();
@@ -344,7 +350,7 @@ impl<'a> Follower<'a> {
     }
 }
 
-/// A result that is known not to be negative.
+/// Converts a result that is known to be nonnegative.
 fn to_usize(result: i64) -> usize {
     usize::try_from(result).unwrap_or(0)
 }

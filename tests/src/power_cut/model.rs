@@ -1,8 +1,8 @@
-//! A disk as a power cut sees it: what is durable, and what is only promised to be.
+//! Model of a disk at a power cut: durable changes, and pending ones.
 //!
-//! A file and its name are separate things. Making a file durable keeps its bytes and says nothing of its name; making a
-//! folder durable keeps the names in it and says nothing of the bytes behind them. Names of one folder become durable in the
-//! order in which they were made; between folders and between files there is no order at all.
+//! A file and its name are separate. Syncing a file makes its bytes durable, but not its name. Syncing a folder makes its names durable,
+//! but not the bytes of the files. Names of one folder become durable in the order of their creation. There is no order between folders and
+//! between files.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -18,14 +18,14 @@ pub(super) enum ByteChange {
     Resize(usize),
 }
 
-/// A change of the names in a folder: one that goes, those that come, or both at once.
+/// A change of the names in a folder: a removed name, added names, or both at once.
 #[derive(Clone, Debug)]
 pub(super) struct NameChange {
     pub(super) gone: Option<String>,
     pub(super) come: Vec<(String, ObjectId)>,
 }
 
-/// Something that is partly durable: what is, what it looks like to programs, and the changes between, oldest first.
+/// A partly durable object: its durable state, its current state, and the changes in between, oldest first.
 #[derive(Clone, Debug)]
 pub(super) struct Layered<T, C> {
     pub(super) durable: T,
@@ -42,7 +42,7 @@ pub(super) enum Object {
     Folder(Layered<Names, NameChange>),
 }
 
-/// A watched folder with everything in it, and what was printed so far.
+/// A watched folder with its content, and the lines printed so far.
 #[derive(Clone, Debug)]
 pub struct Disk {
     pub(super) objects: Vec<Object>,
@@ -51,10 +51,10 @@ pub struct Disk {
 }
 
 impl Disk {
-    /// The folder at `path`, all of it durable.
+    /// Loads the folder at `path`, all of it durable.
     ///
     /// # Errors
-    /// Those of reading it.
+    /// Errors of reading it.
     pub fn load(path: &Path) -> std::io::Result<Disk> {
         let mut disk = Disk {
             objects: vec![Object::Folder(Layered::settled(Names::new()))],
@@ -94,7 +94,7 @@ impl Disk {
         self.applied
     }
 
-    /// What `name` in `folder` is to programs.
+    /// Object of `name` in `folder`, as programs see it.
     pub fn lookup(&self, folder: ObjectId, name: &str) -> Option<ObjectId> {
         match &self.objects[folder] {
             Object::Folder(folder) => folder.live.get(name).copied(),
@@ -102,7 +102,7 @@ impl Disk {
         }
     }
 
-    /// How long a file is to programs.
+    /// Length of a file, bytes, as programs see it.
     pub fn length(&self, id: ObjectId) -> usize {
         match &self.objects[id] {
             Object::File(file) => file.live.len(),
@@ -110,12 +110,12 @@ impl Disk {
         }
     }
 
-    /// The next number that is free.
+    /// Next free object number.
     pub fn next_id(&self) -> ObjectId {
         self.objects.len()
     }
 
-    /// Does what `operation` says.
+    /// Applies `operation`.
     pub fn apply(&mut self, operation: &Operation) {
         match operation {
             Operation::Create { folder, name, kind } => {
@@ -165,7 +165,7 @@ impl Disk {
         }
     }
 
-    /// Within a folder at once, as a journal of names keeps it; between folders each half by itself.
+    /// Atomic within a folder, as its journal keeps names; between folders, each half is separate.
     fn exchange(&mut self, one: &(ObjectId, String), other: &(ObjectId, String)) {
         let (Some(first), Some(second)) =
             (self.lookup(one.0, &one.1), self.lookup(other.0, &other.1))
@@ -209,7 +209,7 @@ impl Disk {
         }
     }
 
-    /// What programs see.
+    /// Content of the folder, as programs see it.
     pub fn live_tree(&self) -> Tree {
         let mut tree = Tree::new();
         self.add_live(ROOT, "", &mut tree);
@@ -236,7 +236,7 @@ impl Disk {
 }
 
 impl<T: Clone, C> Layered<T, C> {
-    /// All of it durable.
+    /// A fully durable object.
     fn settled(value: T) -> Layered<T, C> {
         Layered {
             durable: value.clone(),

@@ -1,85 +1,85 @@
-//! Operations of a program that change a disk, or that its user relies on.
+//! Operations of a program that change a disk or inform its user.
 
-/// The number of a file or a folder, which it keeps whatever it is called; the watched folder is 0.
+/// Number of a file or a folder, independent of its names; the watched folder is 0.
 pub type ObjectId = usize;
 
 /// The watched folder itself.
 pub const ROOT: ObjectId = 0;
 
-/// What a program did to the watched folder, or printed.
+/// Operation on the watched folder, or printed line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Operation {
-    /// A new file or folder; its number is the next free one.
+    /// Creation of a file or folder; its number is the next free one.
     Create {
-        /// Where.
+        /// Parent folder.
         folder: ObjectId,
-        /// Its name.
+        /// Name of the new object.
         name: String,
-        /// Which of the two.
+        /// File or folder.
         kind: Kind,
     },
-    /// One more name for something that is there.
+    /// Additional name of an existing object.
     Link {
-        /// Where.
+        /// Parent folder.
         folder: ObjectId,
         /// The name.
         name: String,
-        /// What it names.
+        /// Object of the name.
         object: ObjectId,
     },
-    /// A name that is taken away.
+    /// Removal of a name.
     Remove {
-        /// Where.
+        /// Parent folder.
         folder: ObjectId,
         /// The name.
         name: String,
     },
-    /// A name that becomes another, replacing what had it.
+    /// Renaming, which replaces an object of the new name.
     Rename {
         /// Folder and name before.
         from: (ObjectId, String),
         /// Folder and name after.
         to: (ObjectId, String),
     },
-    /// Two names that change places at once.
+    /// Exchange of two names at once.
     Exchange {
-        /// Folder and name of the one.
+        /// First folder and name.
         one: (ObjectId, String),
-        /// Folder and name of the other.
+        /// Second folder and name.
         other: (ObjectId, String),
     },
-    /// Bytes that a file got.
+    /// Write of bytes to a file.
     Write {
         /// The file.
         file: ObjectId,
-        /// From which byte on.
+        /// Offset, bytes.
         offset: usize,
         /// The bytes.
         bytes: Vec<u8>,
     },
-    /// A file that was cut or filled up with zeros.
+    /// Truncation of a file, or extension with zeros.
     Resize {
         /// The file.
         file: ObjectId,
-        /// Its length now.
+        /// New length, bytes.
         length: usize,
     },
-    /// A file or folder that was made durable.
+    /// Sync of a file or folder.
     Sync {
-        /// Which.
+        /// Synced object.
         object: ObjectId,
-        /// Operations that had been applied when the call began: only these are covered.
+        /// Number of operations applied before the call began: only these are covered.
         covers: usize,
     },
-    /// A line on standard output, on which its reader relies from now on.
+    /// Line on standard output, on which its reader relies from now on.
     Print(String),
 }
 
 /// A file or a folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Bytes.
+    /// File.
     File,
-    /// Names.
+    /// Folder.
     Folder,
 }

@@ -1,4 +1,4 @@
-//! What one cut may leave of each file and folder that is not wholly durable, and all combinations of it.
+//! Possible remains of each object that is not fully durable after a cut, and all combinations of them.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -7,16 +7,16 @@ use super::model::{ByteChange, Bytes, Disk, Layered, Names, Object};
 use super::operation::ObjectId;
 use crate::random::Random;
 
-/// Where the last write of a file may be torn: within a sector, at its edges, at those of a page; beside these in its middle
-/// and before its last byte.
+/// Positions at which the last write of a file may be torn: within a sector, at its edges, at the edges of a page. Also in the middle and
+/// before the last byte.
 const TEARS: [usize; 5] = [1, 511, 512, 4096, 4097];
-/// Up to this many changes of one file, every subset of them is tried; beyond, prefixes and drawn subsets.
+/// Largest number of changes of a file for which every subset is tried; beyond it, prefixes and random subsets.
 const ALL_SUBSETS_UP_TO: usize = 5;
 const DRAWN_SUBSETS: usize = 24;
-/// Combinations of one cut that are tried one by one; beyond, that many are drawn and the cut is reported.
+/// Largest number of combinations of a cut that are all tried; beyond it, this many are drawn and the cut is reported.
 const COMBINATIONS: usize = 20_000;
 
-/// What an object that is not wholly durable may turn out to be.
+/// Possible state of an object that is not fully durable.
 enum Remains {
     Bytes(Vec<Arc<Bytes>>),
     Names(Vec<Names>),
@@ -31,7 +31,7 @@ impl Remains {
     }
 }
 
-/// One of the [`Remains`] for each of the objects that are not wholly durable.
+/// One of the [`Remains`] for each object that is not fully durable.
 pub(super) struct Picked<'a> {
     choices: &'a Choices,
     positions: &'a [usize],
@@ -55,7 +55,7 @@ impl Picked<'_> {
     }
 }
 
-/// Everything that is open at one cut.
+/// All choices at one cut.
 pub(super) struct Choices {
     remains: Vec<Remains>,
     place_of: HashMap<ObjectId, usize>,
@@ -95,7 +95,7 @@ impl Choices {
         choices
     }
 
-    /// Combinations, if they can be counted.
+    /// Number of combinations; `None` if it overflows.
     fn count(&self) -> Option<usize> {
         self.remains
             .iter()
@@ -133,7 +133,7 @@ impl Choices {
         }
         loop {
             visit(&positions);
-            // Counts up as an odometer does.
+            // Counts up like an odometer.
             let step = positions
                 .iter()
                 .zip(&self.remains)
@@ -147,7 +147,7 @@ impl Choices {
     }
 }
 
-/// What may be found of a file: any subset of its changes, the last one torn, the part behind the tear missing or zero.
+/// Possible contents of a file: any subset of its changes, with the last one torn and the part after the tear missing or zero.
 fn possible_bytes(file: &Layered<Bytes, ByteChange>, random: &mut Random) -> Vec<Arc<Bytes>> {
     let mut found: HashSet<Bytes> = HashSet::from([file.durable.clone()]);
     for subset in subsets(file.pending.len(), random) {
@@ -190,7 +190,7 @@ fn possible_bytes(file: &Layered<Bytes, ByteChange>, random: &mut Random) -> Vec
             bytes: written,
         } = last
         {
-            // The length is there and no byte is.
+            // The length is durable, but no byte is.
             let mut zeros = bytes.clone();
             let new = (*offset).max(file.durable.len()).min(zeros.len());
             zeros[new..(offset + written.len()).max(new)].fill(0);

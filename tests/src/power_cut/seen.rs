@@ -1,4 +1,4 @@
-//! Which states were met before.
+//! States seen before.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use super::operation::{ObjectId, ROOT};
 use super::remains::Picked;
 use super::tree::{Tree, joined};
 
-/// The states met so far: contents are numbered, so that a state is known by a short key.
+/// States seen so far. Contents are numbered, so that a state has a short key.
 #[derive(Default)]
 pub(super) struct Seen {
     numbers: HashMap<Arc<Bytes>, (usize, Arc<Bytes>)>,
@@ -16,11 +16,11 @@ pub(super) struct Seen {
     of_durable: BTreeMap<ObjectId, (Arc<Bytes>, usize)>,
 }
 
-/// The number of what is no file.
+/// Number of anything but a file.
 const FOLDER: usize = usize::MAX;
 
 impl Seen {
-    /// The tree of a combination, unless it was met before with the same lines printed.
+    /// Tree of a combination, unless it was seen before with the same printed lines.
     pub(super) fn new_tree(&mut self, disk: &Disk, picked: &Picked<'_>) -> Option<Tree> {
         let mut tree = Tree::new();
         let mut key = Vec::new();
@@ -70,7 +70,7 @@ impl Seen {
             .clone()
     }
 
-    /// As [`number`](Seen::number), remembering which bytes a durable file had last.
+    /// Like [`number`](Seen::number), and remembers the last bytes of a durable file.
     fn number_durable(&mut self, id: ObjectId, bytes: &Bytes) -> (usize, Arc<Bytes>) {
         if let Some((known, number)) = self.of_durable.get(&id)
             && **known == *bytes

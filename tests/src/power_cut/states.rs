@@ -1,4 +1,4 @@
-//! Every state that a power cut could leave.
+//! Every possible state after a power cut.
 
 use std::ops::Range;
 use std::path::Path;
@@ -8,22 +8,22 @@ use super::seen::Seen;
 use super::trace::Trace;
 use super::tree::{Tree, write_tree};
 
-/// What one power cut left.
+/// State after one power cut.
 #[derive(Debug)]
 pub struct State<'a> {
-    /// Operations before the cut.
+    /// Number of operations before the cut.
     pub cut: usize,
-    /// Lines the program had printed by then.
+    /// Lines that the program had printed by then.
     pub printed: &'a [String],
-    /// What is found after the restart.
+    /// Content of the folder after the restart.
     pub tree: &'a Tree,
 }
 
 impl State<'_> {
-    /// Puts the state into the folder at `path`, which must be empty.
+    /// Writes the state to the folder at `path`, which must be empty.
     ///
     /// # Errors
-    /// Those of writing.
+    /// Errors of writing.
     pub fn write_to(&self, path: &Path) -> std::io::Result<()> {
         write_tree(self.tree, path)
     }
@@ -33,7 +33,7 @@ impl State<'_> {
         Some(self.tree.get(path)?.as_ref()?.as_slice())
     }
 
-    /// The highest number among the printed lines `ACK n`; 0 without one.
+    /// Highest number among the printed lines `ACK n`; 0 without one.
     pub fn acknowledged(&self) -> usize {
         self.printed
             .iter()
@@ -43,23 +43,23 @@ impl State<'_> {
     }
 }
 
-/// What came of trying all states.
+/// Results of all states.
 #[derive(Debug, Default)]
 pub struct Counted {
-    /// Moments at which power was cut.
+    /// Number of cuts.
     pub cuts: usize,
-    /// Different states, those that two cuts share counted once.
+    /// Number of distinct states; a state shared by two cuts counts once.
     pub states: usize,
-    /// Cuts with more combinations than were tried.
+    /// Number of cuts with more combinations than were tried.
     pub capped: usize,
-    /// States in which the promise was broken.
+    /// Number of states that broke the promise.
     pub violations: usize,
-    /// The first of them: at which operation, and how.
+    /// First violation: operation and cause.
     pub first: Option<String>,
 }
 
 impl Counted {
-    /// Both together.
+    /// Adds the counts of both.
     #[must_use]
     pub fn and(self, other: Counted) -> Counted {
         Counted {
@@ -93,7 +93,7 @@ impl std::fmt::Display for Counted {
 }
 
 impl Trace {
-    /// Calls `check` with every state that a cut after `cuts` operations could leave; its error is a broken promise.
+    /// Calls `check` with every state that a cut after `cuts` operations could leave; an error means a broken promise.
     pub fn each_state(
         &self,
         cuts: Range<usize>,
@@ -135,7 +135,7 @@ impl Trace {
     }
 }
 
-/// Enough of an operation to find it in the trace.
+/// Short text that identifies an operation in the trace.
 fn short(operation: &super::Operation) -> String {
     let text = format!("{operation:?}");
     text.chars().take(120).collect()

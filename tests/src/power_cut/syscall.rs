@@ -1,32 +1,32 @@
-//! One line of a system call trace, taken apart.
+//! Parser of one line of a system call trace.
 
 use std::collections::HashMap;
 
-/// A system call that came back.
+/// A completed system call.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Call {
     pub(super) name: String,
     pub(super) arguments: Vec<String>,
     pub(super) result: i64,
-    /// What [`Lexer::line`] was told when the call began.
+    /// Value of `now` in [`Lexer::line`] when the call began.
     pub(super) begun: usize,
 }
 
-/// Joins the halves of calls during which another thread was heard.
+/// Joins the halves of calls that another thread interrupted in the trace.
 #[derive(Debug, Default)]
 pub(super) struct Lexer {
     unfinished: HashMap<String, (String, usize)>,
 }
 
 impl Lexer {
-    /// The call that `line` completes; `now` is kept for calls that begin with it.
+    /// Call that `line` completes; `now` is stored for calls that begin with it.
     pub(super) fn line(&mut self, line: &str, now: usize) -> Option<Call> {
         let (thread, text) = line.split_once(' ')?;
         let text = text.trim_start();
         if let Some(head) = text.strip_suffix("<unfinished ...>") {
             let head = head.trim_end().to_owned();
             if head.starts_with("close(") {
-                // The descriptor is free from here on: another thread may get it before this call is heard of again.
+                // The descriptor is free from here on: another thread may get it before the call's second half.
                 return parse(&format!("{head}) = 0"), now);
             }
             self.unfinished.insert(thread.to_owned(), (head, now));
@@ -60,7 +60,7 @@ fn parse(text: &str, begun: usize) -> Option<Call> {
     })
 }
 
-/// Arguments lie between commas that are in no brackets; strings are hexadecimal and hold neither.
+/// Splits at commas outside brackets; strings are hexadecimal and contain neither.
 fn split(arguments: &str) -> Vec<String> {
     let mut parts = vec![String::new()];
     let mut depth = 0_usize;
@@ -81,7 +81,7 @@ fn split(arguments: &str) -> Vec<String> {
     parts.iter().map(|part| part.trim().to_owned()).collect()
 }
 
-/// The bytes of every string in `argument`, in order, one after the other.
+/// Bytes of all strings in `argument`, concatenated.
 pub(super) fn bytes_of(argument: &str) -> Vec<u8> {
     let quoted = argument.split('"').skip(1).step_by(2);
     quoted

@@ -1,4 +1,4 @@
-//! A program run under `strace`, and what it did to a watched folder.
+//! Trace of a program under `strace`: its operations on a watched folder.
 
 use std::path::Path;
 use std::process::{Command, ExitStatus, Stdio};
@@ -8,19 +8,19 @@ use super::model::Disk;
 use super::operation::Operation;
 use super::tree::{Tree, read_tree};
 
-/// The calls that are understood, and those that must not touch the watched folder because their bytes are not shown.
+/// Supported calls, and calls that must not touch the watched folder because the trace omits their bytes.
 const TRACED: &str = "trace=open,openat,openat2,creat,close,close_range,dup,dup2,dup3,fcntl,lseek,\
     write,pwrite64,writev,pwritev,pwritev2,ftruncate,truncate,fallocate,\
     copy_file_range,sendfile,splice,mmap,io_uring_setup,\
     rename,renameat,renameat2,link,linkat,symlink,symlinkat,unlink,unlinkat,rmdir,mkdir,mkdirat,mknod,mknodat,\
     fsync,fdatasync,sync_file_range,sync,syncfs,chdir,fchdir,clone,clone3,fork,vfork";
 
-/// Why there is no trace.
+/// Reason for a missing trace.
 #[derive(Debug)]
 pub enum TraceError {
-    /// `strace` is not on this machine, or may not trace here: the test that asked may skip, and must say so.
+    /// `strace` is missing or may not trace here: the test may skip, and must report it.
     NoStrace(String),
-    /// A call that the model cannot follow touched the watched folder, or model and disk came apart.
+    /// An unsupported call touched the watched folder, or model and disk differ.
     Unfollowed(String),
 }
 
@@ -35,25 +35,25 @@ impl std::fmt::Display for TraceError {
 
 impl std::error::Error for TraceError {}
 
-/// What a program did, from which beginning.
+/// Operations of a program, with the initial state.
 #[derive(Debug)]
 pub struct Trace {
-    /// The watched folder before.
+    /// Initial state of the watched folder.
     pub initial: Disk,
-    /// What was done, in order.
+    /// Operations, in order.
     pub operations: Vec<Operation>,
-    /// How the program ended.
+    /// Exit status of the program.
     pub status: ExitStatus,
-    /// What it wrote on standard error.
+    /// Standard error of the program.
     pub complaint: String,
 }
 
 impl Trace {
-    /// Runs `command` and follows what it does in the folder at `watched`, which must stand as `initial` says.
+    /// Runs `command` and traces its operations on the folder at `watched`, whose content must equal `initial`.
     ///
     /// # Errors
-    /// [`TraceError::NoStrace`] where programs cannot be traced; [`TraceError::Unfollowed`] if the program does what the model
-    /// cannot follow. Afterwards model and disk are compared, so nothing is missed in silence.
+    /// [`TraceError::NoStrace`] if programs cannot be traced; [`TraceError::Unfollowed`] for an unsupported call. The model is compared
+    /// with the disk at the end, so every missed change is an error.
     pub fn run(command: &Command, watched: &Path, initial: Disk) -> Result<Trace, TraceError> {
         let unfollowed = |error: std::io::Error| TraceError::Unfollowed(error.to_string());
         let log = tempfile::NamedTempFile::new().map_err(unfollowed)?;
@@ -105,7 +105,7 @@ impl Trace {
         })
     }
 
-    /// The watched folder after the first `count` operations, as a killed process leaves it.
+    /// The watched folder after the first `count` operations, as after a killed process.
     pub fn after(&self, count: usize) -> Disk {
         let mut disk = self.initial.clone();
         self.operations[..count]
@@ -115,7 +115,7 @@ impl Trace {
     }
 }
 
-/// The first path that is not the same in both.
+/// First path that differs.
 fn first_difference<'a>(expected: &'a Tree, found: &'a Tree) -> Option<&'a String> {
     let mut paths = expected.keys().chain(found.keys());
     paths.find(|path| expected.get(*path) != found.get(*path))

@@ -1,4 +1,4 @@
-//! A folder with everything in it, as a value.
+//! Content of a folder, as a value.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::model::Disk;
 
-/// What stands in a folder: `None` for a folder, bytes for a file, by the path from the watched folder.
+/// Content of a folder by path: `None` for a folder, bytes for a file.
 pub type Tree = BTreeMap<String, Option<Arc<Vec<u8>>>>;
 
 pub(super) fn joined(prefix: &str, name: &str) -> String {
@@ -17,18 +17,18 @@ pub(super) fn joined(prefix: &str, name: &str) -> String {
     }
 }
 
-/// What stands in the folder at `path` right now.
+/// Reads the content of the folder at `path`.
 ///
 /// # Errors
-/// Those of reading it.
+/// Errors of reading it.
 pub fn read_tree(path: &Path) -> std::io::Result<Tree> {
     Ok(Disk::load(path)?.live_tree())
 }
 
-/// Puts everything in `tree` into the folder at `path`.
+/// Writes `tree` to the folder at `path`.
 ///
 /// # Errors
-/// Those of writing.
+/// Errors of writing.
 pub fn write_tree(tree: &Tree, path: &Path) -> std::io::Result<()> {
     for (relative, content) in tree {
         let target = path.join(relative);

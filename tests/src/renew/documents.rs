@@ -9,13 +9,13 @@ use std::path::{Path, PathBuf};
 pub struct Document {
     /// Its path, relative to the workspace.
     pub name: String,
-    /// Where it lies.
+    /// Path of the file.
     pub path: PathBuf,
     /// Its text.
     pub text: String,
 }
 
-/// Every Markdown file under `root`, by name; folders that git does not keep are not looked into.
+/// Every Markdown file under `root`, by name; skips folders that git ignores.
 ///
 /// # Errors
 /// If a folder or a file cannot be read.

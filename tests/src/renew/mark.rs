@@ -1,15 +1,15 @@
-//! The comments that say what wrote a passage.
+//! Comments that mark generated passages.
 
-/// When a passage is compared with a fresh run of its command.
+/// Kind of a passage: the occasion on which it is compared with a new run of its command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// In every run of the tests: a matter of seconds.
+    /// In every test run: takes seconds.
     Quick,
-    /// By `renew --check` alone: the command takes minutes.
+    /// Only by `renew --check`: takes minutes.
     Slow,
-    /// Never: the command says how long something took.
+    /// Never: the output contains times.
     Times,
-    /// By `renew --check`, where `TACEVA_DATA` names the recordings.
+    /// By `renew --check`, if `TACEVA_DATA` names the recordings.
     Data,
 }
 
@@ -25,30 +25,30 @@ impl Kind {
     }
 }
 
-/// What a comment says.
+/// Content of a marking comment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// A passage begins, and this wrote it.
+    /// Start of a passage, with its command.
     From {
-        /// When it is compared.
+        /// Occasion of the comparison.
         kind: Kind,
         /// The command.
         command: String,
     },
-    /// The passage is over.
+    /// End of a passage.
     End,
-    /// The next table was written by hand, for this reason.
+    /// The next table is handwritten, for this reason.
     ByHand(String),
 }
 
-/// A comment that begins like a mark and is none.
+/// An invalid mark.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MarkError {
-    /// `from, …:` with a word that is not known, or without a command.
+    /// `from, …:` with an unknown word, or without a command.
     From(String),
     /// `by hand:` without a reason.
     ByHand,
-    /// A comment that never ends.
+    /// A comment without an end.
     Open,
     /// A passage without `<!-- end -->`.
     NoEnd,
@@ -56,7 +56,7 @@ pub enum MarkError {
     NoBeginning,
     /// A passage within a passage.
     Nested,
-    /// A command with `--` in a comment within a line, which renderers show.
+    /// A command with `--` in an inline comment, which renderers show.
     Inline,
 }
 
@@ -82,10 +82,10 @@ impl std::fmt::Display for MarkError {
 impl std::error::Error for MarkError {}
 
 impl Mark {
-    /// What the text between `<!--` and `-->` means; `None` for a comment that is no mark.
+    /// Parses the text between `<!--` and `-->`; `None` for an ordinary comment.
     ///
     /// # Errors
-    /// [`MarkError`] for one that begins like a mark.
+    /// [`MarkError`] for an invalid mark.
     pub fn read(comment: &str) -> Result<Option<Mark>, MarkError> {
         let text = comment.trim();
         if text == "end" {

@@ -1,4 +1,4 @@
-//! Passages of a document with what wrote them, found and put back.
+//! Generated passages of a document: search and replacement.
 
 use std::ops::Range;
 
@@ -7,26 +7,26 @@ use super::mark::{Kind, Mark, MarkError};
 const OPEN: &str = "<!--";
 const CLOSE: &str = "-->";
 
-/// A passage that a command wrote.
+/// A generated passage.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Passage {
-    /// When it is compared.
+    /// Occasion of the comparison.
     pub kind: Kind,
-    /// What wrote it.
+    /// Command of the passage.
     pub command: String,
-    /// Where it stands in the text, between the comments.
+    /// Byte range of the passage in the text, between the comments.
     pub range: Range<usize>,
-    /// The line of its first comment, from 1.
+    /// Line of its first comment, from 1.
     pub line: usize,
 }
 
-/// A mark with where its comment begins and ends in the text.
+/// A mark with the byte range of its comment.
 struct Placed {
     mark: Mark,
     range: Range<usize>,
 }
 
-/// Byte ranges of fenced blocks: what stands there is shown and is no comment.
+/// Byte ranges of fenced blocks, in which comments are plain text.
 fn fences(text: &str) -> Vec<Range<usize>> {
     let (mut found, mut open, mut at) = (Vec::new(), None, 0);
     for line in text.split_inclusive('\n') {
@@ -41,7 +41,7 @@ fn fences(text: &str) -> Vec<Range<usize>> {
     found
 }
 
-/// The line, from 1, that byte `at` is in.
+/// Line number of byte `at`, from 1.
 fn line_of(text: &str, at: usize) -> usize {
     text[..at].matches('\n').count() + 1
 }
@@ -79,7 +79,7 @@ impl Passage {
     /// Every passage of `text`, in order.
     ///
     /// # Errors
-    /// The line and [`MarkError`] of the first mark that cannot be meant.
+    /// Line number and [`MarkError`] of the first invalid mark.
     pub fn all(text: &str) -> Result<Vec<Passage>, (usize, MarkError)> {
         let mut found = Vec::new();
         let mut begun: Option<(Kind, String, Range<usize>)> = None;
@@ -109,13 +109,13 @@ impl Passage {
         }
     }
 
-    /// What stands there in `text`.
+    /// Text of the passage in `text`.
     pub fn content<'a>(&self, text: &'a str) -> &'a str {
         &text[self.range.clone()]
     }
 
-    /// What should stand there after its command printed `output`: in the words of a sentence as a word, in a fence as it is, otherwise as lines
-    /// of their own.
+    /// Text of the passage after its command printed `output`: a word within a sentence, unchanged text within a fence, otherwise separate
+    /// lines.
     pub fn renewed(&self, text: &str, output: &str) -> String {
         let old = self.content(text);
         let lines: Vec<&str> = output.trim_end().lines().map(str::trim_end).collect();
@@ -131,7 +131,7 @@ impl Passage {
     }
 }
 
-/// The lines, from 1, where tables with numbers begin that neither a command wrote nor a reason excuses.
+/// Line numbers, from 1, of tables with numbers that have neither a command nor a reason.
 ///
 /// # Errors
 /// As [`Passage::all`].
@@ -157,7 +157,7 @@ pub fn unexplained_tables(text: &str) -> Result<Vec<usize>, (usize, MarkError)> 
                 let is_written = passages
                     .iter()
                     .any(|passage| passage.range.contains(&start));
-                // The reason stands right before the table.
+                // The reason must stand directly before the table.
                 let is_excused = by_hand
                     .iter()
                     .any(|end| *end <= start && text[*end..start].trim().is_empty());
@@ -173,7 +173,8 @@ pub fn unexplained_tables(text: &str) -> Result<Vec<usize>, (usize, MarkError)> 
     Ok(found)
 }
 
-/// Whether a row of a table has a number in a cell of its own, with a unit or an interval at most: `0.73`, `3.2×`, `0.29 s`, not `size=32` or a version.
+/// True if a table row has a cell with only a number, perhaps with a unit or an interval: `0.73`, `3.2×`, `0.29 s`, but not `size=32` or a
+/// version.
 fn has_number(row: &str) -> bool {
     row.trim().trim_matches('|').split('|').skip(1).any(|cell| {
         let cell = cell

@@ -1,4 +1,4 @@
-//! Commands of passages, run, and what they print, compared.
+//! Runs the commands of passages and compares their output.
 
 use std::env;
 use std::io;
@@ -13,26 +13,26 @@ use super::passage::Passage;
 #[derive(Debug)]
 pub struct Runner {
     root: PathBuf,
-    /// Searched before all others.
+    /// Folder that is searched first for programs.
     programs: PathBuf,
     out: TempDir,
 }
 
-/// A passage that is not what its command prints.
+/// Difference between a passage and the output of its command.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// The first line that differs as it stands there; none if there are fewer lines.
+    /// First differing line of the passage; `None` if it has fewer lines.
     pub stands: Option<String>,
-    /// The same line as the command prints it.
+    /// Same line of the output.
     pub printed: Option<String>,
 }
 
-/// Why a command gave no passage.
+/// Reason for a command without output.
 #[derive(Debug)]
 pub enum RunnerError {
-    /// It cannot be run.
+    /// The command cannot be run.
     Io(io::Error),
-    /// It failed, and said this.
+    /// The command failed, with this message.
     Failed(String),
 }
 
@@ -54,10 +54,10 @@ impl From<io::Error> for RunnerError {
 }
 
 impl Runner {
-    /// Runs commands in `root`, with the programs in the folder `programs` and its `examples` before all others.
+    /// Prepares to run commands in `root`, with the programs in `programs` and its `examples` first on the path.
     ///
     /// # Errors
-    /// If no folder for what commands write can be made.
+    /// If no output folder can be created.
     pub fn new(root: &Path, programs: &Path) -> io::Result<Runner> {
         Ok(Runner {
             root: root.to_owned(),
@@ -66,7 +66,7 @@ impl Runner {
         })
     }
 
-    /// What `command` prints; the folder `$OUT` is written as nothing.
+    /// Output of `command`; the path `$OUT` is removed from it.
     ///
     /// # Errors
     /// [`RunnerError`] if it cannot be run or fails.
@@ -80,7 +80,7 @@ impl Runner {
             .current_dir(&self.root)
             .env("PATH", path)
             .env("OUT", self.out.path())
-            // Nothing of an earlier run, and no width of a terminal.
+            // No cache of an earlier run, and no terminal width.
             .env("XDG_CACHE_HOME", self.out.path().join("cache"))
             .env_remove("COLUMNS")
             .output()?;
@@ -97,10 +97,10 @@ impl Runner {
             .replace(&folder, "."))
     }
 
-    /// How `passage` of `text` differs from what its command prints.
+    /// Difference between `passage` of `text` and the output of its command.
     ///
     /// # Errors
-    /// As [`run`](Runner::run).
+    /// Errors of [`run`](Runner::run).
     pub fn compare(
         &self,
         passage: &Passage,
@@ -111,7 +111,7 @@ impl Runner {
     }
 }
 
-/// The first line in which two passages differ.
+/// First differing line of two passages.
 fn difference(stands: &str, printed: &str) -> Option<Difference> {
     let (mut stands, mut printed) = (stands.trim().lines(), printed.trim().lines());
     loop {

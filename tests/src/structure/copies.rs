@@ -1,19 +1,19 @@
-//! Places that write one concept again.
+//! Places that duplicate a concept.
 
 use super::sources::Source;
 
-/// One concept and the words of code that show where it is written out.
+/// One concept, and the code words that show where it is implemented.
 #[derive(Debug)]
 pub struct Copies {
     /// Name of the concept.
     pub concept: &'static str,
-    /// Words of product code, one of which stands in every copy.
+    /// Words of product code; every copy contains one of them.
     pub words: &'static [&'static str],
-    /// Most places that may have it.
+    /// Most places with the concept.
     pub most: usize,
 }
 
-/// Concepts that are written once.
+/// Concepts that must be implemented once.
 pub const COPIES: &[Copies] = &[
     Copies {
         concept: "suggestion of a similar name",
@@ -33,12 +33,22 @@ pub const COPIES: &[Copies] = &[
     Copies {
         concept: "struct Finding",
         words: &["struct Finding "],
-        most: 3,
+        most: 1,
     },
     Copies {
         concept: "struct Report",
         words: &["struct Report ", "struct Report<"],
-        most: 3,
+        most: 1,
+    },
+    Copies {
+        concept: "planes of two channels",
+        words: &["const PLANES:"],
+        most: 1,
+    },
+    Copies {
+        concept: "least number of clusters for an interval",
+        words: &["LEAST_CLUSTERS:", "CLUSTERS_LEAST:"],
+        most: 1,
     },
     Copies {
         concept: "struct SeedScore",
@@ -47,7 +57,7 @@ pub const COPIES: &[Copies] = &[
     },
 ];
 
-/// The product files that have one of the concept's words.
+/// Product files that contain one of the concept's words.
 pub fn copies<'a>(concept: &Copies, sources: &'a [Source]) -> Vec<&'a str> {
     let files = sources.iter().filter(|source| {
         concept

@@ -1,10 +1,10 @@
-//! Doc comments that begin with a clause and not with the name of the thing.
+//! Doc comments that begin with a clause instead of a noun.
 
 use std::collections::BTreeMap;
 
 use super::sources::Source;
 
-/// First words that begin a clause: such a comment paraphrases a thing that has a name.
+/// First words of a clause: such a comment paraphrases a thing that has a name.
 const CLAUSES: [&str; 12] = [
     "How", "It", "Its", "Of", "That", "Those", "What", "Where", "Whether", "Which", "Whoever",
     "Why",
@@ -15,7 +15,7 @@ const CLAUSES: [&str; 12] = [
 pub struct Documentation {
     /// All doc comments in product code.
     pub comments: usize,
-    /// Those of them that begin with a clause.
+    /// Number of comments that begin with a clause.
     pub clauses: usize,
 }
 
@@ -44,7 +44,7 @@ pub fn documentation(sources: &[Source]) -> BTreeMap<&str, Documentation> {
     found
 }
 
-/// The first line of each block of doc comments.
+/// First line of each doc comment.
 fn first_lines(text: &str) -> Vec<&str> {
     let (mut found, mut is_within) = (Vec::new(), false);
     for line in text.lines().map(str::trim_start) {

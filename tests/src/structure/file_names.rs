@@ -1,8 +1,8 @@
-//! Names of files: nouns of the field, no participles and verbs.
+//! File names: nouns of the field instead of participles and verbs.
 
 use super::sources::Source;
 
-/// Stems that name an activity or a state and not a thing.
+/// Stems of participles and verbs.
 const PARTICIPLES: &[&str] = &[
     "accepted",
     "alike",

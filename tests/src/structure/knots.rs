@@ -1,11 +1,11 @@
-//! Knots: top-level modules of a crate that import each other, by whatever way round.
+//! Knots: top-level modules of a crate that import each other, directly or through others.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use crate::imports::{Graph, circles, graph};
 
-/// The imports between the top-level modules of the crate whose sources lie in `src`.
+/// Imports between the top-level modules of the crate with sources in `src`.
 ///
 /// # Panics
 /// If a file cannot be read, which ends the test.

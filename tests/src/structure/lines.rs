@@ -28,7 +28,7 @@ pub fn lines(sources: &[Source]) -> BTreeMap<&str, Lines> {
     found
 }
 
-/// Lines of `text` that are neither blank nor comment, without items behind `#[cfg(test)]`. Lines within a text of several lines count.
+/// Lines of `text` that are neither blank nor comment, without `#[cfg(test)]` items. Lines within a multi-line string count.
 fn product_lines(text: &str) -> usize {
     let mut count = 0;
     let mut lines = text.lines();
@@ -43,7 +43,7 @@ fn product_lines(text: &str) -> usize {
     count
 }
 
-/// Moves behind the item that begins with the next line.
+/// Skips the item that begins with the next line.
 fn skip_item(lines: &mut std::str::Lines<'_>) {
     let (mut depth, mut is_open) = (0_isize, false);
     for line in lines {

@@ -1,22 +1,23 @@
-//! Files that name one example of a metric, a model, a check, a preset, a driver and a kind of device: what adding another one touches.
+//! Files that mention one example of a metric, a model, a check, a preset, a driver and a kind of device: the files to change for a new
+//! one.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::root;
 
-/// One example of something that is added.
+/// Example of a feature that is added repeatedly.
 #[derive(Debug)]
 pub struct Example {
-    /// Kind of thing.
+    /// Kind of feature.
     pub kind: &'static str,
     /// Words that name the example in product code, manifests and headers.
     pub words: &'static [&'static str],
-    /// Most files that may name it.
+    /// Most files that may mention it.
     pub most: usize,
 }
 
-/// The examples whose files are counted.
+/// Examples whose files are counted.
 pub const EXAMPLES: &[Example] = &[
     Example {
         kind: "metric",
@@ -25,7 +26,7 @@ pub const EXAMPLES: &[Example] = &[
             "SignalToRepeatability",
             "SIGNAL_TO_REPEATABILITY",
         ],
-        // Its file, its row of the catalogue, and its axis of a radar.
+        // File, catalogue row and radar axis of the metric.
         most: 3,
     },
     Example {
@@ -55,7 +56,8 @@ pub const EXAMPLES: &[Example] = &[
     },
 ];
 
-/// The files of the product that name the example, from the root of the workspace: Rust, C, Python and TOML outside tests, benches, examples and documents.
+/// Product files that mention the example, relative to the workspace: Rust, C, Python and TOML outside tests, benches, examples and
+/// documents.
 ///
 /// # Panics
 /// If a file cannot be read, which ends the test.
@@ -99,12 +101,12 @@ pub fn mentions(example: &Example) -> Vec<String> {
     found
 }
 
-/// Words of a line; `-` is part of one.
+/// Words of a line; `-` is a letter of a word.
 fn words(line: &str) -> impl Iterator<Item = &str> {
     line.split(|letter: char| !(letter.is_alphanumeric() || letter == '_' || letter == '-'))
 }
 
-/// The files below `folder` that belong to the product.
+/// Product files below `folder`.
 fn walk(folder: &Path, files: &mut Vec<PathBuf>) {
     let entries = fs::read_dir(folder).into_iter().flatten();
     for path in entries.map(|entry| entry.expect("readable").path()) {

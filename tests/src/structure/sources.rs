@@ -17,7 +17,7 @@ pub struct Source {
     pub path: String,
     /// Text of the file.
     pub text: String,
-    /// Code of the file without comments, texts and items for tests alone; empty for files that are no product.
+    /// Code of the file without comments, strings and test items; empty for files outside the product.
     pub product_code: String,
 }
 
@@ -35,7 +35,7 @@ impl Source {
         source
     }
 
-    /// Whether programs are built from the file: it lies outside `tests`, `benches`, `examples` and `fuzz`, and is no `tests.rs`.
+    /// True if the file is part of a program: it lies outside `tests`, `benches`, `examples` and `fuzz`, and is not a `tests.rs`.
     pub fn is_product(&self) -> bool {
         let beside = ["tests", "benches", "examples", "fuzz"];
         !self.path.split('/').any(|part| beside.contains(&part))
@@ -43,7 +43,7 @@ impl Source {
     }
 }
 
-/// Every Rust file of every package, in the order of paths, read once. Files behind symbolic links count where they lie.
+/// Every Rust file of every package, in path order, read once. A file behind a symbolic link counts at its real path.
 ///
 /// # Panics
 /// If a file cannot be read, which ends the test.
@@ -62,7 +62,7 @@ fn read_sources() -> Vec<Source> {
             (package.name.to_string(), folder.as_std_path().to_owned())
         })
         .collect();
-    // A package within another one's folder comes before it and keeps its files.
+    // A package within the folder of another one comes first and keeps its files.
     packages.sort_by_key(|(_, folder)| std::cmp::Reverse(folder.components().count()));
     let mut found: Vec<Source> = Vec::new();
     let mut taken = BTreeSet::new();
@@ -90,7 +90,7 @@ fn read_sources() -> Vec<Source> {
     found
 }
 
-/// Code without the items behind `#[cfg(test)]`; comments and texts must be gone already.
+/// Code without `#[cfg(test)]` items; comments and strings must be removed before.
 ///
 /// ```
 /// use taceva_tests::structure::without_test_items;

@@ -1,4 +1,4 @@
-//! Parameters of functions that are tuples: each is a type that is missing.
+//! Tuple parameters of functions: each stands for a missing type.
 
 use super::sources::Source;
 
@@ -14,7 +14,7 @@ pub fn tuple_parameters(sources: &[Source]) -> Vec<String> {
     found
 }
 
-/// The functions that `code` declares, each with the types of its parameters.
+/// Functions declared in `code`, with the types of their parameters.
 fn parameters(code: &str) -> Vec<(String, Vec<String>)> {
     let mut found = Vec::new();
     for (at, _) in code.match_indices("fn ") {
@@ -41,7 +41,7 @@ fn parameters(code: &str) -> Vec<(String, Vec<String>)> {
     found
 }
 
-/// The text up to the bracket that closes the one before it.
+/// Text up to the closing bracket of an open one.
 fn balanced(text: &str) -> &str {
     let mut depth = 1_usize;
     for (at, letter) in text.char_indices() {
@@ -57,7 +57,7 @@ fn balanced(text: &str) -> &str {
     text
 }
 
-/// The parts between commas that stand within no bracket.
+/// Parts between commas outside brackets.
 fn split(text: &str) -> Vec<String> {
     let (mut parts, mut depth) = (vec![String::new()], 0_isize);
     let mut before = ' ';
@@ -78,7 +78,7 @@ fn split(text: &str) -> Vec<String> {
     parts
 }
 
-/// Whether the type, taken by value or by reference, is a tuple of two or more.
+/// True if the type, by value or by reference, is a tuple of two or more.
 fn is_tuple(kind: &str) -> bool {
     let kind = kind
         .trim_start_matches(['&', ' '])

@@ -1,4 +1,4 @@
-//! The way of one value through the program, as `ARCHITECTURE.md` states it: a line a stop, `file` and function.
+//! Path of one value through the program, as stated in `ARCHITECTURE.md`: one line per stop, with `file` and function.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -12,21 +12,21 @@ struct Stop {
     function: String,
 }
 
-/// The way of one value.
+/// Path of one value.
 #[derive(Debug)]
 pub struct Walk {
-    /// Heading of the way.
+    /// Heading of the path.
     pub name: String,
     stops: Vec<Stop>,
 }
 
 impl Walk {
-    /// Functions that the value passes.
+    /// Number of functions that the value passes.
     pub fn stops(&self) -> usize {
         self.stops.len()
     }
 
-    /// Stops in a file that the value left before.
+    /// Number of stops in a file that the value left before.
     pub fn returns(&self) -> usize {
         let mut left = BTreeSet::new();
         let mut returns = 0;
@@ -38,7 +38,7 @@ impl Walk {
         returns
     }
 
-    /// Stops that are no longer true: the file has no such function, or the function does not name the next one.
+    /// Outdated stops: the file lacks the function, or the function does not name the next one.
     ///
     /// # Panics
     /// If a stop names no file, which ends the test.
@@ -69,7 +69,7 @@ impl Walk {
     }
 }
 
-/// The ways that `ARCHITECTURE.md` states: behind each heading `### The way of …` lines `1. \`file\`: \`function\`: …`.
+/// Paths stated in `ARCHITECTURE.md`: after each heading `### The way of …`, lines `1. \`file\`: \`function\`: …`.
 pub fn walks() -> Vec<Walk> {
     let text = read("ARCHITECTURE.md");
     let sections = text.split("\n### The way of ").skip(1);

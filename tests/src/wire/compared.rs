@@ -1,4 +1,4 @@
-//! How far a study over sockets is from the same study on the bench that is simulated in the program.
+//! Difference of a study over sockets from the same study on the simulated bench.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,32 +7,32 @@ use taceva_dataset::Dataset;
 
 use super::OnTheWire;
 
-/// The greatest differences between two recordings of the same presses, and between the scores of both.
+/// Greatest differences between two recordings of the same presses, and between the scores of both.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Compared {
-    /// Samples of both.
+    /// Number of samples of both.
     pub samples: usize,
-    /// Of depths, in mm.
+    /// Greatest difference of depths, mm.
     pub depth_mm: f64,
-    /// Of a component of the force, in N.
+    /// Greatest difference of a force component, N.
     pub force_n: f64,
-    /// Of a sample of a picture, in steps of its 8 bits.
+    /// Greatest difference of a picture sample, in 8-bit steps.
     pub shade: u8,
-    /// Scores of both.
+    /// Number of scores of both.
     pub scores: usize,
-    /// Scores of one of them alone: of two labels that differ by what links round R² is defined, of two equal ones it is not.
+    /// Scores of only one study: R² is defined for two labels that differ through link noise, and undefined for two equal ones.
     pub of_one_alone: BTreeSet<String>,
-    /// Of the errors `mae` and `smape`, as a part of them.
+    /// Greatest relative difference of the errors `mae` and `smape`.
     pub error_part: f64,
-    /// Of the errors that `r2` and `skill` stand for, √(1 − score), as a part of them. What is left unexplained, 1 − the score, is a ratio of squares:
-    /// it changes by twice the part by which an error does, and says nothing where few labels hardly spread.
+    /// Greatest relative difference of the errors behind `r2` and `skill`, √(1 − score). The unexplained part, 1 − score, is a ratio of
+    /// squares: its relative change is twice that of the error. It means little for few labels with a small spread.
     pub share_part: f64,
 }
 
 /// Compares the run on the wire with the simulated one.
 ///
 /// # Panics
-/// If a recording cannot be read or they are of different presses, which ends the test.
+/// If a recording cannot be read or the presses differ, which ends the test.
 pub fn compare(on: &OnTheWire, (one, other): (&str, &str)) -> Compared {
     let mut compared = Compared::default();
     let recordings = [one, other].map(|run| on.recording(run));
@@ -45,7 +45,7 @@ pub fn compare(on: &OnTheWire, (one, other): (&str, &str)) -> Compared {
     compared
 }
 
-/// The scores of the first study, by metric and channel.
+/// Scores of the first study, by metric and channel.
 fn scores(results: &Value) -> BTreeMap<String, f64> {
     let metrics = results["studies"][0]["metrics"].as_object();
     let mut found = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! What a study on emulated devices does when something goes wrong, again and again.
+//! Outcomes of a study on emulated devices under repeated faults.
 
 use std::collections::BTreeSet;
 use std::time::Duration;
@@ -9,45 +9,45 @@ use taceva_wire::{ArmFault, BenchOptions, Device, Fault, FaultKind, ServeOptions
 use super::{OnTheWire, RUN, UnderWay, scene_of};
 use crate::random::Random;
 
-/// Something that goes wrong.
+/// A fault.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Wrong {
-    /// A link, for so long.
+    /// Fault of a link, for a duration.
     Link(Device, FaultKind, Duration),
-    /// The arm itself, until a person mends it.
+    /// Fault of the arm, until a person repairs it.
     Arm(ArmFault),
 }
 
-/// What must come of it.
+/// Required outcome.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Nothing: the study goes on.
+    /// No effect: the study continues.
     Unharmed,
-    /// The arm is stopped within so many ms, and the study goes on by itself.
+    /// The arm is stopped within this time, ms, and the study continues by itself.
     Stopped(u64),
-    /// The study may end, and goes on where somebody asks it to; where the arm must be stopped, within so many ms.
+    /// The study may end and can be resumed; the arm is stopped within this time, ms, if that is required.
     MayEnd(Option<u64>),
     /// The study ends, and nothing moves any more.
     Left,
 }
 
-/// A fault that is played.
+/// A fault to play.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// How it is called.
+    /// Name of the case.
     pub name: &'static str,
-    /// What goes wrong.
+    /// Fault.
     pub wrong: Wrong,
-    /// What must come of it.
+    /// Required outcome.
     pub outcome: Outcome,
 }
 
-/// A reading that is older is stale, in ms.
+/// Age from which a reading is stale, ms.
 const STALE_MS: u64 = 50;
-/// What the machine and the arm may take beyond, in ms.
+/// Allowance for the machine and the arm, ms.
 const SLACK_MS: u64 = 25;
-/// From a signal that froze to an arm that stands, in ms of motion: eight readings that each come after the tip was seen elsewhere, which an arm shows
-/// 100 times a second, and the time of a halt.
+/// Time from a frozen signal to a standing arm, ms of motion: eight readings, each after a new position of the tip, which an arm reports
+/// 100 times per second, and the time of a halt.
 const FROZEN_MS: u64 = 100;
 
 const fn link(device: Device, kind: FaultKind, lasts_ms: u64) -> Wrong {
@@ -62,7 +62,7 @@ const fn case(name: &'static str, wrong: Wrong, outcome: Outcome) -> Case {
     }
 }
 
-/// Everything that is played.
+/// All cases.
 pub const CASES: [Case; 24] = {
     use Device::{Camera, Force, Robot};
     use FaultKind::{
@@ -103,55 +103,55 @@ pub const CASES: [Case; 24] = {
     ]
 };
 
-/// What came of a fault that was played some times.
+/// Result of a repeated fault.
 #[derive(Clone, Debug, Default)]
 pub struct Played {
-    /// How often it was played.
+    /// Number of repetitions.
     pub times: usize,
-    /// From the fault to the last motion before it was over, time at rest not counted, in ms: in order.
+    /// Times from the fault to the last motion before its end, without time at rest, ms, ascending.
     pub stopped_ms: Vec<f64>,
-    /// Studies that were begun.
+    /// Number of studies started.
     pub studies: usize,
-    /// Times that one ended early and was gone on with.
+    /// Number of studies that ended early and were resumed.
     pub ended: usize,
-    /// What must not have been.
+    /// Forbidden outcomes.
     pub broken: Vec<String>,
 }
 
 impl Played {
-    /// The greatest time to a stop, in ms; 0 of none.
+    /// Greatest time to a stop, ms; 0 if there is none.
     pub fn most_ms(&self) -> f64 {
         self.stopped_ms.last().copied().unwrap_or_default()
     }
 
-    /// The time to a stop that half of them needed at most, in ms; 0 of none.
+    /// Median time to a stop, ms; 0 if there is none.
     pub fn median_ms(&self) -> f64 {
         let middle = self.stopped_ms.len() / 2;
         self.stopped_ms.get(middle).copied().unwrap_or_default()
     }
 }
 
-/// Presses of a study that is played with so many times: a fault now and then is enough for a short one.
+/// Number of presses for a study with `times` faults; a few faults need only a short study.
 fn presses_of(times: usize) -> usize {
     times.clamp(3, 12)
 }
 
-/// A study that is gone on with so often beyond the faults that may end it makes no progress.
+/// Most resumptions beyond the faults that may end a study; more mean no progress.
 const MOST_ENDS: usize = 60;
-/// How long an arm that must not move is looked at.
+/// Observation time of an arm that must not move.
 const LOOKED_AT: Duration = Duration::from_millis(300);
 
-/// Presses that follow each other fast, so that much can go wrong in little time.
+/// Scene with presses in quick succession, so that many faults fit into little time.
 fn scene(presses: usize) -> String {
     let text = scene_of(presses);
-    // No faster: a busy machine would be refused, as one that reacts too late.
+    // At a higher speed a busy machine would be rejected for reacting too late.
     let quick = "speed_mm_s = 2.0\nclearance_mm = 0.6\nsettle_s = 0.02\n";
     let changed = text.replace("speed_mm_s = 2.0\n", quick);
     assert!(changed != text, "the scene has a speed");
     changed
 }
 
-/// Plays `case` so many times, at moments drawn from `seed`.
+/// Plays `case` as often as `times`, at moments drawn from `seed`.
 ///
 /// # Panics
 /// If the devices or the program cannot be started, which ends the test.
@@ -169,7 +169,7 @@ pub fn play(case: &Case, times: usize, seed: u64) -> Played {
 }
 
 impl Played {
-    /// Plays with one study until it has every press, or is left where it is.
+    /// Plays with one study until it has every press, or is left in place.
     fn play_study(&mut self, case: &Case, times: usize, on: &OnTheWire, random: &mut Random) {
         let mut ends = 0;
         loop {
@@ -177,12 +177,12 @@ impl Played {
             let mut study = UnderWay::begin(on.study());
             let mut is_left = false;
             while study.ended().is_none() {
-                // What goes wrong while a session begins ends it, and nothing was pressed.
+                // A fault during the start of a session ends it before the first press.
                 if sessions(on) == begun {
                     std::thread::sleep(Duration::from_millis(5));
                     continue;
                 }
-                // A press that is broken off three times ends the study, so there is more than a press between two faults.
+                // A press that is interrupted three times ends the study, so two faults are more than a press apart.
                 let pause = match case.outcome {
                     Outcome::Unharmed => Duration::from_millis(200),
                     Outcome::Stopped(_) => Duration::from_millis(8_000),
@@ -214,7 +214,7 @@ impl Played {
         }
     }
 
-    /// Does it, and sees when the arm last moved before it was over; whether nothing may move from now on.
+    /// Injects the fault and measures the time of the last motion before its end. True if nothing may move from now on.
     fn strike(&mut self, case: &Case, on: &OnTheWire) -> bool {
         let bench = on.served.bench();
         self.times += 1;
@@ -249,11 +249,11 @@ impl Played {
         false
     }
 
-    /// Nothing moves any more: neither while the study ends, nor where somebody goes on with it.
+    /// Checks that nothing moves: neither while the study ends, nor when somebody resumes it.
     fn is_still(&mut self, on: &OnTheWire, is_well: bool) {
         let bench = on.served.bench();
         if is_well {
-            self.broken.push("a study that went on".to_owned());
+            self.broken.push("a study that continued".to_owned());
         }
         let stood = bench.truth().way_mm;
         let (is_well, _) = UnderWay::begin(on.study()).end();
@@ -266,11 +266,11 @@ impl Played {
     }
 }
 
-/// Kills a study so many times, as `kill -9` does, each time after a time that is drawn from `seed`, and goes on with it: how many presses
-/// were recorded in the end, or what they lack.
+/// Kills a study repeatedly, as `kill -9` does, each time after a delay drawn from `seed`, and resumes it. Returns the number of recorded
+/// presses.
 ///
 /// # Errors
-/// What the recording lacks or has twice, or what the last study said.
+/// Missing or duplicate presses of the recording, or the output of the last study.
 ///
 /// # Panics
 /// If the devices or the program cannot be started, which ends the test.
@@ -284,7 +284,7 @@ pub fn play_kills(times: usize, seed: u64) -> Result<usize, String> {
         let mut study = UnderWay::begin(on.study());
         std::thread::sleep(Duration::from_millis(300 + random.below(30_000) as u64));
         if study.ended() == Some(true) {
-            // It was faster: what is recorded is judged, and begun anew.
+            // The study was faster than the kill: check its recording and restart.
             lacks(&on.recording(RUN), presses).map_or(Ok(()), Err)?;
             let folder = on.folder().join(RUN);
             std::fs::remove_dir_all(folder).map_err(|error| error.to_string())?;
@@ -306,7 +306,7 @@ pub fn play_kills(times: usize, seed: u64) -> Result<usize, String> {
     }
 }
 
-/// How many sessions of the recording have begun.
+/// Number of sessions in the recording.
 fn sessions(on: &OnTheWire) -> usize {
     let path = on.folder().join(RUN).join("recordings/1-wire.sessions.csv");
     std::fs::read_to_string(path).map_or(0, |text| text.lines().count())
@@ -324,7 +324,7 @@ fn wait_for_motion(on: &OnTheWire, study: &mut UnderWay, pause: Duration) -> boo
     study.ended().is_none()
 }
 
-/// What a recording lacks of so many presses, or has twice.
+/// Presses that a recording of `expected` presses lacks or has twice, if any.
 fn lacks(recording: &Dataset, expected: usize) -> Option<String> {
     let samples = recording.table().samples();
     let presses: BTreeSet<&str> = samples

@@ -1,4 +1,4 @@
-//! Sessions of the program on emulated controllers, through sockets: wrong axes are refused, and so is a second run on the same rig.
+//! Sessions of the program on emulated controllers, through sockets: wrong axes and a second run on the same rig are rejected.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use taceva_tests::wire::{OnTheWire, RUN, UnderWay, finished, scene_of};
 use taceva_wire::{BenchOptions, ServeOptions};
 
 const SEED: u64 = 7;
-/// Times that a run is started again where a busy machine read so late that it was halted.
+/// Most restarts of a run that a busy machine halted because of late readings.
 const PATIENCE: usize = 5;
 const RIGHT: &str = "axes = [\"x\", \"-y\", \"-z\"]";
 
@@ -23,14 +23,14 @@ fn wrong_axes_of_the_transducer_end_a_session_with_their_line_before_anything_is
     let text = fs::read_to_string(&file).expect("written");
     let (robot, force) = text.split_once("[force]").expect("a transducer");
     assert!(force.contains(RIGHT), "{text}");
-    // `[force]` begins a line, and its axes are two below.
+    // `[force]` begins a line, and its axes are two lines below.
     let line = robot.lines().count() + 3;
     for wrong in ["[\"x\", \"y\", \"z\"]", "[\"-x\", \"y\", \"-z\"]"] {
         let turned = force.replacen(RIGHT, &format!("axes = {wrong}"), 1);
         fs::write(&file, format!("{robot}[force]{turned}")).expect("written");
         let mut said = String::new();
         for _ in 0..PATIENCE {
-            // Nothing was pressed: the run begins anew.
+            // Nothing was pressed: restart the run.
             let _ = fs::remove_dir_all(on.folder().join(RUN));
             said = finished(on.study()).expect_err("the axes are wrong");
             if !said.contains("ms old") {
@@ -40,7 +40,7 @@ fn wrong_axes_of_the_transducer_end_a_session_with_their_line_before_anything_is
         let place = format!("line {line}: `axes` of [force]: ");
         assert!(said.contains(&place), "{said}");
         assert!(said.contains(&format!("write {RIGHT}")), "{said}");
-        // Half of what is allowed, and out again.
+        // At most half of the allowed depth, and out again.
         let truth = on.served.bench().truth();
         assert!(
             truth.deepest_mm < 0.75 && truth.tip_mm[2] < -0.9,

@@ -1,4 +1,4 @@
-//! `taceva rig tap` over sockets: links that are late by known amounts are found to be, and the rig file says so.
+//! `taceva rig tap` over sockets: known link latencies are measured and written to the rig file.
 
 use std::fs;
 use std::process::Output;
@@ -9,16 +9,16 @@ use taceva_tests::wire::{OnTheWire, scene_of};
 use taceva_wire::{BenchOptions, Device, RobotKind, ServeOptions};
 
 const SEED: u64 = 7;
-/// By so much later than they were sent messages arrive, in ms.
+/// Emulated latency of messages, ms.
 const FORCE_MS: f64 = 20.0;
 const CAMERA_MS: f64 = 60.0;
-/// What is found may be off by so much, in ms: a frame of 25 Hz is drawn and encoded while others compile, and the force is read every 5 ms.
+/// Tolerance of measured latencies, ms: frames of 25 Hz are drawn and encoded while others compile, and the force is read every 5 ms.
 const FORCE_OFF_MS: f64 = 4.0;
 const CAMERA_OFF_MS: f64 = 15.0;
-/// Times that taps are asked for again where a busy machine scattered them, or read so late that it was refused.
+/// Most repetitions of taps that a busy machine scattered or delayed.
 const PATIENCE: usize = 5;
 
-/// Emulated devices whose links lag.
+/// Emulated devices with link latencies.
 fn lagging(robot: RobotKind) -> OnTheWire {
     let options = ServeOptions {
         robot,
@@ -36,7 +36,7 @@ fn tap(on: &OnTheWire, options: &[&str]) -> Output {
     taps.args(options).output().expect("the program was built")
 }
 
-/// What the taps said, asked for again where the machine was too busy.
+/// Output of the taps, repeated if the machine was too busy.
 fn tapped(on: &OnTheWire, options: &[&str]) -> Value {
     let mut said = String::new();
     for _ in 0..PATIENCE {
@@ -78,18 +78,18 @@ fn links_that_lag_by_known_amounts_are_found_to_and_the_rig_file_says_so() {
         .find_map(|line| line.strip_prefix("latency_ms = "));
     let written_ms: f64 = line.expect("it is written").parse().expect("a number");
     assert!((written_ms - robot_ms - force_ms).abs() < 1e-9, "{after}");
-    // The comment of the first line, and every line but the two, are as they were.
+    // All lines but these two are unchanged, including the comment of the first line.
     let changed = before.lines().zip(after.lines());
     let changed = changed.filter(|(before, after)| before != after).count();
     assert!(
         after.starts_with("# Everything here is simulated") && changed == 2,
         "{after}"
     );
-    // Tapped again, nothing is left: stamps are corrected by what is written.
+    // Repeated taps find no remaining latency: the rig file corrects the stamps.
     let again = tapped(&on, &["--dry-run"]);
     let left_ms = number(&again["force"]["after_robot_ms"]);
     assert!(left_ms.abs() < FORCE_OFF_MS, "{again}");
-    // The arm stands above the gel, which was pressed by less than half of what is allowed.
+    // The arm is above the gel, which was pressed by less than half of the allowed depth.
     let truth = on.served.bench().truth();
     assert!(
         truth.tip_mm[2] < -0.9 && truth.deepest_mm < 0.5,

@@ -1,5 +1,5 @@
-//! The disk becomes full while a rig is pressing: the run ends with a typed error, the arm leaves the gel, and what was recorded is gone on with
-//! where there is room.
+//! The disk becomes full while a rig is pressing. The run ends with a typed error, the arm leaves the gel, and the recording resumes once
+//! there is space.
 
 use std::fs;
 use std::path::Path;
@@ -13,11 +13,11 @@ use taceva_wire::{BenchOptions, ServeOptions};
 
 const SEED: u64 = 7;
 const PRESSES: usize = 8;
-/// The exit code of what the system refuses.
+/// Exit code for errors of the system.
 const REFUSED: &str = "3";
 
-/// A run on a disk that nobody else sees: it is filled once `fill` is there, and emptied once `empty` is. What a machine that is too busy ends
-/// (exit code 4, as a reading came late) is gone on with.
+/// Script of a run on a private disk, which is filled once `fill` exists and emptied once `empty` exists. A run that a busy machine ends
+/// (exit code 4: a late reading) is resumed.
 const ON_A_DISK: &str = r#"
 disk=$0 said=$1
 shift 1
@@ -46,7 +46,7 @@ done
 cp -r "$disk/wire" "$said/wire"
 "#;
 
-/// Waits for `seen`, or until the script has ended.
+/// Waits until `seen` returns true, or until the script has ended.
 fn until(script: &mut Child, doing: &str, mut seen: impl FnMut() -> bool) {
     let patience = Instant::now() + Duration::from_secs(300);
     while !seen() {
@@ -125,7 +125,7 @@ fn a_disk_that_is_full_amid_presses_ends_the_run_above_the_gel_and_nothing_is_lo
     assert_eq!(presses_of(&recording), PRESSES);
 }
 
-/// How many contact points have each of their two samples once.
+/// Number of contact points that have each of their two samples once.
 fn presses_of(recording: &Path) -> usize {
     let dataset =
         taceva_dataset::Dataset::open(recording).unwrap_or_else(|error| panic!("{error}"));

@@ -1,12 +1,12 @@
-//! A study over real sockets is the one that is simulated in the program. `TACEVA_WIRE_PRESSES=60` compares scores too.
+//! A study over real sockets equals the one simulated in the program. `TACEVA_WIRE_PRESSES=60` compares scores too.
 
 use taceva_tests::wire::{OnTheWire, RUN, compare, finished, scene_of};
 use taceva_wire::{BenchOptions, ServeOptions};
 
 const SEED: u64 = 7;
-/// Presses of the usual test, which takes a minute and a half.
+/// Presses of the default test, which takes a minute and a half.
 const FEW: usize = 10;
-/// Presses from which scores are compared.
+/// Fewest presses for a comparison of scores.
 const WHOLE: usize = 60;
 const DEPTH_APART_MM: f64 = 5e-5;
 const FORCE_APART_N: f64 = 2e-3;
@@ -39,8 +39,8 @@ fn a_study_over_sockets_is_the_one_that_is_simulated_in_the_program() {
     assert!(compared.depth_mm <= DEPTH_APART_MM, "{compared:?}");
     assert!(compared.force_n <= FORCE_APART_N, "{compared:?}");
     assert!(compared.shade <= 1, "{compared:?}");
-    // A small study is tested on one or two presses, by a model of a few samples: its scores move by more than what links round, and R² of a depth
-    // that both presses share is undefined where the depths are equal to the last digit.
+    // A small study tests one or two presses with a model of few samples, so its scores change by more than link noise. R² is undefined if
+    // both presses have exactly the same depth.
     let is_of_equal_labels = |name: &String| presses < WHOLE && name.starts_with("r2 ");
     assert!(
         compared.of_one_alone.iter().all(is_of_equal_labels),

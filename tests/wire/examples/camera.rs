@@ -1,7 +1,7 @@
-//! A camera of any rate, for measuring what a capture keeps up with: `cargo run -p taceva-wire --example camera -- 60 640 480`.
+//! Camera of any rate, to measure the limit of a capture: `cargo run -p taceva-wire --example camera -- 60 640 480`.
 //!
-//! Prints the address of its stream, and serves it until its standard input ends. Its pictures are drawn beforehand: noise over a slow light and a
-//! dark disc that wanders, as a gel that is touched shows it, as JPEG of quality 90.
+//! Prints the address of its stream, and serves it until its standard input ends. Pictures are drawn beforehand, as JPEG of quality 90:
+//! noise over a slow light and a moving dark disc, like a touched gel.
 
 use std::error::Error;
 use std::io::{Read, Write};
@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use image::codecs::jpeg::JpegEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 
-/// Pictures that are shown in turn.
+/// Number of pictures, shown in turn.
 const PICTURES: u32 = 60;
 const QUALITY: u8 = 90;
 
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         while let Ok((stream, _)) = listener.accept() {
             let pictures = Arc::clone(&pictures);
             std::thread::spawn(move || {
-                // A client that goes ends its stream.
+                // A closed client ends its stream.
                 let _ = serve(stream, rate_hz, &pictures);
             });
         }

@@ -1,10 +1,10 @@
-//! How long it takes from a force above its limit until the arm stands, over sockets: `trips [TIMES] [SPEED]`, 20 at 5 mm/s by default.
+//! Measures the time from a force above its limit until the arm stands, over sockets: `trips [TIMES] [SPEED]`, by default 20 at 5 mm/s.
 //!
-//! One uninterrupted motion into the gel; a thread reads the transducer 200 times a second and halts the arm at 0.5 N. The times are those of
-//! this machine under its present load, and of an arm without a braking distance: the tip may go on by no more than its speed makes of the time that
-//! 999 trips of 1,000 need. `chrt -f 10 target/debug/examples/trips 1000` asks for the priority that docs/rig.md names.
+//! One uninterrupted motion into the gel; a thread reads the transducer 200 times per second and halts the arm at 0.5 N. The times depend
+//! on this machine and its load, for an arm without a braking distance. The allowed distance is the speed times the time of 999 trips in
+//! 1,000. `chrt -f 10 target/debug/examples/trips 1000` sets the priority that docs/rig.md names.
 //!
-//! Ends with 1 if a trip ended otherwise than by a halt, if more than 1 trip of 1,000 takes longer than 50 ms, or goes further than that.
+//! Exits with 1 if a trip ended without a halt. Also if more than 1 trip in 1,000 takes longer than 50 ms or exceeds the allowed distance.
 
 use std::error::Error;
 use std::net::Ipv4Addr;
@@ -17,16 +17,16 @@ use taceva_drivers::{Drivers, open};
 use taceva_wire::{Arm, BenchOptions, WallBench, sri, xarm};
 
 const LIMIT_N: f64 = 0.5;
-/// Between two readings.
+/// Interval between readings.
 const PERIOD: Duration = Duration::from_millis(5);
 const PHASES: u32 = 16;
-/// From a limit that is passed to an arm that stands, in ms.
+/// Longest allowed time from the exceeded limit to a standing arm, ms.
 const LATEST_MS: f64 = 50.0;
-/// How often the truth is looked at, in ms.
+/// Interval at which the truth is observed, ms.
 const LOOK_MS: f64 = 1.0;
 const PATIENCE: Deadline = Deadline::after(Duration::from_secs(20));
 
-/// `pose` at a height above the gel, in mm; below 0 in it.
+/// `pose` at a height above the gel, mm; negative inside it.
 fn at(pose: Pose, height_mm: f64) -> Pose {
     let mut at = pose;
     at.position.z = Millimetre(251.3 + height_mm);
@@ -58,7 +58,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         if let Some(tare) = transducer.tare() {
             tare.zero(PATIENCE)?;
         }
-        // The limit is passed at another moment between two readings each time.
+        // Each trip exceeds the limit at another moment between two readings.
         std::thread::sleep(PERIOD * (trip % PHASES) / PHASES);
         bench.watch(Some(LIMIT_N));
         let handle = robot.halt_handle();
@@ -66,7 +66,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         let moved = std::thread::scope(|scope| {
             scope.spawn(|| {
                 while !is_over.load(Ordering::Acquire) {
-                    // The transducer is mounted as the base frame lies: what presses into the gel points down.
+                    // The axes of the transducer are those of the base frame: a pressing force points down.
                     let reading = transducer.read(PATIENCE);
                     if reading.is_ok_and(|(wrench, _)| -wrench.force[2].0 > LIMIT_N) {
                         let _ = handle.halt();
@@ -79,11 +79,11 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
             moved
         });
         if !moved.is_err_and(|error| error.kind() == ErrorKind::Interrupted) {
-            // It came to the end of its way first, or was given up because nothing was heard of it.
+            // The arm reached the end of its path first, or the trip was abandoned without readings.
             unhalted += 1;
         }
         let truth = bench.truth();
-        // A reading that errs upwards halts the arm before the limit is truly passed.
+        // A reading with a positive error halts the arm before the true force exceeds the limit.
         let took = match (truth.passed, truth.stopped) {
             (Some(passed), Some(stopped)) => stopped.saturating_sub(passed),
             _ => Duration::ZERO,
@@ -100,7 +100,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let last = took_ms.len().saturating_sub(1);
     let share = |all: &[f64], thousandths: usize| all[(last * thousandths).div_ceil(1000)];
     let [late_ms, far_mm] = [&took_ms, &went_mm].map(|all| share(all, 999));
-    // The truth is looked at every millisecond, so that what it says of both ends is that late at most.
+    // The truth is observed every millisecond, so both times are late by at most that.
     let bound_mm = speed_mm_s * (late_ms + LOOK_MS) * 1e-3;
     println!("| trips | speed | | median | 99 % | 99.9 % | most |");
     println!("|---|---|---|---|---|---|---|");
@@ -114,7 +114,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
             all[last]
         );
     }
-    println!("v·t = {bound_mm:.3} mm; {unhalted} trips ended before anybody halted them");
+    println!("v·t = {bound_mm:.3} mm; {unhalted} trips ended without a halt");
     Ok(
         match unhalted == 0 && late_ms <= LATEST_MS && far_mm <= bound_mm {
             true => ExitCode::SUCCESS,

@@ -1,8 +1,8 @@
-//! Where the sensor stands on the table of the robot.
+//! Pose of the sensor on the table of the robot.
 
 use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 
-/// The base frame of the robot, seen from the sensor: x along the sensor's x, y against its y, and z up, out of the gel.
+/// Base frame of the robot relative to the sensor: x along the sensor's x, y opposite to its y, and z up, out of the gel.
 ///
 /// ```
 /// use taceva_wire::Base;
@@ -13,28 +13,28 @@ use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 pub struct Base;
 
 impl Base {
-    /// Where the middle of the untouched gel is, in mm.
+    /// Centre of the untouched gel in the base frame, mm.
     pub const ORIGIN_MM: [f64; 3] = [300.0, 0.0, 251.3];
-    /// Which axis of the base each axis of the sensor is, as a rig file says it.
+    /// Base axis of each sensor axis, as in a rig file.
     pub const AXES: [&'static str; 3] = ["x", "-y", "-z"];
     const SIGNS: [f64; 3] = [1.0, -1.0, -1.0];
 
-    /// A place in the sensor's frame, in the base frame; both in mm.
+    /// Converts a place from the sensor's frame to the base frame, mm.
     pub fn to_base(sensor_mm: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|axis| Base::ORIGIN_MM[axis] + Base::SIGNS[axis] * sensor_mm[axis])
     }
 
-    /// A place in the base frame, in the sensor's frame; both in mm.
+    /// Converts a place from the base frame to the sensor's frame, mm.
     pub fn to_sensor(base_mm: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|axis| Base::SIGNS[axis] * (base_mm[axis] - Base::ORIGIN_MM[axis]))
     }
 
-    /// A force in the sensor's frame, in that of a transducer that is mounted as the base frame lies; and the other way round.
+    /// Converts a force between the sensor's frame and that of a transducer with the axes of the base frame, in either direction.
     pub fn turn(force_n: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|axis| Base::SIGNS[axis] * force_n[axis])
     }
 
-    /// The pose in the sensor's frame of a tool at `base_mm`, turned by `yaw_rad` about the base's z.
+    /// Pose in the sensor's frame of a tool at `base_mm`, rotated by `yaw_rad` about the base's z axis.
     pub(crate) fn pose(base_mm: [f64; 3], yaw_rad: f64) -> Pose {
         let [x, y, z] = Base::to_sensor(base_mm).map(Millimetre);
         Pose {

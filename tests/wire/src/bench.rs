@@ -1,4 +1,4 @@
-//! The simulated gel in real time.
+//! Simulated gel in real time.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, Instant};
@@ -11,7 +11,7 @@ use crate::error::WireError;
 use crate::fault::{Device, Fault, FaultKind, Faults};
 use crate::options::BenchOptions;
 
-/// A simulated gel whose time passes by itself, shared by all emulated devices over it.
+/// A simulated gel in real time, shared by all its emulated devices.
 #[derive(Clone, Debug)]
 pub struct WallBench {
     inner: Arc<Inner>,
@@ -27,50 +27,50 @@ struct Inner {
     options: BenchOptions,
 }
 
-/// What is true, whatever the links say.
+/// True state of the bench, independent of the links.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Truth {
-    /// Where the tip is, in the sensor's frame, in mm.
+    /// Position of the tip in the sensor's frame, mm.
     pub tip_mm: [f64; 3],
-    /// What presses on the gel, in the sensor's frame, in N; 0 under a board.
+    /// Force on the gel in the sensor's frame, N; 0 under a board.
     pub force_n: [f64; 3],
-    /// Whether the tip moves.
+    /// True while the tip moves.
     pub is_moving: bool,
-    /// How far the tip has gone since the start of the bench, in mm.
+    /// Length of the tip's path since the start of the bench, mm.
     pub way_mm: f64,
-    /// For how long it has moved since then.
+    /// Time in motion since the start of the bench.
     pub in_motion: Duration,
-    /// When it was last seen to have moved, since the start of the bench.
+    /// Time of the last observed motion, since the start of the bench.
     pub moved: Duration,
-    /// When it was looked at last.
+    /// Time of the last observation.
     looked: Duration,
-    /// The greatest z of the tip since it was last forgotten, in mm.
+    /// Greatest z of the tip since the last reset, mm.
     pub deepest_mm: f64,
-    /// The normal force that is watched, in N.
+    /// Monitored limit of the normal force, N.
     pub limit_n: Option<f64>,
-    /// When that force was first passed, since the start of the bench.
+    /// Time at which the force first exceeded the limit, since the start of the bench.
     pub passed: Option<Duration>,
-    /// How deep the tip was then, in mm.
+    /// Depth of the tip at that time, mm.
     pub passed_mm: Option<f64>,
-    /// When the tip first stood after that.
+    /// First time after that at which the tip stood.
     pub stopped: Option<Duration>,
 }
 
-/// How often the gel is looked at.
+/// Interval at which the gel is observed.
 const TICK: Duration = Duration::from_millis(1);
-/// How many readings a box that calls the load zero takes the mean of.
+/// Number of readings averaged when a box sets the load to zero.
 const TARE_READINGS: u32 = 16;
 
 impl WallBench {
-    /// A bench whose time begins now.
+    /// Starts a bench.
     ///
     /// # Errors
-    /// [`WireError`] if the gel or its camera cannot be made, or no thread starts.
+    /// [`WireError`] if the gel or its camera cannot be created, or no thread starts.
     pub fn start(options: &BenchOptions) -> Result<WallBench, WireError> {
         let parameters = options.parameters()?;
         let spec = OpticsSpec::new(&parameters);
         let size = spec.native.map(|side| (side / options.reduction).max(1));
-        // What cameras send has 8 bits.
+        // Cameras send 8 bits.
         let mut camera = Camera::new(&spec, size, UNIT, options.seed)?.with_bits(Bits::Eight);
         camera.prepare();
         let rig = SimulatedRig::of(&mut Rig::new(), "wire");
@@ -98,30 +98,30 @@ impl WallBench {
         Ok(bench)
     }
 
-    /// What kind of bench it is.
+    /// Options of the bench.
     pub fn options(&self) -> &BenchOptions {
         &self.inner.options
     }
 
-    /// The name of every emulated device: a host that reads it knows that nothing is real.
+    /// Name of every emulated device, which shows a host that the device is simulated.
     pub fn serial(&self) -> String {
         format!("TACEVA-SIM{:04}", self.inner.options.seed % 10_000)
     }
 
-    /// The time since the start, to which the gel has gone on.
+    /// Advances the gel to the present, and returns the time since the start.
     pub fn now(&self) -> Duration {
         let now = self.inner.began.elapsed();
         self.inner.rig.advance(now);
         now
     }
 
-    /// Begins to move the tip, from where it is.
+    /// Starts a motion of the tip from its present position.
     pub(crate) fn set_out(&self, target: Pose, speed: Speed) {
         self.now();
         self.inner.rig.set_out(target, speed);
     }
 
-    /// Ends the motion that is under way, where the tip is now.
+    /// Ends the present motion at the present position.
     pub(crate) fn stand(&self) {
         self.now();
         self.inner.rig.stand();
@@ -132,46 +132,46 @@ impl WallBench {
         self.inner.rig.is_moving()
     }
 
-    /// Where the robot believes that the tip is.
+    /// Pose of the tip as the robot measures it.
     pub(crate) fn pose(&self) -> Pose {
         self.now();
         self.inner.rig.pose_now()
     }
 
-    /// What the transducer reads now, in the sensor's frame, in N.
+    /// Present reading of the transducer in the sensor's frame, N.
     pub(crate) fn reading_n(&self) -> [f64; 3] {
         self.now();
         self.inner.rig.read_now()
     }
 
-    /// Calls the load zero in the transducer itself.
+    /// Sets the load to zero in the transducer itself.
     pub(crate) fn tare(&self) {
         self.now();
         self.inner.rig.tare_now(TARE_READINGS);
     }
 
-    /// What the transducer measures along each axis at most, in N.
+    /// Measuring range of the transducer along each axis, N.
     pub fn force_range_n(&self) -> f64 {
         self.inner.options.model.parameters().transducer.range_n
     }
 
-    /// How deep, in mm, and how hard, in N, the gel may be pressed.
+    /// Maximum depth of a press, mm, and its maximum force, N.
     pub(crate) fn limits(&self) -> [f64; 2] {
         let probing = self.inner.options.model.parameters().probing;
         [probing.depth_max_mm, probing.force_max_n]
     }
 
-    /// The size and the format of the camera's frames.
+    /// Size and format of the camera's frames.
     pub fn frame_info(&self) -> FrameInfo {
         self.camera().frame_info()
     }
 
-    /// Frames a second.
+    /// Frame rate, Hz.
     pub fn frame_rate_hz(&self) -> f64 {
         self.inner.options.model.parameters().camera.rate_hz
     }
 
-    /// What the camera sees now.
+    /// Present picture of the camera.
     pub(crate) fn picture(&self) -> Result<Vec<u8>, WireError> {
         self.now();
         let mut camera = self.camera();
@@ -183,7 +183,7 @@ impl WallBench {
         Ok(pixels)
     }
 
-    /// Exchanges what the robot carries.
+    /// Changes the specimen on the robot.
     ///
     /// # Errors
     /// [`MountError::InContact`] while the tip is in the gel.
@@ -197,13 +197,13 @@ impl WallBench {
         self.inner.rig.light_now(light);
     }
 
-    /// Puts a fault on a link.
+    /// Starts a fault of a link.
     pub fn inject(&self, fault: Fault) {
         self.inner.faults.put(fault);
     }
 
-    /// Lets every message that `device` streams from now on arrive so much later than it was sent, and none out of turn: a latency that is
-    /// known. The link of an ATI box and those of machines of G-code have none.
+    /// Sets a known latency: every message that `device` streams from now on arrives later by `lag`, in order. Links of ATI boxes and of
+    /// G-code machines have no latency.
     pub fn set_lag(&self, device: Device, lag: Duration) {
         self.inner.faults.set_lag(device, lag);
     }
@@ -224,13 +224,13 @@ impl WallBench {
         self.inner.faults.delay(device)
     }
 
-    /// What is true now.
+    /// Present true state.
     pub fn truth(&self) -> Truth {
         self.inner.look();
         *self.inner.truth()
     }
 
-    /// Forgets what was deepest and when a limit was passed, and watches for `limit_n` from now on.
+    /// Resets the greatest depth and the exceeded limit, and monitors `limit_n` from now on.
     pub fn watch(&self, limit_n: Option<f64>) {
         let mut truth = self.inner.truth();
         truth.deepest_mm = f64::NEG_INFINITY;
@@ -246,7 +246,7 @@ impl WallBench {
     }
 }
 
-/// The specimen of the sensor: the nominal one.
+/// Unit of the sensor: the nominal one.
 const UNIT: u32 = 0;
 
 impl Inner {
@@ -254,7 +254,7 @@ impl Inner {
         self.truth.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Lets the gel go on to now, and notes what is true.
+    /// Advances the gel to the present and records the true state.
     fn look(&self) {
         let now = self.began.elapsed();
         let mut truth = self.truth();
@@ -284,7 +284,7 @@ impl Inner {
     }
 }
 
-/// Looks at the gel every millisecond, until nobody has the bench any more.
+/// Observes the gel every millisecond, until the bench is dropped.
 fn watch(bench: &Weak<Inner>) {
     while let Some(inner) = bench.upgrade() {
         inner.look();

@@ -1,4 +1,4 @@
-//! All devices of a bench, served together, as the program does it.
+//! Server of all devices of a bench, as the program starts it.
 
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::Path;
@@ -14,7 +14,7 @@ use crate::options::BenchOptions;
 use crate::rig_file::RigFile;
 use crate::{mjpeg, netft, sri, ur, xarm};
 
-/// The robot over the gel.
+/// Robot over the gel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum RobotKind {
     /// An arm of UFACTORY.
@@ -24,12 +24,12 @@ pub enum RobotKind {
     /// A machine with GRBL, on a pseudo-terminal.
     #[cfg(unix)]
     Grbl,
-    /// A printer with Marlin, on a pseudo-terminal; its firmware takes a stop while it moves.
+    /// A printer with Marlin, on a pseudo-terminal; its firmware accepts a stop during a motion.
     #[cfg(unix)]
     Marlin,
 }
 
-/// What measures the force.
+/// Device that measures the force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ForceKind {
     /// A box of SRI.
@@ -38,22 +38,22 @@ pub enum ForceKind {
     Netft,
 }
 
-/// Which devices are served, and where.
+/// Served devices, and their addresses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ServeOptions {
     /// The gel.
     pub bench: BenchOptions,
-    /// The robot over it.
+    /// Robot over the gel.
     pub robot: RobotKind,
-    /// What measures the force.
+    /// Device that measures the force.
     pub force: ForceKind,
-    /// An address of loopback.
+    /// Loopback address.
     pub host: Ipv4Addr,
-    /// Whether ports are those that public clients expect, and not any free ones.
+    /// True for the ports that public clients expect, false for any free ports.
     pub uses_usual_ports: bool,
-    /// The version of its firmware that the controller of an xArm reports.
+    /// Firmware version reported by the xArm controller.
     pub firmware: [u32; 3],
-    /// Whether the rig file names the stream that loses nothing.
+    /// True if the rig file names the lossless stream.
     pub is_lossless: bool,
 }
 
@@ -72,13 +72,13 @@ impl ServeOptions {
     }
 }
 
-/// Emulated devices that listen until this is dropped.
+/// Emulated devices that listen until drop.
 pub struct Served {
     bench: WallBench,
     arm: Arc<dyn Arm>,
     control: Control,
     text: String,
-    /// Kept until the end: a device that is dropped is unplugged.
+    /// Kept until the end: dropping a device unplugs it.
     _force: Box<dyn Send + Sync>,
     _camera: mjpeg::Emulator,
 }
@@ -87,7 +87,7 @@ impl Served {
     /// Starts a robot, a transducer, a camera and the control port.
     ///
     /// # Errors
-    /// [`WireError`] if one of them cannot be started.
+    /// [`WireError`] if one of them does not start.
     pub fn start(options: &ServeOptions) -> Result<Served, WireError> {
         let bench = WallBench::start(&options.bench)?;
         let host = options.host;
@@ -154,22 +154,22 @@ impl Served {
         })
     }
 
-    /// The gel, whose truth is known.
+    /// The gel, with its true state.
     pub fn bench(&self) -> &WallBench {
         &self.bench
     }
 
-    /// The robot, as its surroundings act on it.
+    /// The robot, for faults from outside.
     pub fn arm(&self) -> &dyn Arm {
         &*self.arm
     }
 
-    /// Where faults are injected and the truth is asked for.
+    /// Address of the control port, which injects faults and returns the true state.
     pub fn control_address(&self) -> SocketAddr {
         self.control.address()
     }
 
-    /// The text of the rig file.
+    /// Text of the rig file.
     pub fn rig_file(&self) -> &str {
         &self.text
     }

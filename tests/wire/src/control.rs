@@ -1,4 +1,4 @@
-//! The port through which a test mounts specimens, sets the light, puts faults on links and asks for the truth: one JSON value per line.
+//! Control port of a test: mounts specimens, sets the light, injects faults and returns the true state; one JSON value per line.
 //!
 //! ```text
 //! {"mount": {"ball_mm": 4}}
@@ -11,7 +11,7 @@
 //! "truth"
 //! ```
 //!
-//! Each is answered by one line: `{"ok": true, …}` or `{"ok": false, "error": "…"}`.
+//! Each request is answered by one line: `{"ok": true, …}` or `{"ok": false, "error": "…"}`.
 
 use std::io::{self, BufRead, BufReader, Write};
 use std::net::{Ipv4Addr, SocketAddr, TcpStream};
@@ -29,7 +29,7 @@ use crate::error::WireError;
 use crate::fault::{Arm, ArmFault, Device, Fault, FaultKind};
 use crate::server::{End, Server};
 
-/// What is asked for.
+/// Request.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 enum Request {
@@ -44,7 +44,7 @@ enum Request {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct Specimen {
-    /// The radius of a ball.
+    /// Radius of a ball.
     ball_mm: Option<f64>,
     grating: Option<String>,
     spacing_mm: Option<f64>,
@@ -58,7 +58,7 @@ struct Injection {
     seconds: Option<f64>,
 }
 
-/// Everything that the device streams is under way for so long.
+/// Latency of everything that the device streams.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct Lag {
@@ -73,26 +73,26 @@ struct Limit {
     fz_n: Option<f64>,
 }
 
-/// The control port of a bench; it listens until this is dropped.
+/// Control port of a bench; listens until drop.
 #[derive(Debug)]
 pub struct Control {
     server: Server,
 }
 
-/// A longer request is none.
+/// Maximum length of a request, bytes.
 const LINE_MAX: u64 = 4096;
-/// How long a fault lasts if no duration is given.
+/// Default duration of a fault, s.
 const USUAL_SECONDS: f64 = 1.0;
-/// Nothing is under way for longer.
+/// Maximum latency, ms.
 const LAG_MAX_MS: f64 = 1e3;
-/// No fault lasts longer.
+/// Maximum duration of a fault, s.
 const SECONDS_MAX: f64 = 3600.0;
 
 impl Control {
-    /// Listens for requests about `bench` and, where there is one, its arm; 0 for any free port.
+    /// Listens for requests about `bench` and its arm, if any; port 0 selects any free port.
     ///
     /// # Errors
-    /// [`WireError`] if the port cannot be listened on.
+    /// [`WireError`] if it cannot listen on the port.
     pub fn start(
         bench: &WallBench,
         arm: Option<Arc<dyn Arm>>,
@@ -102,13 +102,13 @@ impl Control {
         let end = End::default();
         let serving = (bench.clone(), end.clone());
         let server = Server::start(host, port, &end, move |stream| {
-            // A client that goes ends its connection.
+            // A closed client ends its connection.
             let _ = serve(stream, &serving.0, arm.as_deref(), &serving.1);
         })?;
         Ok(Control { server })
     }
 
-    /// Where it listens.
+    /// Address of the port.
     pub fn address(&self) -> SocketAddr {
         self.server.address()
     }
@@ -148,7 +148,7 @@ fn serve(
     Ok(())
 }
 
-/// What a request is answered, once it is done.
+/// Carries out a request and returns its answer.
 fn answer(line: &[u8], bench: &WallBench, arm: Option<&dyn Arm>) -> Result<Value, WireError> {
     let refused = |why: String| WireError::Request(why);
     let request: Request =
@@ -200,7 +200,8 @@ fn answer(line: &[u8], bench: &WallBench, arm: Option<&dyn Arm>) -> Result<Value
 fn mounted(specimen: &Specimen) -> Result<Mounted, WireError> {
     let refused = WireError::Request;
     let length = |mm: f64| {
-        Nanometre::from_millimetres(mm).ok_or_else(|| refused(format!("{mm} mm is no length")))
+        Nanometre::from_millimetres(mm)
+            .ok_or_else(|| refused(format!("{mm} mm is not a valid length")))
     };
     match specimen {
         Specimen {

@@ -1,4 +1,4 @@
-//! Why there is no bench.
+//! Errors of the bench.
 
 use std::io;
 use std::path::PathBuf;
@@ -7,36 +7,36 @@ use taceva_sim::ParameterError;
 use taceva_sim::optics::OpticsError;
 use thiserror::Error;
 
-/// A bench that cannot be started, or a request that it does not take.
+/// Error of starting a bench, or of a request.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WireError {
-    /// A port that cannot be listened on.
+    /// The server cannot listen on a port.
     #[error("cannot listen on {address}: {source}")]
     Listen {
-        /// The address.
+        /// Address of the port.
         address: String,
-        /// Why.
+        /// Error of the system.
         source: io::Error,
     },
-    /// A thread that does not start.
+    /// A thread does not start.
     #[error("cannot start a thread: {0}")]
     Thread(io::Error),
-    /// Parameters that make no gel.
+    /// Parameters of no valid gel.
     #[error("the parameters of the gel, {0}")]
     Parameters(#[from] ParameterError),
-    /// A camera that cannot be made.
+    /// The camera cannot be created.
     #[error("the camera: {0}")]
     Optics(#[from] OpticsError),
-    /// A request on the control port that is none.
+    /// Invalid request on the control port.
     #[error("{0}")]
     Request(String),
-    /// A file that cannot be written.
+    /// A file cannot be written.
     #[error("cannot write {path}: {source}")]
     Write {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Why.
+        /// Error of the system.
         source: io::Error,
     },
 }

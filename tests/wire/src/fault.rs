@@ -1,11 +1,11 @@
-//! Faults that are put on the links while the bench runs.
+//! Faults of links while the bench runs.
 
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Whose link a fault is on.
+/// Device of a link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Device {
     /// The robot: its answers and its reports.
@@ -16,59 +16,59 @@ pub enum Device {
     Camera,
 }
 
-/// What goes wrong.
+/// Kind of fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FaultKind {
-    /// Messages are missing; their numbers, where they have any, show it.
+    /// Messages are missing; gaps in their numbers, if any, show it.
     Drop,
-    /// The link stalls: nothing is sent until the fault is over, and what was held comes late.
+    /// The link stalls: messages are held and sent after the fault.
     Late,
-    /// The link is open, and nothing comes.
+    /// The link is open, but sends nothing.
     Silent,
-    /// The same readings are repeated, under new numbers of the messages.
+    /// The same reading is repeated under new message numbers.
     Frozen,
     /// A reading is NaN.
     NotANumber,
-    /// Messages come in pieces.
+    /// Messages arrive in pieces.
     Split,
-    /// Several messages come at once.
+    /// Several messages arrive at once.
     Merged,
-    /// Bytes of another protocol stand before each message.
+    /// Bytes of another protocol precede each message.
     Foreign,
-    /// Before each message stands the beginning of one whose length is absurd.
+    /// Each message is preceded by the start of a message with an absurd length.
     Hostile,
-    /// Numbers of messages are left out, though no message is.
+    /// Message numbers are skipped, but no message is lost.
     Gap,
     /// The transducer is at the end of its range.
     Saturated,
 }
 
-/// What can happen to an arm.
+/// Fault of an arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ArmFault {
-    /// Somebody presses the emergency stop: the motors are off.
+    /// The emergency stop is pressed: the motors are off.
     EmergencyStop,
-    /// It detects a collision.
+    /// The arm detects a collision.
     Collision,
 }
 
-/// An emulated arm, as its surroundings act on it.
+/// An emulated arm, for faults from outside.
 pub trait Arm: Send + Sync {
-    /// Does to the arm what its surroundings can.
+    /// Applies a fault to the arm.
     fn suffer(&self, fault: ArmFault);
 
-    /// The driver that reaches it, with its arguments.
+    /// Driver selector with its arguments.
     fn selector(&self) -> String;
 }
 
-/// A fault to be put on a link.
+/// A fault of a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fault {
-    /// Whose.
+    /// Device of the link.
     pub device: Device,
-    /// Which.
+    /// Kind of fault.
     pub kind: FaultKind,
-    /// How long it lasts.
+    /// Duration of the fault.
     pub lasts: Duration,
 }
 
@@ -76,7 +76,7 @@ impl Device {
     /// Every device.
     pub const ALL: [Device; 3] = [Device::Robot, Device::Force, Device::Camera];
 
-    /// How it is written on the control port.
+    /// Name on the control port.
     pub const fn name(self) -> &'static str {
         match self {
             Device::Robot => "robot",
@@ -102,7 +102,7 @@ impl FaultKind {
         FaultKind::Saturated,
     ];
 
-    /// How it is written on the control port.
+    /// Name on the control port.
     pub const fn name(self) -> &'static str {
         match self {
             FaultKind::Drop => "drop",
@@ -132,12 +132,12 @@ impl fmt::Display for FaultKind {
     }
 }
 
-/// The faults that are on now.
+/// Present faults.
 #[derive(Debug, Default)]
 pub(crate) struct Faults {
-    /// Until when.
+    /// End of each fault.
     on: Mutex<BTreeMap<(Device, FaultKind), Instant>>,
-    /// How long everything that a device streams is under way.
+    /// Latency of each device's stream.
     lags: Mutex<BTreeMap<Device, Duration>>,
 }
 
@@ -147,12 +147,12 @@ impl Faults {
         self.on().insert((fault.device, fault.kind), until);
     }
 
-    /// Lets everything that `device` streams be under way for so long.
+    /// Sets the latency of everything that `device` streams.
     pub(crate) fn set_lag(&self, device: Device, lag: Duration) {
         self.lags().insert(device, lag);
     }
 
-    /// How long what `device` streams is under way.
+    /// Latency of the stream of `device`.
     pub(crate) fn lag(&self, device: Device) -> Duration {
         self.lags().get(&device).copied().unwrap_or_default()
     }
@@ -161,17 +161,17 @@ impl Faults {
         self.lags.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Whether such a fault is on.
+    /// True while the fault is present.
     pub(crate) fn is_on(&self, device: Device, kind: FaultKind) -> bool {
         self.left(device, kind).is_some()
     }
 
-    /// Whether a message of `device` is to be left out now.
+    /// True if a message of `device` must be dropped now.
     pub(crate) fn withholds(&self, device: Device) -> bool {
         self.is_on(device, FaultKind::Drop) || self.is_on(device, FaultKind::Silent)
     }
 
-    /// How long a message of `device` has to wait now; nothing while its link is well.
+    /// Present delay of a message of `device`; zero without a fault.
     pub(crate) fn delay(&self, device: Device) -> Duration {
         self.left(device, FaultKind::Late).unwrap_or_default()
     }

@@ -1,7 +1,7 @@
-//! An emulated machine with GRBL 1.1 at the other end of a pseudo-terminal.
+//! Emulated machine with GRBL 1.1 at the other end of a pseudo-terminal.
 //!
-//! What it does: `?`, `!`, `~`, reset, `G53 G1` (with `G21 G90 G94`), one motion at a time and one waiting, alarm at a reset on the way. What it
-//! does not: settings, offsets, arcs, homing, acceleration.
+//! Supported: `?`, `!`, `~`, reset, `G53 G1` (with `G21 G90 G94`), one motion and one waiting, alarm at a reset during a motion. Not
+//! supported: settings, offsets, arcs, homing, acceleration.
 
 use std::fs::File;
 use std::io::{Read, Write};
@@ -17,7 +17,7 @@ use crate::fault::{Arm, ArmFault, Device, FaultKind};
 use crate::server::End;
 use crate::terminal::ServedLine;
 
-/// An emulated machine, which is unplugged once this is dropped.
+/// Emulated machine, unplugged on drop.
 #[derive(Debug)]
 pub struct Emulator {
     machine: Arc<Machine>,
@@ -34,9 +34,9 @@ struct Machine {
 struct Inside {
     is_held: bool,
     is_alarmed: bool,
-    /// The motion that was held, or waits.
+    /// Held or waiting motion.
     waiting: Option<Motion>,
-    /// The motion that goes on.
+    /// Motion in progress.
     current: Option<Motion>,
 }
 
@@ -46,7 +46,7 @@ struct Motion {
     speed: Speed,
 }
 
-/// How often the machine looks for bytes.
+/// Interval at which the machine reads bytes.
 const LOOK: Duration = Duration::from_millis(1);
 const RESET: u8 = 0x18;
 const BANNER: &str = "\r\nGrbl 1.1h ['$' for help]\r\n";
@@ -55,7 +55,7 @@ impl Emulator {
     /// Starts a machine over the gel of `bench`: idle, 20 mm above it.
     ///
     /// # Errors
-    /// [`WireError`] if the system gives no pseudo-terminal.
+    /// [`WireError`] if the system provides no pseudo-terminal.
     pub fn start(bench: &WallBench) -> Result<Emulator, WireError> {
         let machine = Arc::new(Machine {
             bench: bench.clone(),
@@ -68,7 +68,7 @@ impl Emulator {
 }
 
 impl Arm for Emulator {
-    /// Whatever happens, it stands in alarm.
+    /// Every fault puts the machine into alarm.
     fn suffer(&self, _: ArmFault) {
         let mut inside = self.machine.inside();
         self.machine.bench.stand();
@@ -127,7 +127,7 @@ impl Machine {
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Ends the motion whose end was reached, and begins the next.
+    /// Ends a completed motion and begins the next.
     fn turn(&self) {
         let mut inside = self.inside();
         if inside.is_held || self.bench.is_moving() {
@@ -181,7 +181,7 @@ impl Machine {
         let was_moving = inside.current.is_some();
         self.bench.stand();
         *inside = Inside {
-            // On the way its place is lost.
+            // A reset during a motion loses the position.
             is_alarmed: inside.is_alarmed || was_moving,
             ..Inside::default()
         };

@@ -1,11 +1,11 @@
-//! A bench on the wire: the simulated gel of `taceva-sim` in real time, behind the sockets of devices that exist.
+//! Bench behind sockets: the simulated gel of `taceva-sim` in real time, served by emulated devices.
 //!
-//! A client sees a robot that moves, a transducer that streams and a camera that sends pictures, each in the protocol of a real one; what
-//! it presses is one simulated gel, whose truth is known. Faults can be put on each link while it runs. Everything listens on loopback alone,
-//! or is a pseudo-terminal.
+//! A client sees a moving robot, a streaming transducer and a streaming camera, each with the protocol of a real device. All act on one
+//! simulated gel with known truth. Faults can be injected on each link at run time. Every server listens on loopback only, or is a
+//! pseudo-terminal.
 //!
-//! It is **not** a test of the devices: protocols here and drivers elsewhere share one reading of the documents. The clients of vendors and
-//! of others, which tests start where they are installed, check the protocols independently.
+//! The emulators are **no** test of the devices: emulated protocols and drivers share one reading of the documents. Clients of vendors and
+//! others check the protocols independently, if they are installed.
 //!
 //! ```
 //! use std::net::TcpStream;

@@ -1,4 +1,4 @@
-//! The sending end of a stream of messages, where faults of the link act.
+//! Sending end of a message stream, which applies the faults of the link.
 
 use std::collections::VecDeque;
 use std::io;
@@ -7,28 +7,28 @@ use std::time::Duration;
 use crate::bench::WallBench;
 use crate::fault::{Device, FaultKind};
 
-/// The sending end of the link of one device.
+/// Sending end of one device's link.
 #[derive(Debug)]
 pub(crate) struct Link {
     device: Device,
-    /// The beginning of a message of this protocol that never ends, or whose length is absurd.
+    /// Start of a message of this protocol that never ends or has an absurd length.
     hostile: &'static [u8],
     held: Vec<u8>,
     held_count: usize,
-    /// What is under way, and when it arrives.
+    /// Delayed messages with their arrival times.
     under_way: VecDeque<(Duration, Vec<u8>)>,
 }
 
 /// A message of another protocol.
 const FOREIGN: &[u8] = b"HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\n\r\n";
-/// So many messages come at once where they are merged.
+/// Number of messages merged into one.
 const MERGED: usize = 4;
-/// In so many pieces comes a message that is split, with a pause between two of them.
+/// Number of pieces of a split message, with a pause between pieces.
 const PIECES: usize = 5;
 const BETWEEN_PIECES: Duration = Duration::from_micros(200);
 
 impl Link {
-    /// The link of `device`; `hostile` is how a message begins whose length is absurd.
+    /// Link of `device`; `hostile` is the start of a message with an absurd length.
     pub(crate) fn new(device: Device, hostile: &'static [u8]) -> Link {
         Link {
             device,
@@ -39,10 +39,10 @@ impl Link {
         }
     }
 
-    /// Sends `message` by `write`, as the faults that are on have it.
+    /// Sends `message` by `write`, changed by the present faults.
     ///
     /// # Errors
-    /// That of `write`.
+    /// Error of `write`.
     pub(crate) fn send(
         &mut self,
         bench: &WallBench,
@@ -85,10 +85,10 @@ impl Link {
         Ok(())
     }
 
-    /// Waits until `until`, and lets arrive what is under way.
+    /// Waits until `until`, and delivers delayed messages.
     ///
     /// # Errors
-    /// That of `write`.
+    /// Error of `write`.
     pub(crate) fn rest_until(
         &mut self,
         bench: &WallBench,
@@ -120,7 +120,7 @@ impl Link {
         Ok(())
     }
 
-    /// Drops what was held, which is no longer wanted.
+    /// Drops held messages.
     pub(crate) fn forget(&mut self) {
         self.under_way.clear();
         self.held.clear();
@@ -134,7 +134,7 @@ mod tests {
     use crate::fault::Fault;
     use crate::options::BenchOptions;
 
-    /// What is written of eight messages of ten bytes under `kind`, write by write.
+    /// Writes for eight messages of ten bytes under `kind`.
     fn written(kind: Option<FaultKind>) -> Vec<Vec<u8>> {
         let bench = WallBench::start(&BenchOptions::quiet(1)).expect("a bench");
         if let Some(kind) = kind {
@@ -205,7 +205,7 @@ mod tests {
         assert_eq!(arrived.len(), 6);
         for (number, ((at, bytes), sent)) in (0..6).zip(arrived.iter().zip(&sent)) {
             assert_eq!(bytes, &[number]);
-            // A busy machine is later, and nothing is earlier.
+            // A busy machine may be late, but nothing is early.
             let late = *at - *sent;
             assert!((lag..lag * 3).contains(&late), "{late:?}");
         }

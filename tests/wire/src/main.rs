@@ -1,4 +1,4 @@
-//! `taceva-wire`: the simulated bench behind sockets, until it is interrupted or its standard input ends.
+//! `taceva-wire`: serves the simulated bench over sockets, until it is interrupted or its standard input ends.
 
 use std::io::Read;
 use std::net::Ipv4Addr;
@@ -9,43 +9,43 @@ use clap::Parser;
 use taceva_sim::Model;
 use taceva_wire::{BenchOptions, ForceKind, RobotKind, ServeOptions, Served, WireError};
 
-/// Serves a simulated gel behind the sockets of devices that exist: a robot, a force transducer and a camera. Nothing is real; everything
-/// listens on loopback alone.
+/// Serves a simulated gel behind the sockets of emulated devices: a robot, a force transducer and a camera. Every server listens on
+/// loopback only.
 #[derive(Debug, Parser)]
 #[command(name = "taceva-wire", version)]
 struct Arguments {
-    /// The robot over the gel.
+    /// Robot over the gel.
     #[arg(long, value_enum, default_value_t = RobotKind::Xarm)]
     robot: RobotKind,
-    /// What measures the force.
+    /// Device that measures the force.
     #[arg(long, value_enum, default_value_t = ForceKind::Sri)]
     force: ForceKind,
-    /// The gel: vitactip, magictac, gelsight or gelsight-wm.
+    /// Gel: vitactip, magictac, gelsight or gelsight-wm.
     #[arg(long, default_value = "gelsight", value_parser = model)]
     model: Model,
-    /// The seed of every random error.
+    /// Seed of all random errors.
     #[arg(long, default_value_t = 0)]
     seed: u64,
-    /// Pixels of the camera, along x and along y, that make one of a frame.
+    /// Camera pixels per frame pixel, along x and y.
     #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=64))]
     reduction: u32,
-    /// Nothing errs, drifts or relaxes, as with `quiet` of the simulated sensors, and pictures lose nothing: for comparisons with a study that is
+    /// No errors, drift or relaxation, as with `quiet` of the simulated sensors, and lossless pictures: for comparisons with a study
     /// simulated in the program.
     #[arg(long)]
     quiet: bool,
     /// Stream PNG, which is lossless.
     #[arg(long)]
     png: bool,
-    /// The address of loopback to listen on.
+    /// Loopback address to listen on.
     #[arg(long, default_value_t = Ipv4Addr::LOCALHOST)]
     host: Ipv4Addr,
-    /// Listen on the ports that public clients expect (502, 30001 to 30003, 4008), and not on any free ones.
+    /// Use the ports that public clients expect (502, 30001 to 30003, 4008) instead of any free ones.
     #[arg(long)]
     usual_ports: bool,
-    /// The version of its firmware that the controller reports.
+    /// Firmware version that the controller reports.
     #[arg(long, default_value = "2.7.0", value_parser = firmware)]
     firmware: Firmware,
-    /// Where to write the rig file.
+    /// File to write the rig file to.
     #[arg(long)]
     write: Option<PathBuf>,
 }
@@ -99,7 +99,7 @@ fn serve(arguments: &Arguments) -> Result<(), WireError> {
         println!("\n# written to {}", path.display());
     }
     println!("# It runs until it is interrupted, or its standard input ends.");
-    // What comes there means nothing; that it ends does.
+    // The content of standard input has no meaning; its end does.
     let _ = std::io::stdin().read_to_end(&mut Vec::new());
     Ok(())
 }

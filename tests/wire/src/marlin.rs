@@ -1,7 +1,7 @@
-//! An emulated printer with Marlin 2 at the other end of a pseudo-terminal.
+//! Emulated printer with Marlin 2 at the other end of a pseudo-terminal.
 //!
-//! What it does: `G1` (with `G21 G90`) one behind the other, `M114` of where it is going to be, `M115`, `M118`, `M400`, and `M410` at once,
-//! whatever waits. What it does not: heat, homing, acceleration, line numbers, steps that are lost.
+//! Supported: queued `G1` (with `G21 G90`), `M114` with the planned position, `M115`, `M118`, `M400`, and immediate `M410`. Not supported:
+//! heating, homing, acceleration, line numbers, lost steps.
 
 use std::collections::VecDeque;
 use std::fs::File;
@@ -18,19 +18,19 @@ use crate::fault::{Arm, ArmFault, Device, FaultKind};
 use crate::server::End;
 use crate::terminal::ServedLine;
 
-/// An emulated printer, which is unplugged once this is dropped.
+/// Emulated printer, unplugged on drop.
 #[derive(Debug)]
 pub struct Emulator {
     printer: Arc<Printer>,
     line: ServedLine,
 }
 
-/// What an emulated printer was built with.
+/// Firmware build of an emulated printer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Firmware {
-    /// It takes a stop while it moves.
+    /// Accepts a stop during a motion.
     StopsAtOnce,
-    /// A stop waits behind what came before.
+    /// Executes a stop after earlier commands.
     StopsInTurn,
 }
 
@@ -46,7 +46,7 @@ struct Inside {
     is_killed: bool,
     current: Option<Motion>,
     waiting: VecDeque<Motion>,
-    /// Commands that came while one is carried out that waits for the motions.
+    /// Commands received while another one waits for the motions.
     lines: VecDeque<String>,
 }
 
@@ -56,7 +56,7 @@ struct Motion {
     speed: Speed,
 }
 
-/// How often the printer looks for bytes.
+/// Interval at which the printer reads bytes.
 const LOOK: Duration = Duration::from_millis(1);
 const OK: &str = "ok\n";
 const KILLED: &str = "Error:Printer halted. kill() called!\n";
@@ -65,7 +65,7 @@ impl Emulator {
     /// Starts a printer over the gel of `bench`: at rest, 20 mm above it.
     ///
     /// # Errors
-    /// [`WireError`] if the system gives no pseudo-terminal.
+    /// [`WireError`] if the system provides no pseudo-terminal.
     pub fn start(bench: &WallBench, firmware: Firmware) -> Result<Emulator, WireError> {
         let printer = Arc::new(Printer {
             bench: bench.clone(),
@@ -79,7 +79,7 @@ impl Emulator {
 }
 
 impl Arm for Emulator {
-    /// Whatever happens, its firmware stops itself.
+    /// Every fault makes the firmware stop.
     fn suffer(&self, _: ArmFault) {
         let mut inside = self.printer.inside();
         self.printer.bench.stand();
@@ -133,7 +133,7 @@ impl Printer {
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Ends the motion whose end was reached, begins the next, and carries out what waited for them.
+    /// Ends a completed motion, begins the next, and executes commands that waited for them.
     fn turn(&self) -> String {
         let mut inside = self.inside();
         if inside.is_killed {
@@ -157,7 +157,7 @@ impl Printer {
         answers
     }
 
-    /// A command as it comes; those behind one that waits are answered later.
+    /// Handles a received command; commands after a waiting one are answered later.
     fn take(&self, line: &str) -> String {
         let mut inside = self.inside();
         if inside.is_killed || line.is_empty() {

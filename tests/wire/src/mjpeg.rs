@@ -1,6 +1,6 @@
-//! An emulated camera that streams over HTTP: `multipart/x-mixed-replace` with a JPEG or, for comparisons, a PNG in each part.
+//! Emulated camera that streams over HTTP: `multipart/x-mixed-replace` with a JPEG or, for comparisons, a PNG in each part.
 //!
-//! A path that ends in `.png` streams PNG, every other one JPEG. A connection is one stream; another request on it is not answered.
+//! A path that ends in `.png` streams PNG, any other path JPEG. A connection carries one stream; a second request on it is ignored.
 
 use std::io::{self, Write};
 use std::net::{Ipv4Addr, SocketAddr, TcpStream};
@@ -17,38 +17,38 @@ use crate::fault::{Device, FaultKind};
 use crate::link::Link;
 use crate::server::{End, Server, read};
 
-/// An emulated camera that listens until this is dropped.
+/// Emulated camera that listens until drop.
 #[derive(Debug)]
 pub struct Emulator {
     server: Server,
 }
 
-/// How the parts of a stream are told apart and measured: servers differ.
+/// Delimiters and lengths of the parts of a stream, which differ between servers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Style {
-    /// With the boundary in the header, and the length of each part.
+    /// Boundary in the header, and a length for each part.
     Usual,
-    /// As `ffmpeg -f mpjpeg` serves: another type in the header, no boundary there, lengths in chunks of HTTP/1.1.
+    /// Like `ffmpeg -f mpjpeg`: another content type without a boundary in the header, and HTTP/1.1 chunks.
     Ffmpeg,
-    /// With the boundary in the header and no lengths.
+    /// Boundary in the header, no lengths.
     Lengthless,
 }
 
-/// What stands between two parts.
+/// Delimiter of two parts.
 const BOUNDARY: &str = "taceva-frame";
-/// The head of a part whose stated length is beyond any memory.
+/// Head of a part with a length beyond any memory.
 const HOSTILE: &[u8] =
     b"--taceva-frame\r\nContent-type: image/jpeg\r\nContent-length: 18446744073709551615\r\n\r\n";
-/// What the JPEG loses: little.
+/// JPEG quality, with little loss.
 const QUALITY: u8 = 95;
-/// A longer request is none.
+/// Maximum length of a request, bytes.
 const REQUEST_MAX: usize = 8192;
 
 impl Emulator {
-    /// Starts a camera behind the gel of `bench`; 0 for any free port.
+    /// Starts a camera behind the gel of `bench`; port 0 selects any free port.
     ///
     /// # Errors
-    /// [`WireError`] if the port cannot be listened on.
+    /// [`WireError`] if it cannot listen on the port.
     pub fn start(
         bench: &WallBench,
         host: Ipv4Addr,
@@ -58,23 +58,23 @@ impl Emulator {
         let end = End::default();
         let serving = (bench.clone(), end.clone());
         let server = Server::start(host, port, &end, move |stream| {
-            // A client that goes ends its stream.
+            // A closed client ends its stream.
             let _ = serve(stream, &serving.0, style, &serving.1);
         })?;
         Ok(Emulator { server })
     }
 
-    /// Where it listens.
+    /// Address of the server.
     pub fn address(&self) -> SocketAddr {
         self.server.address()
     }
 
-    /// The address of its stream of JPEG.
+    /// URL of the JPEG stream.
     pub fn url(&self) -> String {
         format!("http://{}/stream.mjpeg", self.address())
     }
 
-    /// The address of its stream of PNG, which loses nothing.
+    /// URL of the PNG stream, which is lossless.
     pub fn png_url(&self) -> String {
         format!("http://{}/stream.png", self.address())
     }
@@ -105,7 +105,7 @@ fn serve(mut stream: TcpStream, bench: &WallBench, style: Style, end: &End) -> i
             link.rest_until(bench, until, |bytes| stream.write_all(bytes))?;
             continue;
         }
-        // A camera that could not be served in time leaves frames out.
+        // A late camera skips frames.
         due = (due + period).max(now);
         if shown.is_empty() || !bench.is_faulty(Device::Camera, FaultKind::Frozen) {
             let pixels = bench.picture().map_err(io::Error::other)?;
@@ -117,7 +117,7 @@ fn serve(mut stream: TcpStream, bench: &WallBench, style: Style, end: &End) -> i
     Ok(())
 }
 
-/// The path of the request that a client makes.
+/// Path of a client's request.
 fn requested(stream: &mut TcpStream, end: &End) -> Option<String> {
     let mut request = Vec::new();
     let mut bytes = [0; 1024];
@@ -156,7 +156,7 @@ fn part(picture: &[u8], kind: &str, style: Style) -> Vec<u8> {
     }
 }
 
-/// The picture as a file of its format.
+/// Encodes the picture.
 fn encode(pixels: &[u8], info: FrameInfo, is_png: bool) -> Result<Vec<u8>, ImageError> {
     let colour = match info.format {
         PixelFormat::Gray8 => ExtendedColorType::L8,

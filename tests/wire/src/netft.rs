@@ -1,7 +1,7 @@
-//! An emulated Net F/T box of ATI: records over UDP, and the page that states the unit of a count.
+//! Emulated Net F/T box of ATI: records over UDP, and the page with the unit of a count.
 //!
-//! What it does: start, stop, bias, one client at a time (the last one that asked). What it does not: counted and buffered transfers, other
-//! pages, the port of commands over TCP.
+//! Supported: start, stop, bias, one client at a time (the last one). Not supported: counted and buffered transfers, other pages, the TCP
+//! command port.
 
 use std::io::{self, Read as _, Write as _};
 use std::net::{Ipv4Addr, SocketAddr, TcpStream, UdpSocket};
@@ -13,7 +13,7 @@ use crate::error::WireError;
 use crate::fault::{Device, FaultKind};
 use crate::server::{End, Server};
 
-/// An emulated box that listens until this is dropped.
+/// Emulated box that listens until drop.
 #[derive(Debug)]
 pub struct Emulator {
     records: SocketAddr,
@@ -24,16 +24,16 @@ pub struct Emulator {
 
 /// The port of records that clients expect.
 pub const USUAL_PORT: u16 = 49_152;
-/// Readings a second.
+/// Readings per second.
 const RATE_HZ: u32 = 500;
 /// Counts per N, and per N·m.
 const COUNTS: f64 = 10_000_000.0;
 
 impl Emulator {
-    /// Starts a box whose transducer measures what presses on the gel of `bench`; 0 for any free port.
+    /// Starts a box whose transducer measures the force on the gel of `bench`; port 0 selects any free port.
     ///
     /// # Errors
-    /// [`WireError`] if a port cannot be listened on.
+    /// [`WireError`] if it cannot listen on a port.
     pub fn start(
         bench: &WallBench,
         host: Ipv4Addr,
@@ -42,7 +42,7 @@ impl Emulator {
     ) -> Result<Emulator, WireError> {
         let end = End::default();
         let pages = Server::start(host, page_port, &end, |stream| {
-            // A client that goes is not answered.
+            // A closed client gets no answer.
             let _ = serve_page(stream);
         })?;
         let refused = |source| WireError::Listen {
@@ -65,7 +65,7 @@ impl Emulator {
         })
     }
 
-    /// The driver that reaches it, with its arguments.
+    /// Driver selector with its arguments.
     pub fn selector(&self) -> String {
         let [records, page] = [self.address(), self.page_address()];
         format!(
@@ -76,12 +76,12 @@ impl Emulator {
         )
     }
 
-    /// Where its records are asked for.
+    /// Address of the record port.
     pub fn address(&self) -> SocketAddr {
         self.records
     }
 
-    /// Where its page is.
+    /// Address of the page.
     pub fn page_address(&self) -> SocketAddr {
         self.pages.address()
     }
@@ -113,9 +113,9 @@ fn serve_page(mut stream: TcpStream) -> io::Result<()> {
     stream.write_all(answer.as_bytes())
 }
 
-/// Answers requests with records at even times.
+/// Answers requests with records at regular times.
 fn stream_records(socket: &UdpSocket, bench: &WallBench, end: &End) {
-    /// How often it is looked for requests while nobody wants records.
+    /// Interval at which requests are read while no client wants records.
     const LOOK: Duration = Duration::from_millis(1);
     let mut client: Option<SocketAddr> = None;
     let mut number: u32 = 0;
@@ -158,7 +158,7 @@ fn stream_records(socket: &UdpSocket, bench: &WallBench, end: &End) {
         if bench.withholds(Device::Force) {
             continue;
         }
-        // Whole numbers cannot be none: a broken gage is an error in the status.
+        // Integers have no NaN: a faulty gage is an error in the status.
         let mut status = match bench.is_faulty(Device::Force, FaultKind::NotANumber) {
             true => ERROR,
             false => 0,
@@ -177,14 +177,14 @@ fn stream_records(socket: &UdpSocket, bench: &WallBench, end: &End) {
     }
 }
 
-/// Bits of the status: something is wrong, and a gage is at the end of its range.
+/// Status bits: an error, and a gage at the end of its range.
 const ERROR: u32 = 1 << 31;
 const SATURATED: u32 = 1 << 17;
-/// From one number to the next where some are left out.
+/// Increment of the number when numbers are skipped.
 const SKIPPED: u32 = 7;
 /// A datagram of another protocol.
 const FOREIGN: &[u8] = b"HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\n";
-/// A record that breaks off.
+/// A truncated record.
 const HOSTILE: &[u8] = &[0xff; 35];
 
 fn record(number: u32, status: u32, force_n: [f64; 3]) -> Vec<u8> {

@@ -1,23 +1,23 @@
-//! What kind of bench it is.
+//! Options of the bench.
 
 use taceva_sim::{Model, ParameterError, Parameters};
 
-/// Which gel is on the bench, and how much everything errs.
+/// Sensor of the bench, and the size of its errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BenchOptions {
     /// The sensor.
     pub model: Model,
-    /// The seed of every random error.
+    /// Seed of all random errors.
     pub seed: u64,
-    /// Whether nothing errs, drifts or relaxes, as with the argument `quiet` of the simulated sensors: a study over sockets can then be
-    /// compared with one that is simulated in the program.
+    /// True for no errors, drift or relaxation, as with the argument `quiet` of the simulated sensors. A study over sockets can then be
+    /// compared with one simulated in the program.
     pub is_quiet: bool,
-    /// Pixels of the camera, along x and along y, that make one of a frame.
+    /// Camera pixels per frame pixel, along x and y.
     pub reduction: u32,
 }
 
 impl BenchOptions {
-    /// A GelSight that errs as the simulated bench does.
+    /// A GelSight with the errors of the simulated bench.
     pub fn noisy(seed: u64) -> BenchOptions {
         BenchOptions {
             model: Model::GelSight,
@@ -27,7 +27,7 @@ impl BenchOptions {
         }
     }
 
-    /// A GelSight on a bench that errs nowhere.
+    /// A GelSight without errors.
     pub fn quiet(seed: u64) -> BenchOptions {
         BenchOptions {
             is_quiet: true,
@@ -35,7 +35,7 @@ impl BenchOptions {
         }
     }
 
-    /// The parameters of this bench.
+    /// Parameters of this bench.
     pub(crate) fn parameters(&self) -> Result<Parameters, ParameterError> {
         match self.is_quiet {
             true => Parameters::parse_quiet(self.model.table()),

@@ -1,4 +1,4 @@
-//! The rig file of a bench: which driver reaches which device, and how they stand to each other.
+//! Rig file of a bench: the driver of each device, and the poses of the devices.
 
 use std::fmt::Write as _;
 
@@ -6,22 +6,22 @@ use crate::base::Base;
 use crate::bench::WallBench;
 use crate::control::Control;
 
-/// What is to be written: the drivers with their arguments.
+/// Content of the file: the drivers with their arguments.
 #[derive(Clone, Debug)]
 pub(crate) struct RigFile<'a> {
     pub(crate) bench: &'a WallBench,
-    /// That of the arm over the gel.
+    /// Selector of the arm over the gel.
     pub(crate) robot: String,
-    /// That of the transducer.
+    /// Selector of the transducer.
     pub(crate) force: String,
-    /// That of the camera.
+    /// Selector of the camera.
     pub(crate) sensor: String,
-    /// Where faults are injected.
+    /// Control port.
     pub(crate) control: &'a Control,
 }
 
 impl RigFile<'_> {
-    /// The text of the file.
+    /// Text of the file.
     pub(crate) fn text(&self) -> String {
         let mut text = format!(
             "# Everything here is simulated: {}. Faults and truth: JSON lines on {}.\nrig_version = 1\nsimulated = true\n",
@@ -41,7 +41,7 @@ impl RigFile<'_> {
         let force = [driver(&self.force), format!("axes = {axes}"), latency()];
         let sensor = [driver(&self.sensor), latency()];
         let [depth_max_mm, force_max_n] = self.bench.limits();
-        // What a camera does not know of the gel in front of it.
+        // Facts of the gel that a camera cannot report.
         let limits = [
             "speed_max_mm_s = 20.0".to_owned(),
             format!("Pz_max_mm = {depth_max_mm:?}"),
@@ -53,7 +53,7 @@ impl RigFile<'_> {
             ("sensor", &sensor),
             ("limits", &limits),
         ] {
-            // A string takes whatever is written, so writing to it does not fail.
+            // Writing to a string cannot fail.
             let _ = write!(text, "\n[{name}]\n{}\n", lines.join("\n"));
         }
         text

@@ -1,4 +1,4 @@
-//! Listening: one thread per port, one per client, and the end of both.
+//! Listening ports: one thread per port and per client, and their ends.
 
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, SocketAddrV4, TcpListener, TcpStream};
@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use crate::error::WireError;
 
-/// A port on loopback that is listened on until this is dropped.
+/// A loopback port that listens until drop.
 #[derive(Debug)]
 pub(crate) struct Server {
     address: SocketAddr,
@@ -17,7 +17,7 @@ pub(crate) struct Server {
     listener: Option<JoinHandle<()>>,
 }
 
-/// Whether it is over.
+/// End flag of a server, shared by its threads.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct End(Arc<AtomicBool>);
 
@@ -31,13 +31,13 @@ impl End {
     }
 }
 
-/// How often a thread that waits for a client looks whether it is over.
+/// Interval at which a thread that waits for a client checks for the end.
 const LOOK: Duration = Duration::from_millis(5);
-/// How long a client that takes nothing may hold its thread.
+/// Longest time that a client without reads may block its thread.
 const WRITING: Duration = Duration::from_secs(2);
 
 impl Server {
-    /// Listens on `port` of `host`, which is an address of loopback; 0 for any port. `serve` is called on a thread of its own for each client.
+    /// Listens on `port` of `host`, a loopback address; port 0 selects any port. `serve` is called on a separate thread for each client.
     pub(crate) fn start(
         host: Ipv4Addr,
         port: u16,
@@ -67,7 +67,7 @@ impl Server {
                         continue;
                     };
                     let serve = serve.clone();
-                    // A client that cannot be served is one that is not there.
+                    // A client that cannot be served counts as absent.
                     let prepared = prepare(&stream);
                     if prepared.is_ok() {
                         let _ = std::thread::Builder::new().spawn(move || serve(stream));
@@ -94,10 +94,10 @@ fn prepare(stream: &TcpStream) -> io::Result<()> {
     stream.set_read_timeout(Some(READING))
 }
 
-/// How long a thread waits for its client before it looks whether it is over.
+/// Interval at which a thread that waits for its client checks for the end.
 const READING: Duration = Duration::from_millis(50);
 
-/// Reads once: `None` if nothing came and the client is still there, 0 bytes once it is gone or it is over.
+/// Reads once: `None` without data from an open client, 0 bytes after the client or the server has closed.
 pub(crate) fn read(stream: &mut impl io::Read, bytes: &mut [u8], end: &End) -> Option<usize> {
     if end.has_come() {
         return Some(0);

@@ -1,7 +1,7 @@
-//! An emulated interface box of SRI: commands and a stream of frames on one port.
+//! Emulated interface box of SRI: commands and a stream of frames on one port.
 //!
-//! What it does: rate, checks by sum and CRC32, engineering units, start, stop, zero (which it does not answer while it streams, as public drivers
-//! report). What it does not: counts, several readings per frame, settings that last.
+//! Supported: rate, checksums by sum and CRC32, engineering units, start, stop, zero (without an answer while it streams, as public drivers
+//! report). Not supported: counts, several readings per frame, persistent settings.
 
 mod session;
 
@@ -11,7 +11,7 @@ use crate::bench::WallBench;
 use crate::error::WireError;
 use crate::server::{End, Server};
 
-/// An emulated box that listens until this is dropped.
+/// Emulated box that listens until drop.
 #[derive(Debug)]
 pub struct Emulator {
     server: Server,
@@ -22,10 +22,10 @@ pub struct Emulator {
 pub const USUAL_PORT: u16 = 4008;
 
 impl Emulator {
-    /// Starts a box whose transducer measures what presses on the gel of `bench`; 0 for any free port.
+    /// Starts a box whose transducer measures the force on the gel of `bench`; port 0 selects any free port.
     ///
     /// # Errors
-    /// [`WireError`] if the port cannot be listened on.
+    /// [`WireError`] if it cannot listen on the port.
     pub fn start(bench: &WallBench, host: Ipv4Addr, port: u16) -> Result<Emulator, WireError> {
         let end = End::default();
         let serving = (bench.clone(), end.clone());
@@ -38,7 +38,7 @@ impl Emulator {
         })
     }
 
-    /// The driver that reaches it, with its arguments.
+    /// Driver selector with its arguments.
     pub fn selector(&self) -> String {
         let address = self.address();
         format!(
@@ -49,7 +49,7 @@ impl Emulator {
         )
     }
 
-    /// Where it listens.
+    /// Address of the server.
     pub fn address(&self) -> SocketAddr {
         self.server.address()
     }

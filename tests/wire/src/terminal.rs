@@ -1,4 +1,4 @@
-//! Pseudo-terminals: serial lines whose other end is a program.
+//! Pseudo-terminals: serial lines with a program at the other end.
 
 use std::fs::File;
 use std::io;
@@ -11,7 +11,7 @@ use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 use crate::error::WireError;
 use crate::server::End;
 
-/// The machine's end of a raw line, and the path of the other.
+/// Machine's end of a raw line, and the path of the host's end.
 fn pseudo_terminal() -> io::Result<(File, String)> {
     let end = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
     grantpt(&end)?;
@@ -25,22 +25,22 @@ fn pseudo_terminal() -> io::Result<(File, String)> {
     Ok((File::from(end), path))
 }
 
-/// A serial line that a machine serves, and that is unplugged once this is dropped.
+/// A serial line served by a machine, unplugged on drop.
 #[derive(Debug)]
 pub(crate) struct ServedLine {
     path: String,
-    /// Ends the machine.
+    /// End of the machine.
     end: End,
     thread: Option<JoinHandle<()>>,
-    /// The host's end, held open so that the line stays there while no host has it.
+    /// Host's end, held open so that the line exists while no host uses it.
     _line: File,
 }
 
 impl ServedLine {
-    /// Has `serve` answer at the machine's end, in a thread called `name`, until the end comes.
+    /// Runs `serve` at the machine's end, in a thread called `name`, until the end.
     ///
     /// # Errors
-    /// [`WireError`] if the system gives no pseudo-terminal or no thread.
+    /// [`WireError`] if the system provides no pseudo-terminal or no thread.
     pub(crate) fn start(
         name: &str,
         serve: impl FnOnce(File, &End) + Send + 'static,
@@ -66,7 +66,7 @@ impl ServedLine {
         })
     }
 
-    /// Where a host opens it.
+    /// Path for the host.
     pub(crate) fn path(&self) -> &str {
         &self.path
     }

@@ -1,6 +1,6 @@
-//! Emulated HID devices, which the kernel itself offers under `/dev/hidraw*`: by `/dev/uhid`, for whoever may open it.
+//! Emulated HID devices, which the kernel offers under `/dev/hidraw*`; they need access to `/dev/uhid`.
 //!
-//! What they do: their report descriptor, and reports as they are told. What they do not: USB, and reports that a program sends to them.
+//! Supported: a report descriptor, and reports on request of a test. Not supported: USB, and reports from a program to the device.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -8,27 +8,27 @@ use std::path::Path;
 
 use crate::error::WireError;
 
-/// An emulated device, which is unplugged once this is dropped.
+/// Emulated device, unplugged on drop.
 #[derive(Debug)]
 pub struct Emulator {
-    /// The kernel takes the device away with it.
+    /// Closing this file removes the device.
     uhid: File,
 }
 
-/// What a device says of itself.
+/// Identity of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Identity {
     /// Its name.
     pub name: &'static str,
     /// Its serial number.
     pub serial: &'static str,
-    /// The numbers of its vendor and of itself.
+    /// Vendor and product id.
     pub numbers: [u16; 2],
-    /// What its reports mean.
+    /// Report descriptor.
     pub descriptor: &'static [u8],
 }
 
-/// A scale of the page of weighing devices: report 3 of status, unit, exponent and weight.
+/// A scale of the usage page of weighing devices: report 3 with status, unit, exponent and weight.
 pub const SCALE: Identity = Identity {
     name: "Emulated scale",
     serial: "EMU-1",
@@ -46,7 +46,7 @@ pub const SCALE: Identity = Identity {
     ],
 };
 
-/// A pedal that acts as a keyboard: modifiers, nothing, six keys.
+/// A pedal that acts as a keyboard: modifiers, an unused byte, six keys.
 pub const PEDAL: Identity = Identity {
     name: "Emulated pedal",
     serial: "EMU-2",
@@ -61,7 +61,7 @@ pub const PEDAL: Identity = Identity {
     ],
 };
 
-/// Numbers of events of `/dev/uhid`, and the sizes of the texts in one that makes a device (`linux/uhid.h`).
+/// Event numbers of `/dev/uhid`, and text sizes in the event that creates a device (`linux/uhid.h`).
 const CREATE: u32 = 11;
 const INPUT: u32 = 12;
 const NAME: usize = 128;
@@ -74,7 +74,7 @@ impl Emulator {
     /// Plugs a device in.
     ///
     /// # Errors
-    /// [`WireError`] where there is no `/dev/uhid`, or it may not be opened.
+    /// [`WireError`] if `/dev/uhid` is missing or may not be opened.
     pub fn start(identity: &Identity) -> Result<Emulator, WireError> {
         let path = Path::new("/dev/uhid");
         let refused = |source: io::Error| WireError::Listen {
@@ -90,10 +90,10 @@ impl Emulator {
         Ok(Emulator { uhid })
     }
 
-    /// Sends a report, its number first where reports have one.
+    /// Sends a report, with its number first if reports are numbered.
     ///
     /// # Errors
-    /// An error of the kernel, and a report that is longer than any can be.
+    /// Errors of the kernel; also for a report beyond the maximum length.
     pub fn report(&mut self, report: &[u8]) -> io::Result<()> {
         let length = u16::try_from(report.len()).map_err(io::Error::other)?;
         let mut event = Vec::with_capacity(6 + DATA);
@@ -125,7 +125,7 @@ fn created(identity: &Identity) -> Vec<u8> {
     event
 }
 
-/// `bytes` with zeros behind them, `length` in all.
+/// `bytes` padded with zeros to `length`.
 fn padded(bytes: &[u8], length: usize) -> Vec<u8> {
     let mut padded = bytes.to_vec();
     padded.resize(length, 0);

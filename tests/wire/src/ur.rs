@@ -1,8 +1,7 @@
-//! An emulated controller of Universal Robots: the real-time data exchange (port 30004) and script (port 30002).
+//! Emulated controller of Universal Robots: the real-time data exchange (port 30004) and script (port 30002).
 //!
-//! What it does: any outputs by name (zeros for those that it does not know the meaning of), `movel` to a pose, `speedl` for a time (without turning), `stopl` with
-//! the number of a register before it, a stop of its safety.
-//! What it does not: inputs, other script, acceleration, joints.
+//! Supported: any output by name (zeros for unknown ones), `movel` to a pose, `speedl` for a time (without rotation), `stopl` with a
+//! register number before it, safety stops. Not supported: inputs, other script, acceleration, joints.
 
 mod exchange;
 mod program;
@@ -19,7 +18,7 @@ use crate::error::WireError;
 use crate::fault::{Arm, ArmFault};
 use crate::server::{End, Server, read};
 
-/// An emulated arm that listens until this is dropped.
+/// Emulated arm that listens until drop.
 #[derive(Debug)]
 pub struct Emulator {
     controller: Arc<Controller>,
@@ -27,11 +26,11 @@ pub struct Emulator {
     script: Server,
 }
 
-/// The ports that clients expect: of the data exchange, and of script.
+/// Ports that clients expect: data exchange, and script.
 pub const USUAL_PORTS: [u16; 2] = [30_004, 30_002];
 /// A tool that points down.
 const DOWN: [f64; 3] = [std::f64::consts::PI, 0.0, 0.0];
-/// A program is shorter.
+/// Maximum length of a program, bytes.
 const PROGRAM_MAX: usize = 4096;
 
 /// The controller.
@@ -43,11 +42,11 @@ pub(crate) struct Controller {
 
 #[derive(Debug)]
 struct Inside {
-    /// What happened to it, which only a person ends.
+    /// Fault that only a person can clear.
     fault: Option<ArmFault>,
-    /// The rotation vector of the tool, which the gel does not know.
+    /// Rotation vector of the tool, which the gel ignores.
     turned: [f64; 3],
-    /// The number of the last stop that has one.
+    /// Number of the last numbered stop.
     stop_number: i32,
 }
 
@@ -76,7 +75,7 @@ impl Controller {
         self.inside().fault
     }
 
-    /// Goes on at a velocity until it expires: as far as that takes it.
+    /// Moves at a velocity until it expires.
     fn cruise(&self, velocity_m_s: [f64; 3], lasts_s: f64) {
         let speed_mm_s = velocity_m_s.map(|side| side * 1e3);
         let [x, y, z] = speed_mm_s;
@@ -94,7 +93,7 @@ impl Controller {
         self.bench.set_out(target, speed);
     }
 
-    /// Runs a program in the place of the one that runs.
+    /// Replaces the running program.
     fn run(&self, program: &Program) {
         let mut inside = self.inside();
         if inside.fault.is_some() {
@@ -129,10 +128,10 @@ impl Controller {
 }
 
 impl Emulator {
-    /// Starts an arm over the gel of `bench`: switched on, 20 mm above it; 0 for any free port.
+    /// Starts an arm over the gel of `bench`: switched on, 20 mm above it; port 0 selects any free port.
     ///
     /// # Errors
-    /// [`WireError`] if a port cannot be listened on.
+    /// [`WireError`] if it cannot listen on a port.
     pub fn start(
         bench: &WallBench,
         host: Ipv4Addr,
@@ -149,7 +148,7 @@ impl Emulator {
         });
         let serving = (Arc::clone(&controller), end.clone());
         let states = Server::start(host, states, &end, move |stream| {
-            // A client that goes ends its exchange.
+            // A closed client ends its exchange.
             let _ = exchange::serve(stream, &serving.0, &serving.1);
         })?;
         let serving = (Arc::clone(&controller), end.clone());
@@ -178,12 +177,12 @@ impl Emulator {
         })
     }
 
-    /// Where the data exchange is.
+    /// Address of the data exchange.
     pub fn states_address(&self) -> SocketAddr {
         self.states.address()
     }
 
-    /// Where script is taken.
+    /// Address of the script port.
     pub fn script_address(&self) -> SocketAddr {
         self.script.address()
     }

@@ -1,8 +1,8 @@
-//! An emulated control box of UFACTORY: commands on port 502, reports on 30001, 30002 and 30003.
+//! Emulated control box of UFACTORY: commands on port 502, reports on 30001, 30002 and 30003.
 //!
-//! What it does: versions, enabling, modes, states, straight motions (absolute and relative, both layouts) with a queue, velocities
-//! of the tip that expire, poses, errors and their clearing, the push at the end of a motion. What it does not: servo motions, velocities that turn, blending, joints, limits of speed and
-//! jerk, braking ways. An unknown register is answered with "result invalid".
+//! Supported: versions, enabling, modes, states, queued straight motions (absolute and relative, both layouts), expiring velocities of the
+//! tip, poses, errors and their clearing, and messages at the end of a motion. Not supported: servo motions, velocities with rotation,
+//! blending, joints, limits of speed and jerk, braking distances. An unknown register is answered with "result invalid".
 
 mod answer;
 mod client;
@@ -22,7 +22,7 @@ use crate::error::WireError;
 use crate::fault::{Arm, ArmFault};
 use crate::server::{End, Server};
 
-/// An emulated arm that listens until this is dropped.
+/// Emulated arm that listens until drop.
 #[derive(Debug)]
 pub struct Emulator {
     controller: Arc<Controller>,
@@ -30,38 +30,38 @@ pub struct Emulator {
     reports: Vec<(Port, Server)>,
 }
 
-/// Which port of the control box.
+/// Port of the control box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Port {
-    /// Commands and their answers.
+    /// Commands and answers.
     Command,
-    /// 100 reports a second with state and pose.
+    /// 100 reports per second with state and pose.
     Pose,
-    /// 5 reports a second with errors.
+    /// 5 reports per second with errors.
     Status,
-    /// 5 reports a second with everything.
+    /// 5 reports per second with all fields.
     Rich,
 }
 
-/// Where it listens; 0 for any free port.
+/// Addresses of the ports; 0 selects any free port.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ports {
-    /// An address of loopback.
+    /// Loopback address.
     pub host: Ipv4Addr,
-    /// Of commands.
+    /// Port of commands.
     pub command: u16,
-    /// Of poses; `None` for a controller that has no such port.
+    /// Port of poses; `None` for a controller without it.
     pub pose: Option<u16>,
-    /// Of errors; `None` for a controller that has no such port.
+    /// Port of errors; `None` for a controller without it.
     pub status: Option<u16>,
-    /// Of everything.
+    /// Port of complete reports.
     pub rich: u16,
-    /// The version of its firmware that it reports: major, minor, revision.
+    /// Reported firmware version: major, minor, revision.
     pub firmware: [u32; 3],
 }
 
 impl Ports {
-    /// Free ports, and a firmware of today.
+    /// Free ports, and a recent firmware.
     pub const ANY: Ports = Ports {
         host: Ipv4Addr::LOCALHOST,
         command: 0,
@@ -70,7 +70,7 @@ impl Ports {
         rich: 0,
         firmware: [2, 7, 0],
     };
-    /// The ports that clients expect, of which 502 may be bound by few users.
+    /// Ports that clients expect; few users may bind 502.
     pub const USUAL: Ports = Ports {
         command: 502,
         pose: Some(30_003),
@@ -80,14 +80,14 @@ impl Ports {
     };
 }
 
-/// How often the arm looks whether a motion has ended.
+/// Interval at which the arm checks for the end of a motion.
 const TICK: Duration = Duration::from_millis(1);
 
 impl Emulator {
     /// Starts an arm over the gel of `bench`: enabled, ready, 20 mm above it.
     ///
     /// # Errors
-    /// [`WireError`] if a port cannot be listened on.
+    /// [`WireError`] if it cannot listen on a port.
     pub fn start(bench: &WallBench, ports: Ports) -> Result<Emulator, WireError> {
         let end = End::default();
         let controller = Arc::new(Controller::new(bench.clone(), ports.firmware));
@@ -132,7 +132,7 @@ impl Emulator {
         })
     }
 
-    /// Where `port` is listened on; that of commands in the place of one that it does not have.
+    /// Address of `port`; the command port if the arm lacks it.
     pub fn address(&self, port: Port) -> SocketAddr {
         let found = self.reports.iter().find(|(kind, _)| *kind == port);
         found.map_or(self.command.address(), |(_, server)| server.address())

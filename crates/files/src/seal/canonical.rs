@@ -6,7 +6,7 @@ use std::fmt;
 use serde::de::{self, Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use sha2::{Digest as _, Sha256};
 
-/// JSON value without key order, spaces and number form. Duplicate keys are rejected.
+/// JSON value without key order, spaces and number format. Duplicate keys are rejected.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Canonical {
     Null,
@@ -100,7 +100,7 @@ impl<'de> Visitor<'de> for Reader {
     }
 
     fn visit_f64<E>(self, value: f64) -> Result<Canonical, E> {
-        // Larger numbers may represent several integers.
+        // A larger float may represent several integers.
         let is_whole = value.fract().to_bits() << 1 == 0 && value.abs() < 9_007_199_254_740_992.0;
         #[expect(clippy::cast_possible_truncation, reason = "whole and below 2^53")]
         let whole = value as i128;
@@ -127,9 +127,7 @@ impl<'de> Visitor<'de> for Reader {
         while let Some((key, value)) = entries.next_entry::<String, Canonical>()? {
             if let Some(_twice) = object.insert(key.clone(), value) {
                 let key = key.escape_debug();
-                return Err(de::Error::custom(format!(
-                    "the key `{key}` is written twice"
-                )));
+                return Err(de::Error::custom(format!("duplicate key `{key}`")));
             }
         }
         Ok(Canonical::Object(object))
@@ -162,7 +160,7 @@ mod tests {
     #[test]
     fn a_key_that_is_written_twice_is_refused() {
         let error = Canonical::parse(r#"{"a":1,"a":2}"#).expect_err("twice");
-        assert!(error.contains("`a` is written twice"), "{error}");
+        assert!(error.contains("duplicate key `a`"), "{error}");
     }
 
     #[test]

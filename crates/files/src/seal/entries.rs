@@ -1,11 +1,11 @@
-//! Entries of a JSON object as they are written, in their order.
+//! Entries of a JSON object, in file order and with their formatting.
 
 use crate::seal::error::SealError;
 
-/// Object `text` without the entries of these keys. All other letters stay as they are. `text` must be valid JSON.
+/// Object `text` without the entries of `keys`. All other characters stay unchanged. `text` must be valid JSON.
 pub(crate) fn without(text: &str, keys: &[&str]) -> Result<String, SealError> {
     let no_object = || SealError::Content {
-        problem: "no JSON object".to_owned(),
+        problem: "expected a JSON object".to_owned(),
     };
     let (before, inside) = text.split_once('{').ok_or_else(no_object)?;
     let (inside, after) = inside.rsplit_once('}').ok_or_else(no_object)?;
@@ -20,7 +20,7 @@ pub(crate) fn without(text: &str, keys: &[&str]) -> Result<String, SealError> {
     Ok(format!("{before}{{{}{end}}}{after}", kept.join(",")))
 }
 
-/// Splits the inside of an object at the commas between its entries.
+/// Splits the content of an object at the commas between its entries.
 fn split(inside: &str) -> Vec<&str> {
     let (mut depth, mut start) = (0_usize, 0);
     let (mut is_text, mut is_escaped) = (false, false);

@@ -1,6 +1,6 @@
 //! Errors of sealed files.
 
-/// Refusal of a sealed file.
+/// Error of a sealed file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SealError {

@@ -28,7 +28,7 @@ impl std::fmt::Display for Edit {
     }
 }
 
-/// Shortens a digest to enough digits to distinguish it.
+/// Shortens a digest to enough digits for comparison by eye.
 fn short(digest: &str) -> &str {
     digest.get(..15).unwrap_or(digest)
 }

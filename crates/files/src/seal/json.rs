@@ -17,27 +17,27 @@ const HISTORY: &str = "history";
 /// Seals `text`, a JSON object, by appending the seal as its last key.
 ///
 /// # Errors
-/// [`SealError::Content`] if it is no JSON object, or has a seal.
+/// [`SealError::Content`] if `text` is not a JSON object or already has a seal.
 pub fn seal(text: &str) -> Result<String, SealError> {
     seal_with(text, &[])
 }
 
-/// As [`seal`], also over named bytes outside the text.
+/// As [`seal`], but the seal also covers `attached`, named bytes outside the text.
 ///
 /// # Errors
 /// As [`seal`].
 pub fn seal_with(text: &str, attached: &[(&str, &[u8])]) -> Result<String, SealError> {
     let parsed = Parsed::of(text, attached)?;
     if parsed.seal.is_some() {
-        return Err(content("it has a seal already".to_owned()));
+        return Err(content("the file already has a seal".to_owned()));
     }
     with_entries(text, &[(SEAL, seal_entry(&parsed))])
 }
 
-/// Checks that the content of `text` equals the sealed one, ignoring spaces and key order.
+/// Checks that the content of `text` equals the sealed content, ignoring spaces and key order.
 ///
 /// # Errors
-/// [`SealError`]: changed content, with the key if known; no seal; a seal alone.
+/// [`SealError`] if the content was changed (with the key if known), the seal is missing, or the file has only a seal.
 pub fn check(text: &str) -> Result<Opened, SealError> {
     check_with(text, &[])
 }
@@ -62,11 +62,11 @@ pub fn check_with(text: &str, attached: &[(&str, &[u8])]) -> Result<Opened, Seal
     }
 }
 
-/// Accepts `text` as it is: adds a history entry and a valid seal, and keeps all other entries as written, in their order. Returns a text
-/// with a valid seal unchanged.
+/// Accepts `text` in its present state. Adds a history entry and a valid seal; keeps all other entries with their order and formatting. Returns a
+/// text with a valid seal unchanged.
 ///
 /// # Errors
-/// [`SealError::Content`] if it is no JSON object; [`SealError::Alone`].
+/// [`SealError::Content`] if `text` is not a JSON object; [`SealError::Alone`].
 pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError> {
     let parsed = Parsed::of(text, &[])?;
     if parsed.is_alone {
@@ -103,7 +103,7 @@ struct Parsed {
 impl Parsed {
     fn of(text: &str, attached: &[(&str, &[u8])]) -> Result<Parsed, SealError> {
         let Canonical::Object(mut entries) = Canonical::parse(text).map_err(content)? else {
-            return Err(content("no JSON object".to_owned()));
+            return Err(content("expected a JSON object".to_owned()));
         };
         let seal = entries.remove(SEAL).map(seal_of).transpose()?;
         let is_alone = entries.is_empty();
@@ -144,7 +144,7 @@ impl Parsed {
         })
     }
 
-    /// Keys as parsed from a line of keys.
+    /// Digests of the keys, with names encoded as in a line of keys.
     fn keys(&self) -> Keys {
         let mut keys = keys::of(&self.rest);
         keys.extend(self.attached.clone());
@@ -177,7 +177,7 @@ fn seal_entry(parsed: &Parsed) -> String {
 
 /// Inserts entries at the end of the object `text`, without reformatting the rest.
 fn with_entries(text: &str, entries: &[(&str, String)]) -> Result<String, SealError> {
-    let no_object = || content("no JSON object".to_owned());
+    let no_object = || content("expected a JSON object".to_owned());
     let (head, tail) = text.rsplit_once('}').ok_or_else(no_object)?;
     let is_pretty = head.ends_with('\n');
     let head = head.trim_end();

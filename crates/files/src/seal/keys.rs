@@ -7,7 +7,7 @@ use crate::seal::digest::hexadecimal;
 
 /// Limit of nested key levels.
 const LEVELS: usize = 3;
-/// Limit of the number of keys, above which none are stored.
+/// Limit of the number of keys. If it is exceeded, no keys are stored.
 const MOST: usize = 4_096;
 
 /// Shortened digest of each value, by its key: `metrics.mae.Fz`, `studies[1].provenance.seed`.
@@ -74,7 +74,7 @@ pub(crate) fn to_line(keys: &Keys) -> String {
     entries.collect::<Vec<_>>().join(";")
 }
 
-/// Parses a line of [`to_line`]. Encoded names stay encoded on both sides of a comparison.
+/// Parses a line made by [`to_line`]. Names stay percent-encoded, also in a comparison.
 pub(crate) fn from_line(line: &str) -> Keys {
     line.split(';')
         .filter_map(|entry| entry.split_once('='))

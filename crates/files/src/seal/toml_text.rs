@@ -12,10 +12,10 @@ const SEAL: &str = "[seal]";
 /// Seals `body`, TOML, by appending the seal as its last table.
 ///
 /// # Errors
-/// [`SealError::Content`] if it is no TOML, or has a seal.
+/// [`SealError::Content`] if `body` is not TOML or already has a seal.
 pub fn seal(body: &str) -> Result<String, SealError> {
     if split(body).is_some() {
-        return Err(content("it has a seal already"));
+        return Err(content("the file already has a seal"));
     }
     let line = if body.ends_with('\n') { "" } else { "\n" };
     let body = format!("{body}{line}\n");
@@ -30,7 +30,7 @@ pub fn seal(body: &str) -> Result<String, SealError> {
 /// Checks that `text` is unchanged since sealing, byte by byte.
 ///
 /// # Errors
-/// [`SealError`]: changed content, with the key if known; no seal; a seal alone.
+/// [`SealError`] if the content was changed (with the key if known), the seal is missing, or the file has only a seal.
 pub fn check(text: &str) -> Result<Opened, SealError> {
     let Some((body, seal)) = split(text) else {
         return Err(SealError::Gone);
@@ -53,10 +53,10 @@ pub fn check(text: &str) -> Result<Opened, SealError> {
     })
 }
 
-/// Accepts `text` as it is: adds a history entry and a valid seal. Returns a text with a valid seal unchanged.
+/// Accepts `text` in its present state: adds a history entry and a valid seal. Returns a text with a valid seal unchanged.
 ///
 /// # Errors
-/// [`SealError::Content`] if it is no TOML; [`SealError::Alone`].
+/// [`SealError::Content`] if `text` is not TOML; [`SealError::Alone`].
 pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError> {
     let (body, from) = match split(text) {
         None => (text, "unsealed".to_owned()),
@@ -86,7 +86,7 @@ pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError>
     seal(&format!("{}\n\n{entry}", body.trim_end()))
 }
 
-/// Splits the text before its last table, if that is the seal.
+/// Splits the text before its last table, if this table is the seal.
 fn split(text: &str) -> Option<(&str, &str)> {
     let at = match text.rfind(&format!("\n{SEAL}")) {
         Some(before) => before + 1,
@@ -119,7 +119,9 @@ impl Written {
         let File { seal } =
             toml::from_str(text).map_err(|error| unreadable(error.message().to_owned()))?;
         if !seal.digest.starts_with(PREFIX) {
-            return Err(unreadable(format!("its digest is no `{PREFIX}…`")));
+            return Err(unreadable(format!(
+                "`digest` does not begin with `{PREFIX}`"
+            )));
         }
         Ok(Written {
             digest: seal.digest,

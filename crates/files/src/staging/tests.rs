@@ -41,7 +41,7 @@ fn a_folder_between_two_renames_is_waited_for_and_put_back_once_its_process_is_d
     });
     std::thread::sleep(Duration::from_millis(50));
     assert!(!target.exists(), "somebody is still at work");
-    // Another target of the same parent does not clear it, nor does its own end.
+    // Neither a new target in the same parent nor this drop clears the folder.
     drop(staged);
     assert!(waiting.join().expect("no panic").expect("settled"));
     assert_eq!(fs::read(target.join("x")).expect("back"), b"old");

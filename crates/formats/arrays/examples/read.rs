@@ -1,10 +1,10 @@
-//! Lists the arrays of a file, or reads one of them some rows at a time.
+//! Lists the arrays of a file, or reads one array some rows at a time.
 //!
 //! ```text
 //! cargo run --release -p taceva-arrays --example read -- FILE [ARRAY [ROWS]]
 //! ```
 
-#![expect(clippy::print_stdout, reason = "an example prints what it found")]
+#![expect(clippy::print_stdout, reason = "an example prints its results")]
 
 use std::path::Path;
 
@@ -14,8 +14,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
     let path = arguments.next().ok_or("which file?")?;
     let path = Path::new(&path);
-    let format =
-        ArrayFormat::of(path).ok_or("the ending of the file is of no form that is known")?;
+    let format = ArrayFormat::of(path).ok_or("the extension of the file is unknown")?;
     let file = ArrayFile::open(path, format)?;
     let Some(array) = arguments.next() else {
         for name in file.names() {
@@ -41,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// The most memory that this process had, where the system says so (Linux).
+/// Peak memory of this process, KiB; `None` if the system does not report it (only Linux does).
 fn peak_kib() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

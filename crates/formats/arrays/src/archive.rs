@@ -1,5 +1,6 @@
-//! Directory of a zip archive: the members and the location of their bytes. Members are stored or deflated; archives above 4 GiB (zip64)
-//! are supported. Each local header is compared with the directory, which is taken as correct.
+//! Directory of a zip archive: the members and the locations of their bytes.
+//!
+//! Members are stored or deflated. Archives above 4 GiB (zip64) are supported. Each local header is compared with the directory.
 
 use crate::error::Problem;
 use crate::inflate::Wrapping;
@@ -119,7 +120,7 @@ fn directory(archive: &dyn ByteSource) -> Result<Directory, Problem> {
     Ok(found)
 }
 
-/// Parses one entry of the directory; returns it with the rest. The offset is that of the local header. `None` for a folder.
+/// Parses one entry of the directory. Returns the entry and the rest; `None` for a folder. The offset is the offset of the local header.
 fn entry(rest: &[u8], at: u64) -> Result<(Option<Packed>, &[u8]), Problem> {
     let cut = || Problem::damaged(at, "the end of the directory", "an entry");
     if number(rest, 0, 4).ok_or_else(cut)? != u64::from(ENTRY) {
@@ -143,7 +144,7 @@ fn entry(rest: &[u8], at: u64) -> Result<(Option<Packed>, &[u8]), Problem> {
     let name = String::from_utf8_lossy(rest.get(46..name_end).ok_or_else(cut)?).into_owned();
     let extra = rest.get(name_end..extra_end).ok_or_else(cut)?;
     let behind = rest.get(extra_end + sizes[2]..).ok_or_else(cut)?;
-    // Sizes and an offset above 32 bits are in extra field 1, in this order; it holds only those.
+    // Extra field 1 has the sizes and offset above 32 bits, in this order, and no others.
     let mut large = extra_field(extra, 1).unwrap_or(&[]);
     for size in [&mut bytes, &mut packed_bytes, &mut local_at] {
         if *size == ELSEWHERE {
@@ -180,7 +181,7 @@ fn entry(rest: &[u8], at: u64) -> Result<(Option<Packed>, &[u8]), Problem> {
     Ok((Some(member), behind))
 }
 
-/// The member with the location of its bytes, from the local header.
+/// Member with the location of its bytes, from the local header.
 fn located(archive: &dyn ByteSource, listed: Packed) -> Result<Packed, Problem> {
     let header = bytes_of(archive, listed.at, 30)?;
     let field = |place: usize, bytes: usize| number(&header, place, bytes).unwrap_or(0);
@@ -225,7 +226,7 @@ fn extra_field(mut extra: &[u8], wanted: u64) -> Option<&[u8]> {
     }
 }
 
-/// A little-endian number of up to 8 bytes.
+/// Little-endian number of up to 8 bytes.
 fn number(bytes: &[u8], at: usize, length: usize) -> Option<u64> {
     let bytes = bytes.get(at..at + length)?;
     Some(

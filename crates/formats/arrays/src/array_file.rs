@@ -1,4 +1,4 @@
-//! A file of arrays of any format.
+//! File of arrays in any format.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -42,7 +42,7 @@ pub struct ArrayFile {
 }
 
 impl ArrayFile {
-    /// Opens a file and lists its arrays; reads no element.
+    /// Opens a file and lists its arrays. Reads no element.
     ///
     /// # Errors
     /// [`ArrayError`] if the file cannot be opened, is damaged, has another format, or contains unsupported content.
@@ -58,10 +58,10 @@ impl ArrayFile {
         ))
     }
 
-    /// Reads the bytes of a `.npy` file within another file; `path` is used in errors only.
+    /// Reads the bytes of a `.npy` file within another file. `path` is used only in errors.
     ///
     /// # Errors
-    /// [`ArrayError`] if they are damaged, are no NumPy array, or have an unsupported type.
+    /// [`ArrayError`] if they are damaged, are not a NumPy array, or have an unsupported type.
     ///
     /// ```
     /// use taceva_arrays::{ArrayFile, ArrayValues};
@@ -98,17 +98,17 @@ impl ArrayFile {
         }
     }
 
-    /// The names of the arrays, in the order of the file.
+    /// Names of the arrays, in the order of the file.
     ///
-    /// An `.npy` file has one, `value`. An `.npz` file has the names of its members without `.npy`. HDF5 and zarr have full paths
-    /// (`/group/frames`), and a MATLAB file has its variables. A pickle has `value`, or the keys of its dictionary, or those of the
-    /// dictionaries in its list. Records have one name for each field, after a dot: `/table.Fx`.
+    /// An `.npy` file has one array, `value`. An `.npz` file has the names of its members without `.npy`. HDF5 and zarr have full paths
+    /// (`/group/frames`). A MATLAB file has its variables. A pickle has `value`, or the keys of its dictionary or of the dictionaries in its
+    /// list. Records have one name for each field, after a dot: `/table.Fx`.
     #[must_use]
     pub fn names(&self) -> Vec<String> {
         self.arrays.iter().map(|(name, _)| name.clone()).collect()
     }
 
-    /// Shape and type of the array `name`; the leading slash of a full name is optional.
+    /// Shape and type of the array `name`. The leading slash of a full name is optional.
     #[must_use]
     pub fn info(&self, name: &str) -> Option<&ArrayInfo> {
         let index = self.index(name)?;
@@ -141,7 +141,7 @@ impl ArrayFile {
         }
     }
 
-    /// The index of the array `name`; the leading slash of a full name is optional.
+    /// Index of the array `name`. The leading slash of a full name is optional.
     fn index(&self, name: &str) -> Option<usize> {
         let found = self
             .by_name
@@ -150,8 +150,8 @@ impl ArrayFile {
         found.copied()
     }
 
-    /// The groups of HDF5 and zarr whose full names match `pattern`, in order; `*` matches any letters but `/`. Dictionaries within the
-    /// dictionary of a pickle are groups too, after dots: `trajectories.*`.
+    /// Groups of HDF5 and zarr with full names that match `pattern`, in order. `*` matches any characters except `/`. Dictionaries within
+    /// the dictionary of a pickle are groups too, after dots: `trajectories.*`.
     #[must_use]
     pub fn groups(&self, pattern: &str) -> Vec<String> {
         let mut groups = self.store.groups();
@@ -167,7 +167,7 @@ impl ArrayFile {
         groups
     }
 
-    /// Dead links of the file, each with the reason. They are not listed as arrays, and reading one by name is an error.
+    /// Dead links of the file, each with the reason. They are not listed as arrays. Reading a dead link by name is an error.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) {
@@ -201,7 +201,7 @@ impl ArrayFile {
             .collect()
     }
 
-    /// Checks that no dead link matches `pattern` or a parent of a match, so that [`groups`](ArrayFile::groups) is complete.
+    /// Checks that no dead link matches `pattern` or a parent of a match. Then [`groups`](ArrayFile::groups) is complete.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) -> Result<(), taceva_arrays::ArrayError> {
@@ -212,7 +212,7 @@ impl ArrayFile {
     /// ```
     ///
     /// # Errors
-    /// [`ArrayError`] naming such a link.
+    /// [`ArrayError`] with the name of such a link.
     pub fn check_groups(&self, pattern: &str) -> Result<(), ArrayError> {
         let wanted: Vec<&str> = pattern.trim_matches('/').split('/').collect();
         let is_like = |link: &str| {
@@ -227,7 +227,7 @@ impl ArrayFile {
         }
     }
 
-    /// The names of the attributes of the group or array `owner`; empty if the format has no attributes.
+    /// Names of the attributes of the group or array `owner`; empty if the format has no attributes.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) {
@@ -241,24 +241,24 @@ impl ArrayFile {
         self.store.attributes(owner)
     }
 
-    /// The attribute `name` of the group or array `owner`. Numbers have the shortest text that reads back exactly; several of them are in
+    /// Attribute `name` of the group or array `owner`. Numbers have the shortest text that reads back exactly. Several numbers are in
     /// brackets.
     #[must_use]
     pub fn attribute(&self, owner: &str, name: &str) -> Option<String> {
         self.store.attribute(owner, name)
     }
 
-    /// Reads some rows of the first axis, in the byte order of this machine, in C order. A single number has one row.
+    /// Reads rows of the first axis, in the byte order of this machine, in C order. A single number has one row.
     ///
     /// # Errors
-    /// [`ArrayError`] if there is no such array or row, if the rows take more than 1 GiB, or if the file is damaged there.
+    /// [`ArrayError`] if there is no such array or row, if the rows need more than 1 GiB, or if the file is damaged there.
     pub fn read(&self, name: &str, rows: Range<u64>) -> Result<ArrayData, ArrayError> {
         self.rows(name, rows)
             .map_err(|problem| self.wrong(name, problem))
     }
 
-    /// Number of chunks of the array that were never written (HDF5, zarr). Readers give their elements the fill value, mostly 0, without
-    /// any mark. Returns 0 for arrays without chunks, and if the index of an HDF5 file cannot be listed.
+    /// Number of chunks of the array that were never written (HDF5, zarr). Their elements read as the fill value, mostly 0, without any
+    /// mark. Returns 0 for arrays without chunks, and if the index of an HDF5 file cannot be listed.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) -> Result<(), taceva_arrays::ArrayError> {
@@ -306,7 +306,7 @@ impl ArrayFile {
     }
 
     fn absent(&self, name: &str) -> Problem {
-        // A record that cannot be read is requested by its fields.
+        // An unreadable record is requested by its fields.
         let name = name.trim_start_matches('/');
         let is_of = |array: &str| {
             let rest = name.strip_prefix(array.trim_start_matches('/'));

@@ -10,7 +10,7 @@ use crate::order::ColumnMajor;
 use crate::source::{ByteSource, bytes_of};
 use crate::values::ArrayData;
 
-/// An array whose elements are contiguous in a source.
+/// Array with contiguous elements in a source.
 #[derive(Debug)]
 pub(crate) struct Block {
     source: Arc<dyn ByteSource>,
@@ -22,7 +22,7 @@ pub(crate) struct Block {
 }
 
 impl Block {
-    /// The elements that begin at byte `at` of the source; rejects those beyond its end.
+    /// Elements that begin at byte `at` of the source. Rejects elements beyond its end.
     pub(crate) fn new(
         source: Arc<dyn ByteSource>,
         at: u64,
@@ -83,7 +83,7 @@ impl Block {
         self.at + self.shape.first().copied().unwrap_or(1) * self.row_bytes
     }
 
-    /// The bytes of `rows`, row by row.
+    /// Bytes of `rows`, row by row.
     pub(crate) fn raw_rows(&self, rows: Range<u64>) -> Result<Vec<u8>, Problem> {
         let bytes = (rows.end - rows.start) * self.row_bytes;
         match &self.columns {
@@ -92,7 +92,7 @@ impl Block {
         }
     }
 
-    /// One field of `rows`.
+    /// Reads one field of `rows`.
     pub(crate) fn read(&self, field: usize, rows: Range<u64>) -> Result<ArrayData, Problem> {
         let mut shape = self.shape.clone();
         if let Some(first) = shape.first_mut() {

@@ -1,9 +1,9 @@
-//! Least-recently-used cache, limited in bytes.
+//! Least-recently-used cache with a limit in bytes.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Values by key; the least recently used are dropped first.
+/// Values by key. The least recently used are dropped first.
 #[derive(Debug)]
 pub(crate) struct Cache<K, T> {
     most_bytes: u64,
@@ -35,7 +35,7 @@ impl<K: Ord + Clone, T> Cache<K, T> {
         Some(Arc::clone(value))
     }
 
-    /// Stores a value of `bytes` bytes and removes the least recently used ones. The newest value always stays.
+    /// Stores a value of `bytes` bytes. Removes the least recently used ones. The newest value always stays.
     pub(crate) fn keep(&mut self, key: K, bytes: u64, value: Arc<T>) {
         self.turn += 1;
         self.by_turn.insert(self.turn, key.clone());

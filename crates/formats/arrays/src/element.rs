@@ -1,6 +1,6 @@
-//! Types of elements of an array, as its file states.
+//! Types of elements of an array, as stated in its file.
 
-/// The type of an array's elements. Widths are in bits.
+/// Type of the elements of an array. Widths are in bits.
 ///
 /// ```
 /// use taceva_arrays::Element;
@@ -37,7 +37,7 @@ impl std::fmt::Display for Element {
     }
 }
 
-/// Shape and type of one array, known without reading its elements.
+/// Shape and type of one array. Reading them reads no element.
 ///
 /// ```no_run
 /// # fn of(file: &taceva_arrays::ArrayFile) {
@@ -52,7 +52,7 @@ impl std::fmt::Display for Element {
 pub struct ArrayInfo {
     /// Lengths of the axes, the slowest first; empty for a single number.
     pub shape: Vec<u64>,
-    /// The type of the elements.
+    /// Type of the elements.
     pub element: Element,
 }
 
@@ -67,7 +67,7 @@ impl ArrayInfo {
         self.shape.first().copied().unwrap_or(1)
     }
 
-    /// Elements of one row: the product of all axes but the first. `None` above 64 bits.
+    /// Number of elements of one row: the product of all axes except the first. `None` above 64 bits.
     #[must_use]
     pub fn row_elements(&self) -> Option<u64> {
         let rest = self.shape.get(1..).unwrap_or(&[]);

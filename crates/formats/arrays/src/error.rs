@@ -17,17 +17,16 @@ use std::path::PathBuf;
 #[error("{}: {}{problem}", path.display(), array.as_ref().map(|name| format!("`{name}`: ")).unwrap_or_default())]
 #[non_exhaustive]
 pub struct ArrayError {
-    /// The file, or the folder of a zarr store.
+    /// File, or folder of a zarr store.
     pub path: PathBuf,
-    /// The array, if the error concerns one.
+    /// Array, if the error concerns one.
     pub array: Option<String>,
-    /// The problem.
+    /// Problem.
     #[source]
     pub problem: Problem,
 }
 
-/// A problem of a file: its location, and how to fix it. Offsets are in bytes from the beginning of the file, or of the member or chunk
-/// that the text names.
+/// Problem of a file: its location and a remedy. Offsets are in bytes from the start of the file, or of the member or chunk in the text.
 ///
 /// ```
 /// use taceva_arrays::Problem;
@@ -38,12 +37,12 @@ pub struct ArrayError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Problem {
-    /// An input or output error.
+    /// Input or output error.
     #[error("cannot {doing}: {source}")]
     Io {
-        /// The operation that failed.
+        /// Failed operation.
         doing: &'static str,
-        /// The error of the system.
+        /// System error.
         source: std::io::Error,
     },
     /// Bytes that contradict the format.
@@ -51,27 +50,27 @@ pub enum Problem {
     Damaged {
         /// Offset, bytes.
         at: u64,
-        /// The content found.
+        /// Found content.
         found: String,
-        /// The content expected.
+        /// Expected content.
         expected: String,
     },
     /// Content that the format allows but this crate does not read or write.
     #[error("{found}; {mend}")]
     Unsupported {
-        /// The content found.
+        /// Found content.
         found: String,
-        /// The alternative for the user.
+        /// Remedy.
         mend: String,
     },
-    /// A size above the limit; nothing was allocated for it.
+    /// A size above the limit. Nothing was allocated for it.
     #[error("{what}: {size}, above the limit of {limit}")]
     TooLarge {
-        /// The thing that is too large, with its unit.
+        /// Subject of the limit, with its unit.
         what: String,
         /// Size in that unit.
         size: u64,
-        /// The limit.
+        /// Limit.
         limit: u64,
     },
     /// A checksum of the file that does not match its content.
@@ -79,41 +78,41 @@ pub enum Problem {
         "{what}: checksum {computed:#010x}, but the file states {stated:#010x}: the file is damaged"
     )]
     Checksum {
-        /// The part of the file.
+        /// Part of the file.
         what: String,
-        /// The checksum in the file.
+        /// Checksum in the file.
         stated: u32,
-        /// The checksum of its bytes.
+        /// Computed checksum of the bytes.
         computed: u32,
     },
-    /// An inconsistent structure of the file, in the words of the library that reads it.
+    /// An inconsistent structure of the file, with the message of its library.
     #[error("{problem}")]
     Structure {
-        /// The message of the library.
+        /// Message of the library.
         problem: String,
     },
     /// No array of that name.
     #[error("no such array; there are {there}")]
     Absent {
-        /// The first names of existing arrays.
+        /// First names of existing arrays.
         there: String,
     },
     /// Rows beyond the end of the array.
     #[error("no rows {} to {}, there are {rows} from 0", asked.start, asked.end)]
     Rows {
-        /// The requested rows, end exclusive.
+        /// Requested rows, end exclusive.
         asked: Range<u64>,
         /// Number of rows of the array.
         rows: u64,
     },
-    /// A pickle that needs a class or function beyond plain values and arrays. No part of it was run.
+    /// A pickle that needs a class or function beyond plain values and arrays. No code in it was run.
     #[error("byte {at}: wants `{global}`, which is not run here; {mend}")]
     Global {
         /// Offset, bytes.
         at: u64,
         /// Module and name.
         global: String,
-        /// The alternative for the user.
+        /// Remedy.
         mend: String,
     },
 }
@@ -135,7 +134,7 @@ impl Problem {
         }
     }
 
-    /// Repeats the problem for a later request; kinds not matched here become `Structure` with the same text.
+    /// Repeats the problem for a later request. Other kinds become `Structure` with the same text.
     pub(crate) fn again(&self) -> Problem {
         match self {
             Problem::Unsupported { found, mend } => {
@@ -160,7 +159,7 @@ impl Problem {
         }
     }
 
-    /// The same problem, with the part of the file that its offsets refer to.
+    /// Same problem, with the part of the file that its offsets refer to.
     pub(crate) fn within(self, part: &str) -> Problem {
         match self {
             Problem::Damaged {

@@ -1,4 +1,4 @@
-//! Records: elements of several consecutive fields, each of which is read as its own array.
+//! Records: elements of several consecutive fields. Each field is read as a separate array.
 
 use crate::element::{ArrayInfo, Element};
 use crate::error::Problem;
@@ -7,7 +7,7 @@ use crate::literal::Literal;
 use crate::scalar::{Scalar, shown};
 use crate::values::{ArrayData, ArrayValues};
 
-/// One field of a record, or the whole element if it is no record.
+/// One field of a record, or the whole element if it is not a record.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Field {
     /// Field names from the outermost, joined by dots; empty if the element is not a record.
@@ -40,7 +40,7 @@ impl Item {
         }
     }
 
-    /// Type of an element that is one scalar; `None` for others, and for elements of zero bytes, whose number is unknown.
+    /// Type of an element that is one scalar; `None` for other elements, and for elements of zero bytes.
     pub(crate) fn scalar(&self) -> Option<Scalar> {
         match self.fields.as_slice() {
             [field]
@@ -54,7 +54,7 @@ impl Item {
         }
     }
 
-    /// Parses a NumPy `descr`: a type name, or a list of fields with their names.
+    /// Parses a NumPy `descr`: a type name, or a list of named fields.
     pub(crate) fn from_descr(descr: &Literal) -> Result<Item, Problem> {
         let mut item = Item {
             bytes: 0,
@@ -101,7 +101,7 @@ impl Item {
                 });
                 self.bytes = scalar.bytes();
             }
-            // Several records in one field: none of their fields is one block.
+            // A field with several records: no field of these is one block.
             Literal::Sequence(_) if !extent.is_empty() => return Err(unknown()),
             Literal::Sequence(fields) => {
                 for field in fields {
@@ -142,7 +142,7 @@ impl Item {
         Ok(())
     }
 
-    /// The name and shape of each field of an array `name` of these elements.
+    /// Names and shapes of the fields of the array `name` with these elements.
     pub(crate) fn arrays(&self, name: &str, shape: &[u64]) -> Vec<(String, ArrayInfo)> {
         let array = |field: &Field| {
             let name = if field.name.is_empty() {
@@ -156,7 +156,7 @@ impl Item {
         self.fields.iter().map(array).collect()
     }
 
-    /// One field of the elements `raw`, which have the shape `shape`.
+    /// Reads one field of the elements `raw` of the shape `shape`.
     pub(crate) fn read(
         &self,
         field: &Field,
@@ -169,7 +169,7 @@ impl Item {
         Ok(ArrayData { shape, values })
     }
 
-    /// The bytes of one field of the elements `raw`.
+    /// Bytes of one field of the elements `raw`.
     pub(crate) fn pick(&self, field: &Field, raw: Vec<u8>) -> Vec<u8> {
         let width = elements(&field.extent) * field.scalar.bytes();
         if width == self.bytes {
@@ -183,7 +183,7 @@ impl Item {
     }
 }
 
-/// Product of the sides, each checked against a limit before.
+/// Product of the sides. The caller has checked each against a limit.
 fn elements(shape: &[u64]) -> usize {
     let product = shape
         .iter()

@@ -24,7 +24,7 @@ pub enum ArrayFormat {
     Zarr,
     /// MATLAB (`.mat`) of version 5 or 7.3.
     Matlab,
-    /// A pickle of Python (`.pkl`, `.pickle`, `.p`) that holds arrays and plain values.
+    /// A Python pickle (`.pkl`, `.pickle`, `.p`) with arrays and plain values.
     Pickle,
 }
 
@@ -39,7 +39,7 @@ impl ArrayFormat {
         ArrayFormat::Pickle,
     ];
 
-    /// The format by the extension of `path`; opens nothing.
+    /// Format for the extension of `path`. Opens nothing.
     #[must_use]
     pub fn of(path: &Path) -> Option<ArrayFormat> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
@@ -47,7 +47,7 @@ impl ArrayFormat {
         ArrayFormat::ALL.into_iter().find(named)
     }
 
-    /// The extensions of the format, in lower case and without the dot.
+    /// Extensions of the format, in lower case and without the dot.
     ///
     /// ```
     /// assert_eq!(taceva_arrays::ArrayFormat::Matlab.endings(), ["mat"]);

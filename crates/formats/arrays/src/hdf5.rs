@@ -1,4 +1,4 @@
-//! HDF5, by the crate `hdf5-pure`: its structures, chunks and filters. Contiguous data and variable-length values are read here.
+//! HDF5 files. The crate `hdf5-pure` reads structures, chunks and filters. Contiguous data and variable-length values are read here.
 
 mod attribute;
 mod chunk_index;
@@ -39,7 +39,7 @@ pub(crate) use data_frame::store;
 pub use element_type::WrittenElement;
 pub use writer::Hdf5Writer;
 
-/// An HDF5 file.
+/// HDF5 file.
 #[derive(Debug)]
 pub(crate) struct Hdf5 {
     bytes: Arc<FileBytes>,
@@ -49,14 +49,14 @@ pub(crate) struct Hdf5 {
     refused: Vec<(String, Problem)>,
     /// Dead links.
     nowhere: Vec<(String, Problem)>,
-    /// For each listed array, the index of its dataset and of its field.
+    /// Index of the dataset and of the field of each listed array.
     listed: Vec<(usize, usize)>,
     open: Mutex<Cache<usize, Opened>>,
     unpacked: UnpackedSizes,
     heap: GlobalHeap,
 }
 
-/// A readable dataset.
+/// Readable dataset.
 #[derive(Debug)]
 pub(crate) struct Listed {
     pub(crate) path: String,
@@ -66,7 +66,7 @@ pub(crate) struct Listed {
     pub(crate) row_bytes: u64,
 }
 
-/// A dataset with parsed structures.
+/// Dataset with parsed structures.
 #[derive(Debug)]
 struct Opened {
     dataset: Dataset,
@@ -88,7 +88,7 @@ impl Hdf5 {
         let mut nowhere = Vec::new();
         let (found, file) = match open(Patches::new()) {
             Ok(opened) => opened,
-            // The cause may be soft links alone.
+            // Soft links may be the only cause.
             Err(problem) => match soft_links::followed(&bytes) {
                 Ok(followed) if !followed.patches.is_empty() => {
                     nowhere = followed.nowhere;
@@ -138,7 +138,7 @@ impl Hdf5 {
         Ok(opened)
     }
 
-    /// The dataset, and the size of its chunks in memory, bytes.
+    /// Opens the dataset. Also returns the size of its chunks in memory, bytes.
     fn open_dataset(&self, index: usize) -> Result<(Opened, u64), Problem> {
         let listed = &self.datasets[index];
         let dataset = self.file.dataset(&listed.path).map_err(problem)?;
@@ -180,7 +180,7 @@ impl Hdf5 {
                 let chunks = ChunkIndex::read(&dataset, &listed.shape, &chunk_shape)?;
                 let written = chunks.map_or(0, |chunks| chunks.written);
                 self.take_unpacked(index, written.saturating_mul(chunk_bytes))?;
-                // Rows that are read one by one share cached chunks.
+                // Rows that are read one at a time share cached chunks.
                 let rows_of_chunk = chunk_shape.first().copied().unwrap_or(1);
                 let across = rows_of_chunk
                     .saturating_mul(listed.row_bytes)
@@ -206,7 +206,7 @@ impl Hdf5 {
         }
     }
 
-    /// Counts a dataset towards the unpacked size of the file: its unpacked chunks, and elements that were never written.
+    /// Adds a dataset to the unpacked size of the file: its unpacked chunks and the elements that were never written.
     fn take_unpacked(&self, index: usize, chunks: u64) -> Result<(), Problem> {
         let listed = &self.datasets[index];
         let rows = listed.shape.first().copied().unwrap_or(1);
@@ -214,7 +214,7 @@ impl Hdf5 {
         self.unpacked.take(index, bytes, self.bytes.length())
     }
 
-    /// The bytes of rows, unpacked from all filters.
+    /// Bytes of rows after all filters.
     pub(crate) fn raw_rows(&self, index: usize, rows: Range<u64>) -> Result<Vec<u8>, Problem> {
         let row_bytes = self.datasets[index].row_bytes;
         let count = rows.end - rows.start;
@@ -336,7 +336,7 @@ pub(crate) fn product(sides: &[u64], item_bytes: u64) -> Option<u64> {
         .try_fold(item_bytes, |bytes, side| bytes.checked_mul(*side))
 }
 
-/// Converts an error of the crate; adds a remedy if there is one.
+/// Converts an error of the crate. Adds a remedy if there is one.
 pub(crate) fn problem(error: hdf5_pure::Error) -> Problem {
     use hdf5_pure::Error;
     match error {

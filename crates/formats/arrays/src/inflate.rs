@@ -16,7 +16,7 @@ const WINDOW_BYTES: usize = 256 << 10;
 pub(crate) enum Wrapping {
     /// No container.
     Raw,
-    /// Header and checksum of zlib; the checksum is compared.
+    /// Header and checksum of zlib. The checksum is checked.
     Zlib,
 }
 
@@ -29,7 +29,7 @@ impl Wrapping {
     }
 }
 
-/// Inflates all of `packed` to exactly `bytes` bytes; the caller has checked `bytes` against a limit.
+/// Inflates all of `packed` to exactly `bytes` bytes. The caller has checked `bytes` against a limit.
 pub(crate) fn inflated(
     packed: &[u8],
     bytes: usize,
@@ -46,7 +46,7 @@ pub(crate) fn inflated(
     }
 }
 
-/// Inflates to an unknown length of at most `most` bytes; also returns the number of packed bytes used.
+/// Inflates to an unknown length of at most `most` bytes. Also returns the number of used packed bytes.
 pub(crate) fn inflated_at_most(
     packed: &[u8],
     most: usize,
@@ -63,7 +63,7 @@ pub(crate) fn inflated_at_most(
     Ok((whole, used))
 }
 
-/// The problem for bytes that the decoder rejects, at offset `at` of the deflated bytes.
+/// Problem for bytes that the decoder rejects, at offset `at` of the deflated bytes.
 fn broken(at: u64, status: TINFLStatus) -> Problem {
     let (found, expected) = match status {
         TINFLStatus::HasMoreOutput => ("more bytes than stated", "the end of the deflated data"),
@@ -79,7 +79,7 @@ fn broken(at: u64, status: TINFLStatus) -> Problem {
     Problem::damaged(at, found, expected)
 }
 
-/// Incremental inflater, from first byte to last, as far as requested.
+/// Incremental inflater: from the first byte forward, as far as requested.
 pub(crate) struct Inflater {
     state: Box<DecompressorOxide>,
     wrapping: Wrapping,
@@ -90,7 +90,7 @@ pub(crate) struct Inflater {
     input: Vec<u8>,
     used: usize,
     window: Vec<u8>,
-    /// Bytes of the window that were not consumed yet.
+    /// Unread bytes of the window.
     ready: std::ops::Range<usize>,
     is_done: bool,
 }
@@ -110,7 +110,7 @@ impl Inflater {
         }
     }
 
-    /// Fills `into` with the next bytes; returns fewer only at the end.
+    /// Fills `into` with the next bytes. Returns fewer only at the end.
     pub(crate) fn read(
         &mut self,
         source: &dyn ByteSource,
@@ -130,7 +130,7 @@ impl Inflater {
         Ok(filled)
     }
 
-    /// Inflates until the window has bytes; false at the end.
+    /// Inflates until the window has bytes. False at the end.
     fn step(&mut self, source: &dyn ByteSource) -> Result<bool, Problem> {
         while !self.is_done {
             if self.used == self.input.len() && self.next < self.from.end {

@@ -1,4 +1,4 @@
-//! Limits. Larger files or requests are rejected before anything is allocated for them.
+//! Limits. Larger files and requests are rejected before any allocation.
 
 /// Maximum bytes that one call of `read` returns.
 pub(crate) const READ_BYTES: u64 = 1 << 30;
@@ -6,7 +6,7 @@ pub(crate) const READ_BYTES: u64 = 1 << 30;
 pub(crate) const NPY_HEADER_BYTES: u64 = 1 << 20;
 /// Maximum nesting of a Python literal, and of the fields of a record.
 pub(crate) const LITERAL_DEPTH: usize = 16;
-/// Maximum number of axes; NumPy has at most 64, HDF5 32.
+/// Maximum number of axes. NumPy has at most 64, HDF5 at most 32.
 pub(crate) const AXES: usize = 64;
 /// Size of the blocks in which column-major rows are transposed, bytes.
 pub(crate) const TURNED_BYTES: u64 = 64 << 20;
@@ -21,7 +21,7 @@ pub(crate) const CHUNK_BYTES: u64 = 256 << 20;
 pub(crate) const CHUNKS: u64 = 1 << 16;
 /// Maximum metadata file of zarr, bytes.
 pub(crate) const METADATA_BYTES: u64 = 16 << 20;
-/// Maximum values of a pickle that are no elements of arrays.
+/// Maximum values of a pickle that are not elements of arrays.
 pub(crate) const PICKLED_VALUES: u64 = 1 << 22;
 /// Maximum operations of a pickle.
 pub(crate) const PICKLE_STEPS: u64 = 1 << 25;
@@ -31,11 +31,11 @@ pub(crate) const PICKLE_DEPTH: usize = 64;
 pub(crate) const DIRECTORY_BYTES: u64 = 64 << 20;
 /// Maximum compression ratio of deflate.
 pub(crate) const DEFLATE_RATIO: u64 = 1_032;
-/// Ratio above which a member is inflated only up to `INFLATED_BYTES`.
+/// Ratio limit. A member above it is inflated only up to `INFLATED_BYTES`.
 pub(crate) const USUAL_RATIO: u64 = 200;
-/// Maximum inflated size of a member above `USUAL_RATIO`, bytes; keeps any small file below 300 MB and 20 s.
+/// Maximum inflated size of a member above `USUAL_RATIO`, bytes. Keeps any small file below 300 MB and 20 s.
 pub(crate) const INFLATED_BYTES: u64 = 128 << 20;
-/// Maximum bytes of members and variables of one file that are inflated as a whole and kept.
+/// Maximum bytes of members and variables of one file that are inflated whole and kept.
 pub(crate) const HELD_BYTES: u64 = 64 << 20;
 
 /// Maximum size of `stored` bytes after unpacking, bytes.

@@ -1,4 +1,4 @@
-//! Python literals, as in headers of NumPy: texts, whole numbers, true and false, tuples, lists, dictionaries.
+//! Python literals, as in NumPy headers: texts, whole numbers, true and false, tuples, lists, dictionaries.
 
 use crate::error::Problem;
 use crate::limits;
@@ -26,7 +26,7 @@ impl Literal {
         Ok(literal)
     }
 
-    /// The value of `key` in a dictionary; `None` if there is none.
+    /// Value of `key` in a dictionary; `None` if there is no such key.
     pub(crate) fn key(&self, key: &str) -> Option<&Literal> {
         let Literal::Dictionary(entries) = self else {
             return None;
@@ -35,7 +35,7 @@ impl Literal {
         found.map(|(_, literal)| literal)
     }
 
-    /// The lengths of axes: one number, or several.
+    /// Lengths of axes: one number, or several.
     pub(crate) fn shape(&self) -> Option<Vec<u64>> {
         match self {
             Literal::Whole(side) => Some(vec![*side]),
@@ -66,7 +66,7 @@ impl Reader<'_> {
         self.place += self.rest().len() - self.rest().trim_start().len();
     }
 
-    /// Consumes `mark` if it is next, and returns whether it was.
+    /// Consumes `mark` if it is next. True if it was.
     fn skips(&mut self, mark: &str) -> bool {
         self.blank();
         let is_here = self.rest().starts_with(mark);

@@ -1,5 +1,6 @@
-//! MATLAB files of version 5 (`save`, `save -v7`), read here, and of version 7.3, which are HDF5. Lengths of axes are MATLAB's: a variable
-//! of 480×640×20 is an array of that shape, with rows along the first axis.
+//! MATLAB files of version 5 (`save`, `save -v7`), read here, and of version 7.3, which are HDF5.
+//!
+//! Lengths of axes are in MATLAB order. A variable of 480×640×20 is an array of that shape, with rows along the first axis.
 
 mod content;
 mod element;
@@ -55,7 +56,7 @@ pub(crate) fn open(file: FileBytes) -> Result<Box<dyn Store>, Problem> {
     Ok(Box::new(Matlab5::open(Arc::new(file), is_big_endian)?))
 }
 
-/// A file of version 5.
+/// File of version 5.
 #[derive(Debug)]
 struct Matlab5 {
     variables: Vec<(String, Variable)>,
@@ -111,7 +112,7 @@ impl Matlab5 {
     }
 }
 
-/// Opens a deflated variable, whose own tag states its inflated length.
+/// Opens a deflated variable. Its own tag states its inflated length.
 fn inflated(
     file: &Arc<FileBytes>,
     tag: &element::Tag,

@@ -12,9 +12,9 @@ use crate::limits;
 use crate::scalar::shown;
 use crate::source::{ByteSource, FileBytes, bytes_of};
 
-/// Size of the pieces in which checksums are computed and unwanted bytes skipped.
+/// Size of the pieces in which checksums are computed and unneeded bytes are skipped.
 const PIECE_BYTES: u64 = 1 << 20;
-/// Size of the beginning that nearly always contains the header, bytes: listing arrays inflates only this.
+/// Size of the beginning that nearly always contains the header, bytes. Listing arrays inflates only this part.
 const BEGINNING_BYTES: u64 = 4 << 10;
 
 /// Location of packed bytes.
@@ -23,7 +23,7 @@ pub(crate) struct Packed {
     pub(crate) name: String,
     /// Container of the deflated bytes; `None` if they are stored.
     pub(crate) wrapping: Option<Wrapping>,
-    /// The checksum of the unpacked bytes, if the file has one.
+    /// Checksum of the unpacked bytes, if the file has one.
     pub(crate) crc32: Option<u32>,
     pub(crate) at: u64,
     /// Size in the file, bytes.
@@ -33,7 +33,7 @@ pub(crate) struct Packed {
 }
 
 impl Packed {
-    /// Rejects impossible sizes, and members made to exhaust memory or time.
+    /// Rejects impossible sizes, and members that would exhaust memory or time.
     pub(crate) fn check_size(&self) -> Result<(), Problem> {
         let wrong = |expected: u64| {
             Problem::damaged(
@@ -83,7 +83,7 @@ pub(crate) struct Budget {
 }
 
 impl Budget {
-    /// Reserves `bytes` more; returns false if they exceed the limit.
+    /// Reserves `bytes` more. False if they exceed the limit.
     fn takes(&mut self, bytes: u64) -> bool {
         let is_held = bytes <= limits::HELD_BYTES.saturating_sub(self.held_bytes);
         self.held_bytes += if is_held { bytes } else { 0 };
@@ -93,15 +93,15 @@ impl Budget {
 
 /// Unpacked bytes of a member.
 ///
-/// Stored bytes are read in place, after a comparison of their checksum. Deflated members are inflated as a whole and kept if all of them
-/// take at most 64 MiB. Larger ones are inflated from the end of the last rows, or from the beginning for earlier rows. Their checksum is
-/// compared whenever the last byte is reached.
+/// Stored bytes are read in place, after a check of their checksum. Deflated members are inflated whole and kept if together they take at
+/// most 64 MiB. Larger members are inflated from the end of the last rows, or from the beginning for earlier rows. Their checksum is
+/// checked when the last byte is reached.
 #[derive(Debug)]
 pub(crate) struct PackedBytes {
     file: Arc<FileBytes>,
     member: Packed,
     is_held: bool,
-    /// True once the header was read. From then on all returned bytes are covered by a checksum, at the latest at the end of the member.
+    /// True after the header was read. From then on a checksum covers all returned bytes, at the latest at the end of the member.
     is_listed: AtomicBool,
     read: Mutex<Read>,
 }

@@ -1,4 +1,4 @@
-//! `.npy`: one NumPy array, versions 1 to 3 of the format.
+//! NumPy array file (`.npy`), versions 1 to 3 of the format.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -15,7 +15,7 @@ use crate::values::ArrayData;
 
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
 
-/// A NumPy array in any source of bytes.
+/// NumPy array in any source of bytes.
 #[derive(Debug)]
 pub(crate) struct NpyArray {
     /// Empty for a file with only this array.
@@ -96,7 +96,7 @@ impl NpyHeader {
 }
 
 impl NpyArray {
-    /// Parses the header and compares it with the length of the source.
+    /// Parses the header. Compares it with the length of the source.
     pub(crate) fn open(name: &str, source: Arc<dyn ByteSource>) -> Result<NpyArray, Problem> {
         let header = NpyHeader::read(&*source)?;
         let name = name.to_owned();
@@ -124,7 +124,7 @@ impl NpyArray {
         Ok(NpyArray { name, content })
     }
 
-    /// The full name of the field `own` of this array.
+    /// Full name of the field `own` of this array.
     fn full(&self, own: &str) -> String {
         match (self.name.as_str(), own) {
             ("", own) => own.to_owned(),

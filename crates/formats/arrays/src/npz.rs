@@ -1,4 +1,4 @@
-//! `.npz`: a zip archive of NumPy arrays.
+//! Zip archive of NumPy arrays (`.npz`).
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -13,11 +13,11 @@ use crate::source::{ByteSource, FileBytes};
 use crate::store::{Arrays, Store};
 use crate::values::ArrayData;
 
-/// The arrays of an archive.
+/// Arrays of an archive.
 #[derive(Debug)]
 pub(crate) struct Npz {
     arrays: Vec<NpyArray>,
-    /// For each listed array, the index of its member and of its field.
+    /// Index of the member and of the field of each listed array.
     listed: Vec<(usize, usize)>,
     refused: Vec<(String, Problem)>,
 }

@@ -13,8 +13,8 @@ const PIECE_BYTES: u64 = 1 << 20;
 /// Transposed rows, with their range.
 type Turned = (Range<u64>, Arc<Vec<u8>>);
 
-/// An array whose first axis is fastest. Rows are transposed in blocks of up to 64 MiB. The last block is cached, so that reading row after
-/// row passes through the file once for every 64 MiB.
+/// Array with the first axis fastest. Rows are transposed in blocks of up to 64 MiB. The last block is cached. Reading row after row
+/// therefore reads the file once for every 64 MiB.
 #[derive(Debug)]
 pub(crate) struct ColumnMajor {
     rows: u64,
@@ -27,13 +27,13 @@ pub(crate) struct ColumnMajor {
 }
 
 impl ColumnMajor {
-    /// An array whose bytes begin at `data_at`; the sizes were checked against the source.
+    /// Array with bytes from `data_at` on. The caller has checked the sizes against the source.
     pub(crate) fn new(shape: &[u64], item_bytes: u64, data_at: u64) -> ColumnMajor {
         let rest = shape.get(1..).unwrap_or(&[]).to_vec();
         ColumnMajor {
             rows: shape.first().copied().unwrap_or(1),
             item_bytes,
-            // Above 64 bits only if another length, or that of an element, is 0: then nothing is read.
+            // Above 64 bits only if another length or the element length is 0. Then nothing is read.
             row_elements: rest
                 .iter()
                 .fold(1, |product: u64, side| product.saturating_mul(*side)),
@@ -43,7 +43,7 @@ impl ColumnMajor {
         }
     }
 
-    /// The bytes of `rows`, row by row.
+    /// Bytes of `rows`, row by row.
     pub(crate) fn rows(
         &self,
         source: &dyn ByteSource,
@@ -61,7 +61,7 @@ impl ColumnMajor {
             _ => {
                 let fit = (limits::TURNED_BYTES / row_bytes).max(rows.end - rows.start);
                 let block = rows.start..rows.start.saturating_add(fit).min(self.rows);
-                // The previous block is dropped first: memory has room for one.
+                // The previous block is dropped first, because memory has room for only one.
                 *kept = None;
                 let turned = Arc::new(self.turned(source, block.clone())?);
                 *kept = Some((block.clone(), Arc::clone(&turned)));
@@ -90,7 +90,7 @@ impl ColumnMajor {
         while column < self.row_elements {
             let columns = at_once.min(self.row_elements - column);
             let start = self.data_at + column * column_bytes;
-            // Short columns are read whole, of a long one only the rows of the block.
+            // Short columns are read whole. Of a long column only the rows of the block are read.
             let (piece, first) = if column_bytes <= PIECE_BYTES {
                 (
                     bytes_of(source, start, columns * column_bytes)?,
@@ -155,13 +155,13 @@ pub(crate) fn c_order(
     Ok(turned)
 }
 
-/// The index in C order of each element in column-major order; the sides were checked.
+/// Index in C order of each element in column-major order. The caller has checked the sides.
 pub(crate) fn c_places(sides: &[u64]) -> impl Iterator<Item = usize> {
     let mut places = Places::new(sides);
     std::iter::repeat_with(move || places.next_place())
 }
 
-/// Strides along each axis of a block in C order, in the unit of `item_bytes`.
+/// Strides along each axis of a block in C order, in units of `item_bytes`.
 pub(crate) fn strides(sides: &[u64], item_bytes: usize) -> Vec<usize> {
     let mut strides = vec![item_bytes; sides.len()];
     for axis in (1..sides.len()).rev() {
@@ -188,7 +188,7 @@ impl Places {
         }
     }
 
-    /// The index of the next column, in elements.
+    /// Index of the next column, in elements.
     fn next_place(&mut self) -> usize {
         let here = self.place;
         for axis in 0..self.sides.len() {

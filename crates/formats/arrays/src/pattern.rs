@@ -1,6 +1,6 @@
-//! Names of groups with `*` for any letters but `/`.
+//! Patterns of group names. `*` matches any characters except `/`.
 
-/// True if `name` matches `pattern`; a leading slash is ignored.
+/// True if `name` matches `pattern`. A leading slash is ignored.
 pub(crate) fn matches(pattern: &str, name: &str) -> bool {
     let pattern = pattern.trim_matches('/').split('/');
     let mut parts = name.trim_matches('/').split('/');
@@ -10,7 +10,7 @@ pub(crate) fn matches(pattern: &str, name: &str) -> bool {
     is_alike && parts.next().is_none()
 }
 
-/// Matches one part of a name; texts between stars are searched from left to right.
+/// Matches one part of a name. Texts between stars are searched from left to right.
 fn part_matches(pattern: &str, part: &str) -> bool {
     if part.is_empty() {
         return pattern.is_empty();

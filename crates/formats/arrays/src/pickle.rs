@@ -1,5 +1,6 @@
-//! Python pickles, protocols 2 to 5, with NumPy arrays and plain values. No code in them is run: eleven known names are built here, and any
-//! other is rejected.
+//! Python pickles, protocols 2 to 5, with NumPy arrays and plain values.
+//!
+//! No code in them is run. Eleven known names are built here, and any other name is rejected.
 
 mod calls;
 mod columns;
@@ -22,7 +23,7 @@ use crate::values::{ArrayData, ArrayValues};
 use columns::{Cells, Column, Values, held};
 use value::{Bytes, Content, Id, PickledArray, Value};
 
-/// The columns of a pickle.
+/// Columns of a pickle.
 #[derive(Debug)]
 pub(crate) struct Pickle {
     source: Arc<dyn ByteSource>,
@@ -34,7 +35,7 @@ pub(crate) struct Pickle {
 /// Location of the elements of a column.
 #[derive(Debug)]
 enum Stored {
-    /// In one array, or in several arrays, one for each row.
+    /// One array, or several arrays, one for each row.
     Blocks {
         element: Element,
         blocks: Vec<Block>,
@@ -47,7 +48,7 @@ enum Stored {
 }
 
 impl Pickle {
-    /// Parses the pickle that begins at `at`; the elements of its arrays are not read.
+    /// Parses the pickle that begins at `at`. Does not read the elements of its arrays.
     pub(crate) fn open(source: Arc<dyn ByteSource>, at: u64) -> Result<Pickle, Problem> {
         let (values, whole) = machine::run(&*source, at)?;
         let text = |bytes: &Bytes| String::from_utf8(machine::read(&*source, bytes).ok()?).ok();
@@ -117,7 +118,7 @@ impl Pickle {
                     Value::Float(number) => *number,
                     #[expect(
                         clippy::cast_precision_loss,
-                        reason = "Python converts a whole number among others in the same way"
+                        reason = "Python converts a whole number among floats in the same way"
                     )]
                     Value::Whole(number) => *number as f64,
                     _ => 0.0,
@@ -128,7 +129,7 @@ impl Pickle {
     }
 }
 
-/// The location of the elements of a column.
+/// Location of the elements of a column.
 fn stored(
     source: &Arc<dyn ByteSource>,
     column: Column,

@@ -9,7 +9,7 @@ use crate::error::Problem;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(
     not(feature = "hdf5"),
-    expect(dead_code, reason = "HDF5 alone has such elements")
+    expect(dead_code, reason = "only HDF5 has such elements")
 )]
 pub(crate) enum Kind {
     Bool,
@@ -20,9 +20,9 @@ pub(crate) enum Kind {
     Text(Filler),
     /// UTF-32 padded with zeros.
     WideText,
-    /// A reference to text of any length.
+    /// Reference to text of any length.
     HeapText,
-    /// A reference to bytes of any length.
+    /// Reference to bytes of any length.
     HeapBytes,
 }
 
@@ -30,11 +30,11 @@ pub(crate) enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(
     not(feature = "hdf5"),
-    expect(dead_code, reason = "HDF5 alone has such elements")
+    expect(dead_code, reason = "only HDF5 has such elements")
 )]
 pub(crate) enum Filler {
     Zeros,
-    /// A zero, then any bytes.
+    /// Zero, then any bytes.
     FirstZero,
     Spaces,
 }
@@ -48,7 +48,7 @@ pub(crate) struct Scalar {
 }
 
 impl Scalar {
-    /// `None` if the kind has no such length.
+    /// Scalar type; `None` if the kind has no such length.
     pub(crate) fn new(kind: Kind, bytes: usize, is_big_endian: bool) -> Option<Scalar> {
         let is_known = match kind {
             Kind::Bool => bytes == 1,
@@ -127,7 +127,7 @@ impl Scalar {
         }
     }
 
-    /// The bytes of a number; `None` if the element type cannot hold it.
+    /// Bytes of a number; `None` if the element type cannot hold it.
     pub(crate) fn encode(self, number: &serde_json::Number) -> Option<Vec<u8>> {
         if self.kind == Kind::Float {
             return self.encode_float(number.as_f64()?);
@@ -147,12 +147,12 @@ impl Scalar {
             .then(|| self.in_order(kept))
     }
 
-    /// The bytes of a floating-point number of 32 or 64 bits; `None` for other types.
+    /// Bytes of a floating-point number of 32 or 64 bits; `None` for other types.
     pub(crate) fn encode_float(self, number: f64) -> Option<Vec<u8>> {
         match (self.kind, self.bytes) {
             #[expect(
                 clippy::cast_possible_truncation,
-                reason = "the nearest of 32 bits is what was filled in"
+                reason = "the fill value is the nearest 32-bit number"
             )]
             (Kind::Float, 4) => Some(self.in_order(&(number as f32).to_le_bytes())),
             (Kind::Float, 8) => Some(self.in_order(&number.to_le_bytes())),
@@ -169,7 +169,7 @@ impl Scalar {
         bytes
     }
 
-    /// For a reference to a value elsewhere: true for text, false for bytes. `None` for other types.
+    /// True for a reference to text, false for a reference to bytes; `None` for other types.
     #[cfg(feature = "hdf5")]
     pub(crate) fn heap_text(self) -> Option<bool> {
         match self.kind {
@@ -180,7 +180,7 @@ impl Scalar {
     }
 }
 
-/// Foreign text for a message: cut, and without control characters.
+/// Shortens foreign text for a message and escapes control characters.
 pub(crate) fn shown(text: &str) -> String {
     let mut short: String = text.chars().take(60).flat_map(char::escape_debug).collect();
     if text.chars().nth(60).is_some() {

@@ -9,12 +9,12 @@ use crate::values::ArrayData;
 /// Arrays with their names, in the order of the file.
 pub(crate) type Arrays = Vec<(String, ArrayInfo)>;
 
-/// An open file of arrays.
+/// Open file of arrays.
 pub(crate) trait Store: std::fmt::Debug + Send + Sync {
     /// Every array with its name.
     fn arrays(&self) -> Arrays;
 
-    /// Arrays that cannot be read, with the reason.
+    /// Unreadable arrays, each with the reason.
     fn refused(&self) -> &[(String, Problem)] {
         &[]
     }
@@ -24,36 +24,36 @@ pub(crate) trait Store: std::fmt::Debug + Send + Sync {
         &[]
     }
 
-    /// Problem of a name that is a link to elsewhere; `None` for other names.
+    /// Problem of a name that is a link to another place; `None` for other names.
     fn link(&self, _name: &str) -> Option<Problem> {
         None
     }
 
-    /// The full names of the groups, unsorted; empty for formats without groups.
+    /// Full names of the groups, unsorted; empty for formats without groups.
     fn groups(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// The names of the attributes of the group or array `owner`.
+    /// Names of the attributes of the group or array `owner`.
     fn attributes(&self, _owner: &str) -> Vec<String> {
         Vec::new()
     }
 
-    /// The attribute `name` of the group or array `owner`, as text.
+    /// Attribute `name` of the group or array `owner`, as text.
     fn attribute(&self, _owner: &str, _name: &str) -> Option<String> {
         None
     }
 
-    /// Number of chunks of the array at `index` that were never written, so that their elements have the fill value.
+    /// Number of chunks of the array at `index` that were never written. Their elements have the fill value.
     fn absent_chunks(&self, _index: usize) -> Result<u64, Problem> {
         Ok(0)
     }
 
-    /// Rows of the array at `index`; the caller has checked them against its shape and the limits.
+    /// Reads rows of the array at `index`. The caller has checked them against its shape and the limits.
     fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem>;
 }
 
-/// Number of chunks of an array; saturates at 64 bits.
+/// Number of chunks of an array. Saturates at 64 bits.
 pub(crate) fn chunks_of(shape: &[u64], chunk: &[u64]) -> u64 {
     let sides = shape.iter().zip(chunk);
     sides.fold(1, |all: u64, (side, chunk)| {

@@ -2,7 +2,7 @@
 
 mod conversion;
 
-/// Rows of an array: their shape, and the elements in C order.
+/// Rows of an array: their shape and their elements in C order.
 ///
 /// ```no_run
 /// use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues};
@@ -18,13 +18,13 @@ mod conversion;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ArrayData {
-    /// Lengths of the axes; the first is the number of rows read. Empty for a single number.
+    /// Lengths of the axes. The first is the number of rows read. Empty for a single number.
     pub shape: Vec<u64>,
-    /// The elements; their number is the product of the shape.
+    /// Elements. Their number is the product of the shape.
     pub values: ArrayValues,
 }
 
-/// Elements in the byte order of this machine. Floating-point numbers of 16 bits are widened to 32 bits, which is exact.
+/// Elements in the byte order of this machine. Floating-point numbers of 16 bits are widened to 32 bits exactly.
 ///
 /// ```
 /// use taceva_arrays::ArrayValues;
@@ -148,7 +148,7 @@ impl ArrayValues {
     }
 }
 
-/// A whole number as `f64`; `None` if that is not exact.
+/// Whole number as `f64`; `None` if that is not exact.
 fn exact(number: i128) -> Option<f64> {
     #[expect(clippy::cast_precision_loss, reason = "compared with the number again")]
     let near = number as f64;

@@ -1,4 +1,4 @@
-//! zarr, versions 2 and 3: a folder of arrays, one file for each chunk, or a ZIP archive of it. A missing chunk has the fill value.
+//! Zarr, versions 2 and 3: a folder of arrays with one file for each chunk, or a ZIP archive of it. A missing chunk has the fill value.
 
 mod array;
 mod codecs;
@@ -33,23 +33,23 @@ const DEPTH: usize = 16;
 /// Cached chunks, by the index of their array and their position in its grid.
 type Chunks = Cache<(usize, Vec<u64>), Vec<u8>>;
 
-/// A zarr store.
+/// Zarr store.
 #[derive(Debug)]
 pub(crate) struct Zarr {
     groups: Vec<String>,
     arrays: Vec<(Tree, ZarrArray)>,
-    /// For each listed array, the index of the stored array and of its field.
+    /// Index of the stored array and of the field of each listed array.
     listed: Vec<(usize, usize)>,
     /// Attributes of groups and arrays, by full name.
     attributes: Vec<(String, Value)>,
     refused: Vec<(String, Problem)>,
     chunks: Mutex<Chunks>,
-    /// Arrays whose unpacked size was checked.
+    /// Arrays with checked unpacked size.
     checked: Mutex<BTreeSet<usize>>,
 }
 
 impl Zarr {
-    /// The attributes of the group or array `owner`.
+    /// Attributes of the group or array `owner`.
     fn attributes_of(&self, owner: &str) -> Option<&Value> {
         let owner = owner.trim_matches('/');
         let mut attributes = self.attributes.iter();
@@ -83,7 +83,7 @@ impl Zarr {
         Ok(zarr)
     }
 
-    /// Lists the content of `folder`; `path` is its full name, empty for the root.
+    /// Lists the content of `folder`. `path` is its full name, empty for the root.
     fn visit(&mut self, folder: &Tree, path: &str, depth: usize) -> Result<(), Problem> {
         let name = if path.is_empty() { "/" } else { path };
         let within = |problem: Problem| problem.within(&format!("the metadata of `{name}`"));
@@ -106,7 +106,7 @@ impl Zarr {
                 self.groups.push(name.to_owned());
                 self.members(folder, path, depth)?;
             }
-            // A folder of another program.
+            // Folder of another program.
             None => {}
         }
         let count = (self.groups.len() + self.arrays.len() + self.refused.len()) as u64;
@@ -130,7 +130,7 @@ impl Zarr {
         Ok(())
     }
 
-    /// Rejects an array made to exhaust memory or time, by its unpacked size against its stored size.
+    /// Rejects an array that would exhaust memory or time. Compares its unpacked size with its stored size.
     fn check_unpacked(
         &self,
         index: usize,
@@ -203,7 +203,7 @@ impl Zarr {
     }
 }
 
-/// True if `folder` has a regular file `name` for a chunk; rejects a link to a file elsewhere.
+/// True if `folder` has a regular file `name` for a chunk. Rejects a link to a file outside the folder.
 fn is_own_file(folder: &Path, name: &str) -> Result<bool, Problem> {
     let path = folder.join(name);
     match fs::symlink_metadata(&path) {
@@ -235,7 +235,7 @@ struct Written {
     bytes: u64,
 }
 
-/// Finds the chunks of the array in `folder`: files whose names are those of chunks.
+/// Finds the chunks of the array in `folder`: the files with names of chunks.
 fn written(folder: &Tree, array: &ZarrArray) -> Result<Written, Problem> {
     let mut there = Written::default();
     let mut folders = vec![(folder.clone(), String::new(), 0)];

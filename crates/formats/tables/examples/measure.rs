@@ -1,5 +1,5 @@
-//! What reading a file takes: `measure FILE COLUMN [TOPIC]` hands every picture in COLUMN over once, or reads the column as a whole where it
-//! holds none, and prints processor time and peak memory of this process, and how loaded the machine was.
+//! Measures the cost of reading a file. `measure FILE COLUMN [TOPIC]` visits every picture in COLUMN once, or reads the column as a whole if it has
+//! none. It prints processor time and peak memory of this process, and the load of the machine.
 //!
 //! ```text
 //! cargo run --release -p taceva-tables --example measure -- run.parquet image.bytes
@@ -56,7 +56,7 @@ fn main() -> Result<(), TableError> {
     report(pictures, bytes)
 }
 
-/// What this process took.
+/// Prints processor time, peak memory and load.
 fn report(cells: u64, bytes: u64) -> Result<(), TableError> {
     let time = clock_gettime(ClockId::ProcessCPUTime);
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

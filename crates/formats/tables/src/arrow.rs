@@ -46,10 +46,10 @@ pub struct ArrowTable {
 }
 
 impl ArrowTable {
-    /// The table at `path`.
+    /// Opens the table at `path`.
     ///
     /// # Errors
-    /// [`TableError::Io`] if the file cannot be read; [`TableError::Damaged`] if it is no Arrow file, is truncated or inconsistent;
+    /// [`TableError::Io`] if the file cannot be read; [`TableError::Damaged`] if it is not an Arrow file, is truncated or inconsistent;
     /// [`TableError::Unsupported`] for a column of an unsupported type; [`TableError::TooLarge`] above the limits.
     pub fn open(path: &Path) -> Result<ArrowTable, TableError> {
         let source = Source::new(path)?;
@@ -74,7 +74,7 @@ impl ArrowTable {
                 }
                 (_, kind) => {
                     let problem = format!(
-                        "a message of kind {kind}, expected {}",
+                        "a message has kind {kind}, expected {}",
                         match schema {
                             None => "the schema",
                             Some(_) => "a batch of rows",
@@ -93,7 +93,7 @@ impl ArrowTable {
             }
         }
         let Some(schema) = schema else {
-            return Err(source.damaged(Place::default(), "an Arrow stream without a schema"));
+            return Err(source.damaged(Place::default(), "the Arrow stream has no schema"));
         };
         Ok(ArrowTable {
             columns: schema.fields.iter().map(Field::node).collect(),
@@ -115,12 +115,12 @@ impl ArrowTable {
         self.rows
     }
 
-    /// The columns in the order of the schema; a structure is replaced by its members, as `pose.x`.
+    /// Columns in the order of the schema. A structure is replaced by its members, such as `pose.x`.
     pub fn names(&self) -> Vec<String> {
         names(&self.columns)
     }
 
-    /// The schema metadata under `key`, such as `huggingface`.
+    /// Schema metadata under `key`, such as `huggingface`.
     ///
     /// ```
     /// # use taceva_tables::ArrowTable;
@@ -133,7 +133,7 @@ impl ArrowTable {
         Some(&found.1)
     }
 
-    /// The kind of the cells of the column called `name`, which may be a structure, or an element of lists.
+    /// Kind of the cells of the column `name`, which may be a structure or an element of lists.
     ///
     /// # Errors
     /// [`TableError::Missing`] if there is no such column.
@@ -142,8 +142,8 @@ impl ArrowTable {
         kind.ok_or_else(|| self.source.missing(name, self.names()))
     }
 
-    /// The cells of the column called `name`, row by row: one of [`names`](Self::names), a whole structure, or an element of lists:
-    /// `ft[2]`, `ft[2,0]`.
+    /// Cells of the column `name`, row by row. `name` is one of [`names`](Self::names), a whole structure, or an element of lists: `ft[2]`,
+    /// `ft[2,0]`.
     ///
     /// # Errors
     /// [`TableError::Missing`] if there is no such column; [`TableError::Mismatch`] if a list is too short for `name` in some row;
@@ -169,14 +169,14 @@ impl ArrowTable {
         Ok(cells)
     }
 
-    /// Calls `each` with each row of `sorted` and its bytes in the column called `name`, such as `image.bytes`; [`None`] if the cell is
-    /// null. Memory holds one cell at a time, or a compressed buffer.
+    /// Calls `each` with each row of `sorted` and its bytes in the column `name`, such as `image.bytes`; [`None`] if the cell is null. Memory holds
+    /// one cell at a time, or a compressed buffer.
     ///
     /// `sorted` must ascend; a row listed twice is passed twice.
     ///
     /// # Errors
-    /// As [`column`](Self::column); also [`TableError::Mismatch`] if the column has no bytes, or if `sorted` does not ascend or names a row
-    /// that does not exist; and the errors of `each`.
+    /// As [`column`](Self::column). [`TableError::Mismatch`] if the column has no bytes, or if `sorted` does not ascend or names a row that does not
+    /// exist. Also the errors of `each`.
     pub fn visit_bytes<E: From<TableError>>(
         &self,
         name: &str,
@@ -213,7 +213,7 @@ impl ArrowTable {
         Ok(())
     }
 
-    /// The column at the start of `name`, restricted to the members of structures that `name` selects.
+    /// Column at the start of `name`, restricted to the members of structures that `name` selects.
     fn field(&self, name: &str) -> Result<Field, TableError> {
         field::named(&self.fields, name).ok_or_else(|| self.source.missing(name, self.names()))
     }

@@ -17,12 +17,12 @@ impl<'a> Bytes<'a> {
         self.at
     }
 
-    /// The bytes not read yet.
+    /// Unread bytes.
     pub(crate) fn rest(&self) -> &'a [u8] {
         self.all.get(self.at..).unwrap_or_default()
     }
 
-    /// The next `count` bytes; [`None`] if there are fewer.
+    /// Next `count` bytes; [`None`] if there are fewer.
     pub(crate) fn take(&mut self, count: usize) -> Option<&'a [u8]> {
         let end = self.at.checked_add(count)?;
         let taken = self.all.get(self.at..end)?;

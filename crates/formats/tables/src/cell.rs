@@ -7,8 +7,8 @@ use crate::path::{indices, longest};
 
 /// One cell of a table.
 ///
-/// A number of single precision is converted to double precision exactly and written in full: 0.3 of an `f32` is 0.30000001192092896. NumPy
-/// and pyarrow give the same number when they widen it. A label rounded to 0.3 would differ from theirs in the eighth digit.
+/// A single-precision number is converted exactly to double precision and written in full: 0.3 of an `f32` is 0.30000001192092896. NumPy and pyarrow
+/// give the same number when they widen it. A label rounded to 0.3 would differ from theirs in the eighth digit.
 ///
 /// ```
 /// use taceva_tables::Cell;
@@ -23,9 +23,9 @@ pub enum Cell {
     Null,
     /// A truth value.
     Bool(bool),
-    /// An integer: any of 8 to 64 bits, with or without sign.
+    /// An integer of 8 to 64 bits, with or without sign.
     Integer(i128),
-    /// A time in nanoseconds, whatever the unit of the file: since 1970, since midnight, or a duration. Its text is in seconds.
+    /// A time in nanoseconds, for any unit of the file: since 1970, since midnight, or a duration. Its text is in seconds.
     Time(i128),
     /// A number; NaN and infinities are kept.
     Number(f64),
@@ -40,12 +40,12 @@ pub enum Cell {
 }
 
 impl Cell {
-    /// The text of the cell in a CSV file: numbers in the shortest form that reads back, lists as `[1, 2]`, empty for [`Cell::Null`].
+    /// Text of the cell in a CSV file: numbers in the shortest form that parses back, lists as `[1, 2]`, empty for [`Cell::Null`].
     ///
-    /// A [`Cell::Time`] is written in seconds with all its decimals, so that the unit of the file does not matter.
+    /// A [`Cell::Time`] is written in seconds with all decimals, so the text does not depend on the unit of the file.
     ///
-    /// Inside lists and structures the text is JSON, except for numbers that JSON cannot express (`NaN`, `inf`). Bytes are written as UTF-8
-    /// if valid, else in hexadecimal digits.
+    /// The text inside lists and structures is JSON, except for numbers that JSON cannot express (`NaN`, `inf`). Bytes are written as UTF-8 if valid,
+    /// else as hexadecimal digits.
     ///
     /// ```
     /// use taceva_tables::Cell;
@@ -71,10 +71,9 @@ impl Cell {
         }
     }
 
-    /// The cell at a path inside this one: `x`, `pose.x`, `[2]`, `ft[2,0]`; the cell itself for the empty path.
+    /// Cell at a path inside this one: `x`, `pose.x`, `[2]`, `ft[2,0]`; the cell itself for the empty path.
     ///
-    /// [`None`] if there is no such member, or if the path is malformed. A member whose name contains dots or brackets is found by its
-    /// whole name.
+    /// [`None`] if there is no such member, or if the path is malformed. A member whose name contains dots or brackets is found by its whole name.
     ///
     /// ```
     /// use taceva_tables::Cell;
@@ -108,7 +107,7 @@ impl Cell {
         Some(cell)
     }
 
-    /// The cell at a path inside this one; null if a cell on the way is null; `None` if there is no such member.
+    /// Cell at a path inside this one; null if a cell on the path is null; `None` if there is no such member.
     pub(crate) fn into_inside(self, path: &str) -> Option<Cell> {
         if path.is_empty() || self == Cell::Null {
             return Some(self);
@@ -180,7 +179,7 @@ impl Cell {
     }
 }
 
-/// Writes a number in the fewest digits that read back: decimal if that is short, else with an exponent.
+/// Writes a number in the fewest digits that parse back: decimal if that is short, else with an exponent.
 fn write_number(value: f64, into: &mut String) {
     let size = value.abs();
     let is_plain = !value.is_finite() || value == 0.0 || (1e-5..1e17).contains(&size);

@@ -1,4 +1,4 @@
-//! Decompression to a known size. Writes no more, and allocates no memory that the input cannot fill.
+//! Decompression to a known size. The output never exceeds this size, and memory is allocated only as the input fills it.
 
 use std::io::{self, BufRead, Cursor, Read};
 
@@ -20,7 +20,7 @@ pub(crate) enum Codec {
     Gzip,
     Brotli,
     Lz4Block,
-    /// Blocks of LZ4, each after its two sizes, as Hadoop writes them.
+    /// LZ4 blocks, each after its two sizes, as in Hadoop.
     Lz4Hadoop,
     Lz4Frame,
     /// A stream of bz2.
@@ -29,13 +29,13 @@ pub(crate) enum Codec {
     Zstd,
 }
 
-/// Bounds of the growth of Snappy and of LZ4 blocks. A Snappy copy of 64 bytes takes 3 bytes; 255 bytes of LZ4 take 1.
+/// Maximum growth of Snappy and LZ4 blocks. A Snappy copy of 64 bytes takes 3 bytes; 255 bytes of LZ4 take 1.
 const SNAPPY_GROWTH: usize = 64;
 const LZ4_GROWTH: usize = 255;
 /// Window size that Zstandard needs up to its level 19, bytes.
 const ZSTD_WINDOW_BYTES: u64 = 8 << 20;
 
-/// Unpacks `packed`, which must give `size` bytes.
+/// Unpacks `packed` to exactly `size` bytes.
 ///
 /// # Errors
 /// A message: wrong size, checksum mismatch, or invalid bytes.
@@ -67,10 +67,10 @@ pub(crate) fn unpack(codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>
     }
 }
 
-/// A reader that unpacks `packed` to `size` bytes as it is read. Block formats are unpacked as a whole, up to [`limits::PAGE_BYTES`].
+/// Reader that unpacks `packed` to `size` bytes while it is read. Block formats are unpacked as a whole, up to [`limits::PAGE_BYTES`].
 ///
 /// # Errors
-/// As [`unpack`]; later faults are errors of the reader.
+/// As [`unpack`]; later faults are errors of the returned reader.
 pub(crate) fn stream(
     codec: Codec,
     mut packed: impl BufRead + 'static,
@@ -100,7 +100,7 @@ pub(crate) fn stream(
     })
 }
 
-/// Streaming decoder of Zstandard frames with checks of their checksums.
+/// Streaming decoder of Zstandard frames that verifies checksums.
 struct ZstdStream<R: BufRead> {
     packed: R,
     session: DecoderSessionOwned,
@@ -129,7 +129,7 @@ fn not_whole(error: &DecodeError) -> io::Error {
     io::Error::other(format!("incomplete Zstandard frame: {error}"))
 }
 
-/// Decoder for frames of at most `size` bytes, with windows up to that size or the window of level 19.
+/// Decoder for frames of at most `size` bytes. Its window is `size`, and at least the window of level 19.
 fn decompressor(size: u64) -> Result<Decompressor, String> {
     let window = size.clamp(ZSTD_WINDOW_BYTES, limits::PAGE_BYTES.max(ZSTD_WINDOW_BYTES));
     let log = u8::try_from(window.next_power_of_two().ilog2()).unwrap_or(u8::MAX);
@@ -141,7 +141,7 @@ fn decompressor(size: u64) -> Result<Decompressor, String> {
     ))
 }
 
-/// The output of `decoder`, up to one byte more than `size`, so that excess is detected.
+/// Output of `decoder`, up to one byte more than `size`, so any excess is detected.
 fn streamed(name: &str, decoder: impl Read, size: usize) -> Result<Vec<u8>, String> {
     let mut unpacked = Vec::new();
     decoder
@@ -156,7 +156,7 @@ fn snappy(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
     let announced = snap::raw::decompress_len(packed).map_err(wrong)?;
     if announced != size || size > packed.len().saturating_mul(SNAPPY_GROWTH) {
         return Err(format!(
-            "{} bytes of snappy announce {announced} bytes, expected {size}",
+            "{} bytes of Snappy state {announced} bytes, expected {size}",
             packed.len()
         ));
     }

@@ -1,4 +1,4 @@
-//! Errors of tables of other programs.
+//! Errors of reading and writing tables.
 
 use std::fmt;
 use std::io;
@@ -13,47 +13,65 @@ pub enum TableError {
     /// A file that cannot be opened or read.
     #[error("cannot read {}: {source}", core_shown(path))]
     Io {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The error of the system.
+        /// Error of the system.
         source: io::Error,
     },
     /// A file that cannot be created or written.
     #[error("cannot write {}: {source}", core_shown(path))]
     Write {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The error of the system.
+        /// Error of the system.
         source: io::Error,
     },
     /// Bytes that contradict the format: truncated, changed, or written incorrectly.
     #[error("{}{place}: {}", core_shown(path), core_shown(problem))]
     Damaged {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Location in the file.
         place: Place,
-        /// The content found and the content expected.
+        /// Content found, and content expected.
         problem: String,
+    },
+    /// A recording that ends before its index: it was truncated, or its recorder did not close it.
+    #[error(
+        "{}{place}: {}; {messages} complete messages are before the cut: {remedy}",
+        core_shown(path),
+        core_shown(problem)
+    )]
+    Cut {
+        /// The file.
+        path: PathBuf,
+        /// Location at which the cut shows.
+        place: Place,
+        /// The missing content.
+        problem: String,
+        /// Number of messages that [`Recording::open_to_cut`](crate::Recording::open_to_cut) reads.
+        messages: u64,
+        /// Command of another program that recovers them.
+        remedy: &'static str,
     },
     /// Content that the format allows but this crate does not read.
     #[error("{}{place}: {}", core_shown(path), core_shown(problem))]
     Unsupported {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Location in the file.
         place: Place,
-        /// The unsupported content, and the supported alternative.
+        /// Unsupported content, and supported alternative.
         problem: String,
     },
     /// Content above the memory limit.
     #[error("{}{place}: {}", core_shown(path), core_shown(problem))]
     TooLarge {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Location in the file.
         place: Place,
-        /// The size, and the limit.
+        /// Size, and limit.
         problem: String,
     },
     /// A column, a field or a topic that does not exist.
@@ -64,27 +82,27 @@ pub enum TableError {
         shown_list(known)
     )]
     Missing {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The requested name.
+        /// Requested name.
         name: String,
-        /// The existing names.
+        /// Existing names.
         known: Vec<String>,
     },
     /// A column, an element or a cell of the wrong kind, or a value that cannot be written.
     #[error("{}, `{}`: {}", core_shown(path), shown(name), core_shown(problem))]
     Mismatch {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The requested name.
+        /// Requested name.
         name: String,
-        /// The kind found and the kind expected.
+        /// Kind found, and kind expected.
         problem: String,
     },
 }
 
 impl TableError {
-    /// The file of the error.
+    /// Path of the file.
     ///
     /// ```
     /// use taceva_tables::ParquetTable;
@@ -96,6 +114,7 @@ impl TableError {
             TableError::Io { path, .. }
             | TableError::Write { path, .. }
             | TableError::Damaged { path, .. }
+            | TableError::Cut { path, .. }
             | TableError::Unsupported { path, .. }
             | TableError::TooLarge { path, .. }
             | TableError::Missing { path, .. }
@@ -104,18 +123,18 @@ impl TableError {
     }
 }
 
-/// Location in a file: a byte, and the column, topic or record that contains it, as far as known.
+/// Location in a file: a byte, and the column, topic or record that contains it, if known.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Place {
     /// Byte offset, from 0.
     pub byte: Option<u64>,
-    /// The column, topic or record.
+    /// Column, topic or record.
     pub name: Option<String>,
 }
 
 impl Place {
-    /// The location at byte offset `byte`, from 0.
+    /// Location at byte offset `byte`, from 0.
     pub(crate) fn byte(byte: u64) -> Place {
         Place {
             byte: Some(byte),
@@ -123,7 +142,7 @@ impl Place {
         }
     }
 
-    /// The location of the column, topic or record called `name`.
+    /// Location of the column, topic or record `name`.
     pub(crate) fn of(name: &str) -> Place {
         Place {
             byte: None,
@@ -131,7 +150,7 @@ impl Place {
         }
     }
 
-    /// This location, within the column, topic or record called `name`.
+    /// This location, within the column, topic or record `name`.
     pub(crate) fn in_name(self, name: &str) -> Place {
         Place {
             name: Some(name.to_owned()),
@@ -152,7 +171,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// A name from a file for a message: without control characters, at most 80 characters.
+/// Name from a file, for messages: without control characters, at most 80 characters.
 pub(crate) fn shown(name: &str) -> String {
     match name.char_indices().nth(80) {
         Some((end, _)) => format!("{}…", core_shown(&name[..end])),

@@ -1,7 +1,7 @@
-//! FlatBuffers tables (<https://flatbuffers.dev/internals>), as far as the metadata of Arrow uses them. Offsets beyond the end of the
-//! buffer give `None`.
+//! FlatBuffers tables (<https://flatbuffers.dev/internals>), limited to the features that Arrow metadata uses. Offsets beyond the end of the buffer
+//! give `None`.
 
-/// A FlatBuffers table; its fields are found by its list of offsets (vtable).
+/// A FlatBuffers table. A list of offsets (vtable) locates its fields.
 #[derive(Clone, Copy)]
 pub(crate) struct Table<'b> {
     bytes: &'b [u8],
@@ -17,7 +17,7 @@ pub(crate) struct Tables<'b> {
 }
 
 impl<'b> Table<'b> {
-    /// The root table of a buffer.
+    /// Root table of a buffer.
     pub(crate) fn root(bytes: &'b [u8]) -> Option<Table<'b>> {
         let at = unsigned(bytes, 0)?;
         Some(Table { bytes, at })
@@ -58,7 +58,7 @@ impl<'b> Table<'b> {
         own.first_chunk().copied().map(i64::from_le_bytes)
     }
 
-    /// The bytes of a vector whose elements have `size` bytes each.
+    /// Bytes of a vector whose elements have `size` bytes each.
     pub(crate) fn elements(self, number: usize, size: usize) -> Option<&'b [u8]> {
         let at = self.lead(number)?;
         let begin = at.checked_add(4)?;
@@ -66,7 +66,7 @@ impl<'b> Table<'b> {
         self.bytes.get(begin..begin.checked_add(bytes)?)
     }
 
-    /// Offset that the field refers to.
+    /// Offset to which the field refers.
     fn lead(self, number: usize) -> Option<usize> {
         let at = self.field(number)?;
         at.checked_add(unsigned(self.bytes, at)?)

@@ -13,7 +13,7 @@ impl Growth {
     /// Counts a chunk before it is unpacked.
     ///
     /// # Errors
-    /// A message that the file is made to cost hours: its chunks grow more than those of any recording.
+    /// A message if the file expands too much: its chunks grow more than those of any recording, so reading would take hours.
     pub(crate) fn take(&mut self, packed: u64, unpacked: u64) -> Result<(), String> {
         self.packed = self.packed.saturating_add(packed);
         self.unpacked = self.unpacked.saturating_add(unpacked);

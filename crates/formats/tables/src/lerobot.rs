@@ -32,10 +32,10 @@ pub use self::stats::FeatureStats;
 pub use self::video::VideoFrames;
 pub use self::writer::LeRobotWriter;
 
-/// A LeRobot dataset, version 2.1 or 3.0: the rows of all its data files in sequence.
+/// A LeRobot dataset, version 2.1 or 3.0, as one table: the rows of all its data files in sequence.
 ///
-/// Columns have the names of the data files; `task` is the text of `task_index`. Videos are not decoded: the table gives the file and the
-/// frame of each row.
+/// Columns have the names in the data files; `task` is the text of `task_index`. Videos are not decoded; the table gives the file and frame of each
+/// row.
 ///
 /// ```
 /// use taceva_tables::{Cell, LeRobot};
@@ -66,11 +66,11 @@ struct DataFile {
 }
 
 impl LeRobot {
-    /// Opens the dataset in `folder`: reads its metadata, and the footers of all data files.
+    /// Opens the dataset in `folder`. Reads its metadata, and the footers of all data files.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] for another version, or files outside the folder; [`TableError::Damaged`] if an episode has other rows
-    /// than its description states, or two takes; else as [`ParquetTable::open`].
+    /// [`TableError::Unsupported`] for another version, or files outside the folder. [`TableError::Damaged`] if the number of rows of an episode
+    /// differs from its description, or an episode has two takes. Otherwise as [`ParquetTable::open`].
     pub fn open(folder: &Path) -> Result<LeRobot, TableError> {
         let (source, json) = json_file(folder, "meta/info.json")?;
         let info = info::parse(&source, &json)?;
@@ -88,7 +88,7 @@ impl LeRobot {
                 let episodes = episodes::of_lines(folder)?;
                 let mut paths: Vec<PathBuf> =
                     episodes.into_iter().map(fill).collect::<Result<_, _>>()?;
-                // A path without a field for the episode names one file.
+                // A path without an episode field names one file.
                 paths.dedup();
                 paths
             }
@@ -114,9 +114,7 @@ impl LeRobot {
             });
         }
         if files.is_empty() {
-            return Err(
-                source.damaged(Place::of("data_path"), "there is no data file at that path")
-            );
+            return Err(source.damaged(Place::of("data_path"), "no data file exists at this path"));
         }
         if rows > limits::ROWS {
             let problem = format!("{rows} rows, at most {} are accepted", limits::ROWS);
@@ -141,7 +139,7 @@ impl LeRobot {
         Ok(dataset)
     }
 
-    /// The folder.
+    /// Folder of the dataset.
     pub fn folder(&self) -> &Path {
         &self.folder
     }
@@ -151,17 +149,17 @@ impl LeRobot {
         self.rows
     }
 
-    /// The columns of the data files, and `task`.
+    /// Columns of the data files, and `task`.
     pub fn names(&self) -> &[String] {
         &self.names
     }
 
-    /// The features in `meta/info.json`: columns and videos, by name.
+    /// Features in `meta/info.json`: columns and videos, by name.
     pub fn features(&self) -> &[Feature] {
         &self.info.features
     }
 
-    /// The cells of the column called `name`, row by row, as [`ParquetTable::column`].
+    /// Cells of the column `name`, row by row, as in [`ParquetTable::column`].
     ///
     /// # Errors
     /// As [`ParquetTable::column`]; the limit applies to all files together.
@@ -192,7 +190,7 @@ impl LeRobot {
         Ok(cells)
     }
 
-    /// The kind of the cells of the column called `name`, from the first data file.
+    /// Kind of the cells of the column `name`, from the first data file.
     ///
     /// # Errors
     /// As [`ParquetTable::kind`].
@@ -214,7 +212,7 @@ impl LeRobot {
         first.open()?.kind(name)
     }
 
-    /// Calls `each` with the pictures of a feature of dtype `image` (or the bytes of another column) in the rows `sorted`, as
+    /// Calls `each` with the pictures of a feature with dtype `image`, or the bytes of another column, in the rows `sorted`, as
     /// [`ParquetTable::visit_bytes`].
     ///
     /// # Errors
@@ -250,12 +248,12 @@ impl LeRobot {
         Ok(())
     }
 
-    /// The frame of each row in the video called `key`, a feature of dtype `video`. It is found by the time stamp of the row after the
-    /// begin of its episode in the file.
+    /// Frame of each row in the video `key`, a feature with dtype `video`. The frame is found by the time stamp of the row, relative to the start of
+    /// its episode in the file.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if no video has this name; [`TableError::Damaged`] if an episode is in no file, or a time stamp is more than
-    /// a quarter of a frame from every frame.
+    /// [`TableError::Missing`] if no video has this name. [`TableError::Damaged`] if an episode is in no file, or a time stamp is more than a quarter
+    /// of a frame from the nearest frame.
     pub fn video(&self, key: &str) -> Result<VideoFrames, TableError> {
         video::frames(self, key)
     }

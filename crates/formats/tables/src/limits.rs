@@ -1,13 +1,13 @@
-//! Memory limits. Larger files are rejected before anything is allocated for them. No file takes 512 MiB, even if it states false sizes
+//! Memory limits. Larger files are rejected before memory is allocated for them. No file takes 512 MiB of memory, even if it states false sizes
 //! (`tests/hostile.rs`).
 
 /// Maximum metadata, bytes: the footer of a Parquet file, the summary of an MCAP file.
 pub(crate) const DESCRIPTION_BYTES: u64 = 32 << 20;
-/// Maximum JSON file of LeRobot or JSON message, bytes; it takes several times as much in memory.
+/// Maximum JSON file of LeRobot or JSON message, bytes. It takes several times as much memory.
 pub(crate) const JSON_BYTES: u64 = 16 << 20;
 /// Maximum page of a Parquet file that is decoded as a whole, or chunk of an MCAP file, bytes, packed or unpacked.
 pub(crate) const PAGE_BYTES: u64 = 128 << 20;
-/// Maximum picture, or other cell of bytes.
+/// Maximum size of a picture, or of another cell of bytes.
 pub(crate) const CELL_BYTES: u64 = 256 << 20;
 /// Maximum memory of the cells of one request, bytes.
 pub(crate) const COLUMN_BYTES: u64 = 320 << 20;
@@ -19,12 +19,12 @@ pub(crate) const ROWS: u64 = 1 << 28;
 pub(crate) const DEPTH: usize = 32;
 /// Maximum columns, fields or topics.
 pub(crate) const NAMES: usize = 1 << 16;
-/// Maximum messages of one topic; the time and the location of each are kept.
+/// Maximum messages of one topic. The time and location of each are kept in memory.
 pub(crate) const MESSAGES: usize = 1 << 23;
-/// Maximum list elements in one message that become cells.
+/// Maximum list elements that become cells, per message.
 pub(crate) const MESSAGE_CELLS: usize = 1 << 20;
 
-/// Unpacked size that any small file may reach, bytes; a larger one may reach a multiple of its stored size.
+/// Unpacked size that any small file may reach, bytes. A larger file may reach a multiple of its stored size.
 const UNPACKED_BYTES: u64 = 128 << 20;
 const UNPACKED_RATIO: u64 = 200;
 /// The same limit for the cells of one request.

@@ -16,25 +16,40 @@ use crate::error::{Place, TableError};
 use crate::message::{Channel, Entry, Message, MessageReader, MessageStore};
 use crate::source::Source;
 
-/// The first and the last eight bytes of a file.
+/// First and last eight bytes of a file.
 pub(crate) use self::record::MAGIC;
 
-/// An MCAP file, described by its summary, or by a walk over its records if it has none.
+/// An MCAP file, described by its summary, or by reading all records if it has none.
 #[derive(Debug)]
 pub(crate) struct McapFile {
     source: Source,
     contents: Contents,
     channels: BTreeMap<u32, Channel>,
+    /// End of the complete records, if the file was cut.
+    cut_at: Option<u64>,
 }
 
 impl McapFile {
-    /// The recording in `source`.
+    /// Opens the recording of `source`.
     ///
     /// # Errors
-    /// [`TableError::Damaged`] if it is no MCAP file, is truncated or has a wrong checksum, [`TableError::TooLarge`] if its summary exceeds
-    /// the limit.
+    /// [`TableError::Damaged`] if it is no MCAP file or has a wrong checksum, [`TableError::Cut`] if it is truncated or was not closed,
+    /// [`TableError::TooLarge`] if its summary exceeds the limit.
     pub(crate) fn open(source: Source) -> Result<McapFile, TableError> {
         let contents = contents::read(&source)?;
+        Ok(McapFile::of(source, contents, None))
+    }
+
+    /// The complete chunks and messages of the recording in `source`, which was cut.
+    ///
+    /// # Errors
+    /// [`TableError::Damaged`] for a chunk with a wrong checksum.
+    pub(crate) fn open_to_cut(source: Source) -> Result<McapFile, TableError> {
+        let (contents, end) = contents::walk_to_cut(&source)?;
+        Ok(McapFile::of(source, contents, Some(end)))
+    }
+
+    fn of(source: Source, contents: Contents, cut_at: Option<u64>) -> McapFile {
         let schemas: BTreeMap<u16, Arc<_>> = contents
             .schemas
             .iter()
@@ -49,11 +64,12 @@ impl McapFile {
             };
             (u32::from(*id), described)
         });
-        Ok(McapFile {
+        McapFile {
             channels: channels.collect(),
             source,
             contents,
-        })
+            cut_at,
+        }
     }
 }
 
@@ -64,6 +80,10 @@ impl MessageStore for McapFile {
 
     fn channels(&self) -> &BTreeMap<u32, Channel> {
         &self.channels
+    }
+
+    fn cut_at(&self) -> Option<u64> {
+        self.cut_at
     }
 
     fn index(&self, channels: &BTreeSet<u32>) -> Result<Vec<Entry>, TableError> {
@@ -79,7 +99,7 @@ impl MessageStore for McapFile {
     }
 }
 
-/// Reader of the messages of a file through one cursor.
+/// Reader of the messages of a file, with one cursor.
 struct Records<'a> {
     source: &'a Source,
     chunks: Chunks<'a>,
@@ -101,11 +121,11 @@ impl MessageReader for Records<'_> {
                 let at = usize::try_from(entry.at)
                     .ok()
                     .filter(|at| *at <= held.len());
-                let at = at.ok_or_else(|| damaged("its index leads to no message"))?;
+                let at = at.ok_or_else(|| damaged("its index does not point to a message"))?;
                 let mut bytes = Bytes::new(held.get(at..).unwrap_or_default());
                 let found = record::next(&mut bytes);
                 let Some((code::MESSAGE, fields)) = found else {
-                    return Err(damaged("its index leads to no message"));
+                    return Err(damaged("its index does not point to a message"));
                 };
                 let end = at + bytes.at();
                 let fields = end - fields.len()..end;

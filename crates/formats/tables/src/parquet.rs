@@ -38,8 +38,8 @@ const ROWS_AT_ONCE: usize = 256;
 
 /// A table in a Parquet file: columns of numbers, texts, bytes, lists and structures, by any writer.
 ///
-/// Opening reads only the footer. Pages may be compressed by snappy, gzip, LZ4, brotli or Zstandard; their checksums are verified if
-/// present. Threads may share a table: every call has its own cursor.
+/// Opening reads only the footer. Pages may be compressed by snappy, gzip, LZ4, brotli or Zstandard. Checksums are verified if present. Threads may
+/// share a table, because every call has its own cursor.
 ///
 /// ```
 /// use taceva_tables::{Cell, ParquetTable};
@@ -58,10 +58,10 @@ pub struct ParquetTable {
 }
 
 impl ParquetTable {
-    /// The table at `path`.
+    /// Opens the table at `path`.
     ///
     /// # Errors
-    /// [`TableError::Io`] if the file cannot be read; [`TableError::Damaged`] if it is no Parquet file or its footer is inconsistent;
+    /// [`TableError::Io`] if the file cannot be read; [`TableError::Damaged`] if it is not a Parquet file or its footer is inconsistent;
     /// [`TableError::TooLarge`] if the footer or the table exceeds the limits.
     pub fn open(path: &Path) -> Result<ParquetTable, TableError> {
         let source = Source::new(path)?;
@@ -69,7 +69,9 @@ impl ParquetTable {
         check_footer(&source, &mut file)?;
         let metadata = ParquetMetaDataReader::new()
             .parse_and_finish(&file)
-            .map_err(|error| source.damaged(Place::default(), format!("the footer: {error}")))?;
+            .map_err(|error| {
+                source.damaged(Place::default(), format!("invalid footer: {error}"))
+            })?;
         let mut columns = schema::columns(metadata.file_metadata().schema_descr())
             .map_err(|problem| source.unsupported(Place::default(), problem))?;
         if let Some(text) = written(&metadata, "ARROW:schema") {
@@ -78,7 +80,7 @@ impl ParquetTable {
         let mut rows = 0_u64;
         for (at, group) in metadata.row_groups().iter().enumerate() {
             let more = u64::try_from(group.num_rows()).map_err(|_| {
-                let problem = format!("group {at} of {} rows", group.num_rows());
+                let problem = format!("group {at} has {} rows", group.num_rows());
                 source.damaged(Place::default(), problem)
             })?;
             rows = rows.saturating_add(more);
@@ -110,12 +112,12 @@ impl ParquetTable {
         self.rows
     }
 
-    /// The columns in the order of the schema; a structure is replaced by its members, as `pose.x`.
+    /// Columns in the order of the schema. A structure is replaced by its members, such as `pose.x`.
     pub fn names(&self) -> Vec<String> {
         names(&self.columns)
     }
 
-    /// The metadata of the table under `key`, such as `huggingface`, whose JSON contains the names of classes.
+    /// Metadata of the table under `key`, such as `huggingface`, whose JSON contains the names of classes.
     ///
     /// ```
     /// # use taceva_tables::ParquetTable;
@@ -127,7 +129,7 @@ impl ParquetTable {
         written(&self.metadata, key)
     }
 
-    /// The kind of the cells of the column called `name`, which may be a structure, or an element of lists.
+    /// Kind of the cells of the column `name`, which may be a structure or an element of lists.
     ///
     /// # Errors
     /// [`TableError::Missing`] if there is no such column.
@@ -136,19 +138,20 @@ impl ParquetTable {
         kind.ok_or_else(|| self.source.missing(name, self.names()))
     }
 
-    /// The cells of the column called `name`, row by row: one of [`names`](Self::names), a whole structure, or an element of lists:
-    /// `ft[2]`, `ft[2,0]`.
+    /// Cells of the column `name`, row by row. `name` is one of [`names`](Self::names), a whole structure, or an element of lists: `ft[2]`,
+    /// `ft[2,0]`.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such column; [`TableError::Mismatch`] if a list is too short for `name` in some row;
-    /// [`TableError::TooLarge`] if the cells exceed 96 to 320 MiB, by the size of the file; [`TableError::Damaged`] for an invalid page.
+    /// [`TableError::Missing`] if there is no such column. [`TableError::Mismatch`] if a list is too short for `name` in some row.
+    /// [`TableError::TooLarge`] if the cells exceed a limit of 96 to 320 MiB, which depends on the size of the file. [`TableError::Damaged`] for an
+    /// invalid page.
     pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
         let mut cells = Vec::new();
         self.read_column(name, &mut 0, &mut cells)?;
         Ok(cells)
     }
 
-    /// Appends the column called `name` to `cells`; `bytes` counts their memory.
+    /// Appends the column `name` to `cells`. `bytes` counts their memory.
     pub(crate) fn read_column(
         &self,
         name: &str,
@@ -168,7 +171,7 @@ impl ParquetTable {
                     *bytes = bytes.saturating_add(cell.bytes());
                     if *bytes > most {
                         let problem = format!(
-                            "more than {most} bytes in memory, of a file of {}; write it in several files, or read a part of a list, such \
+                            "more than {most} bytes in memory, for a file of {}; split the file, or read a part of a list, such \
                              as `{name}[0]`",
                             self.source.length()
                         );
@@ -183,14 +186,14 @@ impl ParquetTable {
         Ok(())
     }
 
-    /// Calls `each` with each row of `sorted` and its bytes in the column called `name`, such as `image.bytes`; [`None`] if the cell is
-    /// null. Memory holds one cell and its decoder; for pages in other encodings than plain, one page.
+    /// Calls `each` with each row of `sorted` and its bytes in the column `name`, such as `image.bytes`; [`None`] if the cell is null. Memory holds
+    /// one cell and its decoder. For pages in encodings other than plain, it holds one page.
     ///
     /// `sorted` must ascend; a row listed twice is passed twice.
     ///
     /// # Errors
-    /// As [`column`](Self::column); also [`TableError::Mismatch`] if the column has no bytes, or if `sorted` does not ascend or names a row
-    /// that does not exist; and the errors of `each`.
+    /// As [`column`](Self::column). [`TableError::Mismatch`] if the column has no bytes, or if `sorted` does not ascend or names a row that does not
+    /// exist. Also the errors of `each`.
     pub fn visit_bytes<E: From<TableError>>(
         &self,
         name: &str,
@@ -225,19 +228,19 @@ impl ParquetTable {
     }
 }
 
-/// The metadata under `key` in the footer.
+/// Metadata under `key` in the footer.
 fn written<'m>(metadata: &'m ParquetMetaData, key: &str) -> Option<&'m str> {
     let all = metadata.file_metadata().key_value_metadata()?;
     let found = all.iter().find(|entry| entry.key == key)?;
     found.value.as_deref()
 }
 
-/// Number of rows of a group; the sum over all groups was checked on opening.
+/// Number of rows of a group. The sum over all groups was checked on opening.
 fn rows_of(group: &RowGroupMetaData) -> usize {
     usize::try_from(group.num_rows()).unwrap_or(0)
 }
 
-/// Checks the last 8 bytes: the length of the footer, within the file and the limit, and the mark.
+/// Checks the last 8 bytes: the length of the footer, within the file and the limit, and the magic bytes.
 fn check_footer(source: &Source, file: &mut std::fs::File) -> Result<(), TableError> {
     let Some(at) = source.length().checked_sub(8) else {
         let problem = format!("{} bytes are too few for a Parquet file", source.length());
@@ -248,7 +251,7 @@ fn check_footer(source: &Source, file: &mut std::fs::File) -> Result<(), TableEr
     match mark {
         b"PAR1" => {}
         b"PARE" => {
-            let problem = "the footer is encrypted, which is not read";
+            let problem = "the footer is encrypted, which is not supported";
             return Err(source.unsupported(Place::byte(at), problem));
         }
         _ => {
@@ -261,7 +264,7 @@ fn check_footer(source: &Source, file: &mut std::fs::File) -> Result<(), TableEr
     ]));
     if length > limits::DESCRIPTION_BYTES {
         let problem = format!(
-            "a footer of {length} bytes, at most {} are accepted",
+            "the footer has {length} bytes, at most {} are accepted",
             limits::DESCRIPTION_BYTES
         );
         return Err(source.too_large(Place::byte(at), problem));
@@ -270,7 +273,7 @@ fn check_footer(source: &Source, file: &mut std::fs::File) -> Result<(), TableEr
         true => Ok(()),
         false => Err(source.damaged(
             Place::byte(at),
-            format!("a footer of {length} bytes, but only {at} bytes are before its end"),
+            format!("the footer has {length} bytes, but only {at} bytes are before its end"),
         )),
     }
 }

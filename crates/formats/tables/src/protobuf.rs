@@ -1,17 +1,17 @@
-//! Foxglove pictures in protobuf, by their published schemas: <https://docs.foxglove.dev/docs/sdk/schemas>.
+//! Foxglove pictures in protobuf, with their published schemas: <https://docs.foxglove.dev/docs/sdk/schemas>.
 
 use crate::bytes::Bytes;
 use crate::cell::Cell;
 use crate::ros::{self, Picture, RawPicture};
 
-/// A supported message.
+/// Supported message.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct ProtobufMessage {
     name: &'static str,
     fields: &'static [Field],
 }
 
-/// A field: its name and its number.
+/// Field: its name and its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Field {
     name: &'static str,
@@ -21,14 +21,14 @@ pub(crate) struct Field {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// Seconds in the first field, nanoseconds in the second.
+    /// Time: seconds in the first field, nanoseconds in the second.
     Time,
     Number,
     Text,
     Bytes,
 }
 
-/// A column: a field, and true for a time in nanoseconds.
+/// Column: a field. The flag is true for a time in nanoseconds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Column {
     field: Field,
@@ -39,7 +39,7 @@ const fn field(name: &'static str, number: u32, kind: Kind) -> Field {
     Field { name, number, kind }
 }
 
-/// The supported messages.
+/// Supported messages.
 static KNOWN: [ProtobufMessage; 2] = [
     ProtobufMessage {
         name: "foxglove.CompressedImage",
@@ -64,24 +64,24 @@ static KNOWN: [ProtobufMessage; 2] = [
     },
 ];
 
-/// The message called `name`; `None` if it is not supported.
+/// Message `name`; `None` if it is not supported.
 pub(crate) fn known(name: &str) -> Option<&'static ProtobufMessage> {
     KNOWN.iter().find(|message| message.name == name)
 }
 
-/// The names of the supported messages.
+/// Names of the supported messages.
 pub(crate) fn names() -> [&'static str; 2] {
     KNOWN.each_ref().map(|message| message.name)
 }
 
 impl ProtobufMessage {
-    /// The names of its fields.
+    /// Names of the fields.
     pub(crate) fn names(&self) -> Vec<String> {
         let names = self.fields.iter();
         names.map(|field| field.name.to_owned()).collect()
     }
 
-    /// The columns called `names`; the error is the first unknown name.
+    /// Columns `names`. The error is the first unknown name.
     pub(crate) fn fields<'n>(&self, names: &[&'n str]) -> Result<Vec<Column>, &'n str> {
         let column = |name: &&'n str| {
             let (base, is_in_nanoseconds) = match name.strip_suffix(".ns") {
@@ -101,7 +101,7 @@ impl ProtobufMessage {
         names.iter().map(column).collect()
     }
 
-    /// The cells of one message, one for each column; the error is a message.
+    /// Cells of one message, one for each column. The error is a message.
     pub(crate) fn read(&self, columns: &[Column], message: &[u8]) -> Result<Vec<Cell>, String> {
         let values = self.values(message)?;
         let cell = |column: &Column| {
@@ -111,7 +111,7 @@ impl ProtobufMessage {
         columns.iter().map(cell).collect()
     }
 
-    /// Checks that the field called `name` contains pictures; the error names the field that does.
+    /// Checks that the field `name` contains pictures. The error names the field with the pictures.
     pub(crate) fn check_picture(&self, name: &str) -> Result<(), String> {
         match name {
             "data" => Ok(()),
@@ -122,7 +122,7 @@ impl ProtobufMessage {
         }
     }
 
-    /// The picture of a message; the error is a message.
+    /// Picture of a message. The error is a message.
     pub(crate) fn picture(&self, message: &[u8]) -> Result<Picture, String> {
         let values = self.values(message)?;
         let value = |name: &str| {
@@ -151,7 +151,7 @@ impl ProtobufMessage {
         raw.samples().map(Picture::Samples)
     }
 
-    /// The last value of each field in `message`; skips unknown fields.
+    /// Last value of each field in `message`. Skips unknown fields.
     fn values<'m>(&self, message: &'m [u8]) -> Result<Vec<Value<'m>>, String> {
         let mut values = vec![Value::Absent; self.fields.len()];
         let mut bytes = Bytes::new(message);
@@ -178,7 +178,7 @@ impl ProtobufMessage {
     }
 }
 
-/// Value of a field; a missing one is 0 or empty.
+/// Value of a field. A missing value is 0 or empty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Value<'m> {
     Absent,
@@ -205,7 +205,7 @@ impl<'m> Value<'m> {
 fn text(bytes: &[u8]) -> Result<String, String> {
     let text = std::str::from_utf8(bytes);
     text.map(str::to_owned)
-        .map_err(|_| "a text that is not UTF-8".to_owned())
+        .map_err(|_| "a text is not UTF-8".to_owned())
 }
 
 fn cell(column: &Column, value: &Value<'_>) -> Result<Cell, String> {
@@ -234,7 +234,7 @@ fn cell(column: &Column, value: &Value<'_>) -> Result<Cell, String> {
     })
 }
 
-/// The number and the value of the next field.
+/// Number and value of the next field.
 fn next<'m>(bytes: &mut Bytes<'m>) -> Option<(u64, Value<'m>)> {
     let tag = varint(bytes)?;
     let value = match tag & 7 {
@@ -250,7 +250,7 @@ fn next<'m>(bytes: &mut Bytes<'m>) -> Option<(u64, Value<'m>)> {
     Some((tag >> 3, value))
 }
 
-/// A varint of one to ten bytes, the lowest seven bits first.
+/// Varint of one to ten bytes, the lowest seven bits first.
 fn varint(bytes: &mut Bytes<'_>) -> Option<u64> {
     let mut number = 0_u64;
     for shift in (0..70).step_by(7) {

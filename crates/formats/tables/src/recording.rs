@@ -1,4 +1,4 @@
-//! Recordings of messages by topic: MCAP, rosbag2 databases, ROS 1 bags.
+//! Recordings of messages by topic: MCAP files, rosbag2 databases, ROS 1 bags.
 
 mod embedded_array;
 mod json;
@@ -10,17 +10,20 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::error::{Place, TableError};
+use crate::mcap::{self, McapFile};
 use crate::message::MessageStore;
+use crate::rosbag1::{self, Rosbag1};
+use crate::rosbag2::Rosbag2;
 use crate::source::Source;
-use crate::{mcap, rosbag1, rosbag2, sqlite};
+use crate::sqlite;
 
 pub use self::table::TopicTable;
 
-/// A recording of messages: topics, each a table of its messages.
+/// Recording of messages. Each topic is a table of its messages.
 ///
-/// The format is detected from the first bytes: an MCAP file, a rosbag2 database (`.db3`) or a ROS 1 bag (`.bag`). Opening reads the
-/// summary, or walks over the records of a file without one. Checksums are verified if present; attachments are ignored. Chunks may be
-/// compressed by LZ4 or Zstandard, messages of rosbag2 by Zstandard.
+/// The first bytes determine the format: an MCAP file, a rosbag2 database (`.db3`) or a ROS 1 bag (`.bag`). Opening reads the summary.
+/// If there is no summary, it reads the records. Checksums are verified if present; attachments are ignored. Chunks may be compressed
+/// by LZ4 or Zstandard, messages of rosbag2 by Zstandard.
 ///
 /// ```
 /// use taceva_tables::Recording;
@@ -36,29 +39,57 @@ pub struct Recording {
     topics: Vec<Topic>,
 }
 
-/// A topic of a recording.
+/// Topic of a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Topic {
-    /// Name, as `/ft/wrench`.
+    /// Name, such as `/ft/wrench`.
     pub name: String,
-    /// The name of the schema of its messages, as `geometry_msgs/msg/WrenchStamped`; empty if there is none.
+    /// Name of the message schema, such as `geometry_msgs/msg/WrenchStamped`; empty if there is none.
     pub schema: String,
-    /// Encoding of its messages, as `cdr`.
+    /// Encoding of the messages, such as `cdr`.
     pub encoding: String,
     /// Number of messages.
     pub count: u64,
 }
 
 impl Recording {
-    /// The recording at `path`.
+    /// Recording at `path`.
     ///
     /// # Errors
-    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no recording, is truncated or has a wrong checksum.
+    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no recording or has a wrong checksum.
+    /// [`TableError::Cut`] if it is truncated or was not closed.
     /// [`TableError::Unsupported`] if it is of a later version, compressed as a whole, or has messages in a separate log.
     /// [`TableError::TooLarge`] if its summary exceeds the limit.
     pub fn open(path: &Path) -> Result<Recording, TableError> {
-        let store = store(Source::new(path)?)?;
+        Ok(Recording::of_store(store(Source::new(path)?, false)?))
+    }
+
+    /// As [`open`](Self::open), but of a recording that was cut, or not closed, the complete messages before the cut.
+    ///
+    /// Messages of an incomplete chunk are read if it is a plain chunk of a ROS 1 bag. Whole recordings are read by their index.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open); [`TableError::Cut`] only if no message is complete.
+    ///
+    /// ```
+    /// use taceva_tables::{Recording, TableError};
+    /// # let whole = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/presses.mcap");
+    /// # let folder = tempfile::tempdir()?;
+    /// # let path = folder.path().join("cut.mcap");
+    /// let bytes = std::fs::read(whole)?;
+    /// std::fs::write(&path, &bytes[..bytes.len() - 40])?;
+    /// assert!(matches!(Recording::open(&path), Err(TableError::Cut { messages: 4, .. })));
+    /// let recording = Recording::open_to_cut(&path)?;
+    /// assert!(recording.cut_at().is_some());
+    /// assert_eq!(recording.table("/ft/wrench")?.rows(), 3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn open_to_cut(path: &Path) -> Result<Recording, TableError> {
+        Ok(Recording::of_store(store(Source::new(path)?, true)?))
+    }
+
+    fn of_store(store: Arc<dyn MessageStore>) -> Recording {
         let mut topics: BTreeMap<&str, Topic> = BTreeMap::new();
         for channel in store.channels().values() {
             let schema = channel.schema.as_ref();
@@ -71,7 +102,7 @@ impl Recording {
             topic.count = topic.count.saturating_add(channel.count);
         }
         let topics = topics.into_values().collect();
-        Ok(Recording { store, topics })
+        Recording { store, topics }
     }
 
     /// The file.
@@ -79,16 +110,21 @@ impl Recording {
         self.store.source().path()
     }
 
+    /// End of the complete records of a recording that was cut, as a byte offset; `None` for a whole recording.
+    pub fn cut_at(&self) -> Option<u64> {
+        self.store.cut_at()
+    }
+
     /// The topics, by name.
     pub fn topics(&self) -> &[Topic] {
         &self.topics
     }
 
-    /// The messages of the topic called `name`.
+    /// Messages of the topic `name`.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such topic; [`TableError::Unsupported`] for an unsupported encoding (not ROS 1 or 2, JSON or
-    /// Foxglove pictures) or an incomplete schema; [`TableError::Damaged`] if the messages in the file differ from its index.
+    /// [`TableError::Missing`] if there is no such topic. [`TableError::Unsupported`] for an incomplete schema or an unsupported encoding
+    /// (not ROS 1 or 2, JSON or Foxglove pictures). [`TableError::Damaged`] if the messages in the file differ from its index.
     pub fn table(&self, name: &str) -> Result<TopicTable, TableError> {
         match self.topics.iter().find(|topic| topic.name == name) {
             Some(topic) => TopicTable::new(&self.store, topic.clone()),
@@ -99,24 +135,38 @@ impl Recording {
         }
     }
 
-    /// Reason why the messages of the topic called `name` cannot be read; `None` if they can. Reads no message.
+    /// Reason why the messages of the topic `name` cannot be read; `None` if they can. Reads no message.
     pub fn why_unread(&self, name: &str) -> Option<String> {
         let topic = self.topics.iter().find(|topic| topic.name == name)?;
         language::of_topic(&*self.store, topic).err()
     }
 }
 
-/// Opens the reader of the format that the first bytes of the file indicate.
-fn store(source: Source) -> Result<Arc<dyn MessageStore>, TableError> {
+/// Opens a file, or its part before a cut if that is requested and has a message.
+fn opened<S: MessageStore + 'static>(
+    source: Source,
+    is_to_cut: bool,
+    open: fn(Source) -> Result<S, TableError>,
+    to_cut: fn(Source) -> Result<S, TableError>,
+) -> Result<Arc<dyn MessageStore>, TableError> {
+    let store = match open(source.clone()) {
+        Err(TableError::Cut { messages: 1.., .. }) if is_to_cut => to_cut(source)?,
+        other => other?,
+    };
+    Ok(Arc::new(store))
+}
+
+/// Opens the reader of the format that the first bytes of the file indicate, of a file that was cut up to the cut if requested.
+fn store(source: Source, is_to_cut: bool) -> Result<Arc<dyn MessageStore>, TableError> {
     const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
     let mut file = source.open()?;
     let begin = source.bytes(&mut file, 0, source.length().min(16), 16)?;
     let begins = |mark: &[u8]| begin.starts_with(mark);
     if begins(&sqlite::MAGIC) {
-        return Ok(Arc::new(rosbag2::Rosbag2::open(source)?));
+        return opened(source, is_to_cut, Rosbag2::open, Rosbag2::open_to_cut);
     }
     if begins(&rosbag1::MAGIC) {
-        return Ok(Arc::new(rosbag1::Rosbag1::open(source)?));
+        return opened(source, is_to_cut, Rosbag1::open, Rosbag1::open_to_cut);
     }
     if begins(b"#ROSBAG V") && rosbag1::MAGIC.starts_with(&begin) {
         return Err(source.damaged(
@@ -138,5 +188,5 @@ fn store(source: Source) -> Result<Arc<dyn MessageStore>, TableError> {
         let problem = "not a recording: it begins like neither MCAP nor SQLite nor a ROS 1 bag";
         return Err(source.damaged(Place::byte(0), problem));
     }
-    Ok(Arc::new(mcap::McapFile::open(source)?))
+    opened(source, is_to_cut, McapFile::open, McapFile::open_to_cut)
 }

@@ -12,34 +12,36 @@ use crate::codec::{Codec, unpack};
 use crate::error::{Place, TableError, shown};
 use crate::growth::Growth;
 use crate::limits;
-use crate::message::{Channel, Entry, Message, MessageReader, MessageStore, Schema};
+use crate::message::{Channel, Entry, Message, MessageReader, MessageStore};
 use crate::source::Source;
-use record::{Head, op};
+use cut::{Walk, refusal};
+use record::{Head, connection, op};
 
-/// The first line of a bag.
+/// First line of a bag.
 pub(crate) const MAGIC: [u8; 13] = *b"#ROSBAG V2.0\n";
-/// Nanoseconds of a second.
-const NANO: u64 = 1_000_000_000;
 
-/// A ROS 1 bag.
+/// ROS 1 bag.
 #[derive(Debug)]
 pub(crate) struct Rosbag1 {
     source: Source,
     channels: BTreeMap<u32, Channel>,
     /// Offset of each message index of a connection, with the offset of its chunk.
     indices: BTreeMap<u32, Vec<(u64, u64)>>,
+    /// Messages before a cut, in place of the indices.
+    before_cut: Option<Walk>,
 }
 
 impl Rosbag1 {
-    /// The recording in `source`: reads the heads of all its records, and no chunk.
+    /// Recording in `source`. Reads the heads of all its records, but no chunk.
     ///
     /// # Errors
-    /// [`TableError::Damaged`] if it is truncated, was not closed, or has other records than it announces.
+    /// [`TableError::Cut`] if it is truncated or was not closed, [`TableError::Damaged`] if it has other records than it announces.
     pub(crate) fn open(source: Source) -> Result<Rosbag1, TableError> {
         let mut records = Records::new(&source)?;
         let mut bag = Rosbag1 {
             channels: BTreeMap::new(),
             indices: BTreeMap::new(),
+            before_cut: None,
             source: source.clone(),
         };
         let begin = MAGIC.len() as u64;
@@ -52,24 +54,19 @@ impl Rosbag1 {
         else {
             return Err(source.damaged(
                 Place::byte(begin),
-                "not a bag: its first record is not a bag header",
+                "not a bag: the first record is not a bag header",
             ));
         };
-        let reindex = || cut::remedy(&source);
         if index == 0 {
-            let problem = format!(
-                "the recorder did not close it, so it is cut short: {}",
-                reindex()
-            );
-            return Err(source.damaged(Place::byte(begin), problem));
+            let problem = "the recorder did not close it, so it is cut short";
+            return Err(refusal(&source, Place::byte(begin), problem.to_owned()));
         }
         if index > source.length() {
             let problem = format!(
-                "its index should begin at byte {index}, but the file has {} bytes: it is cut short; {}",
-                source.length(),
-                reindex()
+                "its index should begin at byte {index}, but the file has {} bytes: it is cut short",
+                source.length()
             );
-            return Err(source.damaged(Place::byte(begin), problem));
+            return Err(refusal(&source, Place::byte(begin), problem));
         }
         let (mut chunk, mut chunks) = (None, 0_u32);
         let mut described = 0_u64;
@@ -105,7 +102,7 @@ impl Rosbag1 {
                     })?;
                     bag.channels.insert(number, channel);
                 }
-                // Chunk information is not needed, and bags of version 2.0 have no messages outside chunks.
+                // Chunk information is not needed. Bags of version 2.0 have no messages outside chunks.
                 Some(op::CHUNK_INFO) => {}
                 other => {
                     let other =
@@ -120,14 +117,27 @@ impl Rosbag1 {
         }
         if chunks != of_chunks || bag.channels.len() != of_connections as usize {
             let problem = format!(
-                "{chunks} chunks and {} connections, but it announces {of_chunks} and {of_connections}: it is cut short or was changed; {}",
-                bag.channels.len(),
-                reindex()
+                "{chunks} chunks and {} connections, but it announces {of_chunks} and {of_connections}: it is cut short or was changed",
+                bag.channels.len()
             );
-            return Err(source.damaged(Place::byte(begin), problem));
+            return Err(refusal(&source, Place::byte(begin), problem));
         }
         bag.count(&mut records)?;
         Ok(bag)
+    }
+
+    /// Messages before the cut of the bag in `source`.
+    ///
+    /// # Errors
+    /// [`TableError::Damaged`] for a chunk that cannot be unpacked, [`TableError::TooLarge`] for too many messages.
+    pub(crate) fn open_to_cut(source: Source) -> Result<Rosbag1, TableError> {
+        let mut walk = Walk::of(&source, true)?;
+        Ok(Rosbag1 {
+            channels: std::mem::take(&mut walk.channels),
+            indices: BTreeMap::new(),
+            before_cut: Some(walk),
+            source,
+        })
     }
 
     /// Counts the messages of each connection by their indices.
@@ -159,7 +169,14 @@ impl MessageStore for Rosbag1 {
         &self.channels
     }
 
+    fn cut_at(&self) -> Option<u64> {
+        self.before_cut.as_ref().map(|walk| walk.end)
+    }
+
     fn index(&self, channels: &BTreeSet<u32>) -> Result<Vec<Entry>, TableError> {
+        if let Some(walk) = &self.before_cut {
+            return Ok(walk.entries(channels));
+        }
         let mut records = Records::new(&self.source)?;
         let mut entries: Vec<Entry> = Vec::new();
         for (_, indices) in self
@@ -189,7 +206,7 @@ impl MessageStore for Rosbag1 {
                         return Err(wrong());
                     };
                     entries.push(Entry {
-                        log_time: u64::from(seconds) * NANO + u64::from(nanoseconds),
+                        log_time: u64::from(seconds) * record::NANO + u64::from(nanoseconds),
                         chunk: Some(*chunk),
                         at: u64::from(place),
                     });
@@ -208,7 +225,7 @@ impl MessageStore for Rosbag1 {
     }
 }
 
-/// Reader of the records of a bag through one cursor; caches the last chunk.
+/// Reader of the records of a bag with one cursor. Caches the last chunk.
 struct Records<'a> {
     source: &'a Source,
     file: File,
@@ -226,19 +243,18 @@ impl<'a> Records<'a> {
         })
     }
 
-    /// The head of the record at `at`; its data must end within the file.
+    /// Head of the record at `at`. Its data must end within the file.
     fn head(&mut self, at: u64) -> Result<Head, TableError> {
         match self.head_within(at)? {
             Ok(head) => Ok(head),
             Err(problem) => {
-                let remedy = cut::remedy(self.source);
-                let problem = format!("{problem}: the bag is cut short here; {remedy}");
-                Err(self.source.damaged(Place::byte(at), problem))
+                let problem = format!("{problem}: the bag is cut short here");
+                Err(refusal(self.source, Place::byte(at), problem))
             }
         }
     }
 
-    /// The head of the record at `at`, or a message if the file ends before the record does.
+    /// Head of the record at `at`, or a message if the file ends before the record does.
     fn head_within(&mut self, at: u64) -> Result<Result<Head, String>, TableError> {
         let mut four = |at: u64| {
             let bytes = self.source.bytes(&mut self.file, at, 4, 4).ok()?;
@@ -269,14 +285,21 @@ impl<'a> Records<'a> {
         })
     }
 
-    /// The data of the record with this head.
+    /// Data of the record with this head.
     fn data(&mut self, head: &Head) -> Result<Vec<u8>, TableError> {
         let length = head.end - head.data_at;
         self.source
             .bytes(&mut self.file, head.data_at, length, limits::PAGE_BYTES)
     }
 
-    /// The unpacked records of the chunk at `at`.
+    /// The record at `at` with this head, from its first byte.
+    fn whole(&mut self, at: u64, head: &Head) -> Result<Vec<u8>, TableError> {
+        let length = head.end - at;
+        self.source
+            .bytes(&mut self.file, at, length, limits::PAGE_BYTES)
+    }
+
+    /// The unpacked records of the chunk at `at`; of a plain chunk that is cut, those before the cut.
     fn unpacked(&mut self, at: u64) -> Result<Arc<Vec<u8>>, TableError> {
         if let Some((kept, bytes)) = &self.kept
             && *kept == at
@@ -284,6 +307,13 @@ impl<'a> Records<'a> {
             return Ok(Arc::clone(bytes));
         }
         self.kept = None;
+        if self.head_within(at)?.is_err()
+            && let Some(bytes) = cut::cut_chunk(self, at)
+        {
+            let bytes = Arc::new(bytes);
+            self.kept = Some((at, Arc::clone(&bytes)));
+            return Ok(bytes);
+        }
         let head = self.head(at)?;
         let place = || Place::byte(at).in_name("chunk");
         let size = head.number::<4>("size").map(u32::from_le_bytes);
@@ -324,44 +354,28 @@ impl<'a> Records<'a> {
 
 impl MessageReader for Records<'_> {
     fn message(&mut self, entry: &Entry) -> Result<Message, TableError> {
-        let chunk = entry.chunk.unwrap_or(0);
-        let held = self.unpacked(chunk)?;
+        let (held, at) = match entry.chunk {
+            Some(chunk) => (self.unpacked(chunk)?, entry.at),
+            None => {
+                let head = self.head(entry.at)?;
+                (Arc::new(self.whole(entry.at, &head)?), 0)
+            }
+        };
         let damaged = |problem: &str| {
             let problem = format!("message at byte {} of the chunk: {problem}", entry.at);
-            self.source
-                .damaged(Place::byte(chunk).in_name("chunk"), problem)
+            let place = Place::byte(entry.chunk.unwrap_or(entry.at));
+            self.source.damaged(place.in_name("chunk"), problem)
         };
-        let at = usize::try_from(entry.at).unwrap_or(usize::MAX);
+        let at = usize::try_from(at).unwrap_or(usize::MAX);
         let found = record::within(&held, at);
         let (head, range) =
             found.ok_or_else(|| damaged("its index leads to an incomplete record"))?;
         let connection = head.number::<4>("conn").map(u32::from_le_bytes);
-        let (Some(op::MESSAGE), Some(channel), Some(time)) =
-            (head.op(), connection, head.number::<8>("time"))
+        let (Some(op::MESSAGE), Some(channel), Some(log_time)) =
+            (head.op(), connection, head.time_ns())
         else {
             return Err(damaged("its index leads to no message"));
         };
-        let [a, b, c, d, rest @ ..] = time;
-        let seconds = u64::from(u32::from_le_bytes([a, b, c, d]));
-        let log_time = seconds * NANO + u64::from(u32::from_le_bytes(rest));
         Ok(Message::new(channel, log_time, log_time, held, range))
     }
-}
-
-/// The number of a connection, and its channel.
-fn connection(head: &Head, data: &[u8]) -> Option<(u32, Channel)> {
-    let number = head.number::<4>("conn").map(u32::from_le_bytes)?;
-    let said = Head::new(data.to_vec(), 0, 0)?;
-    let schema = Schema {
-        name: said.text("type")?,
-        encoding: "ros1msg".to_owned(),
-        text: said.bytes("message_definition")?.to_vec(),
-    };
-    let channel = Channel {
-        topic: head.text("topic")?,
-        encoding: "ros1".to_owned(),
-        schema: Some(Arc::new(schema)),
-        count: 0,
-    };
-    Some((number, channel))
 }

@@ -10,9 +10,9 @@ use crate::ros;
 use crate::source::Source;
 use crate::sqlite::{Database, Pages, Record, RowPlace, SqliteTable, Value};
 
-/// The newest supported version of the schema.
+/// Newest supported version of the schema.
 const VERSION: i64 = 4;
-/// The tables of versions up to [`VERSION`].
+/// Tables of versions up to [`VERSION`].
 const TABLES: [&str; 5] = [
     "schema",
     "metadata",
@@ -30,7 +30,7 @@ const OF_TOPICS: [&str; 6] = [
 ];
 const OF_MESSAGES: [&str; 4] = ["id", "topic_id", "timestamp", "data"];
 
-/// A database of messages.
+/// Database of messages.
 #[derive(Debug)]
 pub(crate) struct Rosbag2 {
     database: Database,
@@ -38,7 +38,7 @@ pub(crate) struct Rosbag2 {
     channels: BTreeMap<u32, Channel>,
 }
 
-/// The columns of a message, in the order of requests.
+/// Columns of a message, in the order of requests.
 #[derive(Clone, Copy, Debug)]
 struct Columns {
     topic: usize,
@@ -47,12 +47,40 @@ struct Columns {
 }
 
 impl Rosbag2 {
-    /// The recording in `source`.
+    /// Recording in `source`.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] for a later schema or no recording; [`TableError::Damaged`] for an invalid page or row.
+    /// [`TableError::Unsupported`] for a later schema or no recording; [`TableError::Damaged`] for an invalid page or row;
+    /// [`TableError::Cut`] if pages are missing at its end.
     pub(crate) fn open(source: Source) -> Result<Rosbag2, TableError> {
         let database = Database::open(source)?;
+        if database.cut_at().is_none() {
+            return Rosbag2::of(database);
+        }
+        let (path, problem) = (
+            database.source().path().to_owned(),
+            database.missing_pages(),
+        );
+        // If a description is behind the cut, no message can be read.
+        let counts = Rosbag2::of(database).map(|bag| bag.channels.into_values());
+        Err(TableError::Cut {
+            path,
+            place: Place::byte(0).in_name("header"),
+            problem,
+            messages: counts.map_or(0, |channels| channels.map(|channel| channel.count).sum()),
+            remedy: "recover them with `sqlite3 FILE .recover | sqlite3 OUT.db3`",
+        })
+    }
+
+    /// The complete messages in the pages of the database in `source`, which was cut.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open).
+    pub(crate) fn open_to_cut(source: Source) -> Result<Rosbag2, TableError> {
+        Rosbag2::of(Database::open(source)?)
+    }
+
+    fn of(database: Database) -> Result<Rosbag2, TableError> {
         check_schema(&database)?;
         let messages = table(&database, "messages", &OF_MESSAGES, 4)?.clone();
         let mut bag = Rosbag2 {
@@ -94,8 +122,12 @@ impl Rosbag2 {
         each: &mut dyn FnMut(u32, Entry) -> Result<(), TableError>,
     ) -> Result<(), TableError> {
         let columns = self.columns();
+        let is_cut = self.cut_at().is_some();
         self.database
             .each_row(&self.messages, &mut |place, record| {
+                if is_cut && !record.is_before_cut()? {
+                    return Ok(());
+                }
                 let (channel, log_time) = self.head(record, columns)?;
                 let entry = Entry {
                     log_time,
@@ -106,7 +138,7 @@ impl Rosbag2 {
             })
     }
 
-    /// The topic and the time of a message.
+    /// Topic and time of a message.
     fn head(
         &self,
         record: &mut Record<'_, '_>,
@@ -140,6 +172,10 @@ impl MessageStore for Rosbag2 {
         &self.channels
     }
 
+    fn cut_at(&self) -> Option<u64> {
+        self.database.cut_at()
+    }
+
     fn index(&self, channels: &BTreeSet<u32>) -> Result<Vec<Entry>, TableError> {
         let mut entries = Vec::new();
         self.each_message(&mut |channel, entry| {
@@ -153,7 +189,7 @@ impl MessageStore for Rosbag2 {
             entries.push(entry);
             Ok(())
         })?;
-        // Stable: rows at equal times stay in the order of writing.
+        // Stable sort: rows at equal times stay in the order of writing.
         entries.sort_by_key(|entry| entry.log_time);
         Ok(entries)
     }
@@ -166,7 +202,7 @@ impl MessageStore for Rosbag2 {
     }
 }
 
-/// Reader of the messages of a database through one cursor.
+/// Reader of the messages of a database with one cursor.
 struct Rows<'a> {
     bag: &'a Rosbag2,
     pages: Pages<'a>,
@@ -195,7 +231,7 @@ impl MessageReader for Rows<'_> {
     }
 }
 
-/// Rejects a database of a later rosbag2, or one that is no recording.
+/// Rejects a database of a later rosbag2, or one that is not a recording.
 fn check_schema(database: &Database) -> Result<(), TableError> {
     let source = database.source();
     let names: Vec<&str> = database
@@ -236,7 +272,7 @@ fn check_schema(database: &Database) -> Result<(), TableError> {
     })
 }
 
-/// The table called `name`, which must have the first `least` of the columns `known` and no others.
+/// Table `name`. It must have the first `least` of the columns `known`, and no columns outside `known`.
 fn table<'d>(
     database: &'d Database,
     name: &str,
@@ -270,7 +306,7 @@ fn table<'d>(
     Err(source.unsupported(Place::of(name), problem))
 }
 
-/// The topics, with the definitions of their messages if the file or ROS 2 itself has them.
+/// Topics, with the definitions of their messages if the file or ROS 2 itself has them.
 fn channels(database: &Database) -> Result<BTreeMap<u32, Channel>, TableError> {
     let source = database.source();
     let definitions = definitions(database)?;
@@ -306,7 +342,7 @@ fn channels(database: &Database) -> Result<BTreeMap<u32, Channel>, TableError> {
             topic: record.text(name)?,
             encoding: record.text(encoding)?,
             schema: Some(schema.unwrap_or_else(|| {
-                // A type of a lab, without a definition.
+                // Custom type of a laboratory, without a definition.
                 Arc::new(Schema {
                     name: kind.clone(),
                     encoding: String::new(),
@@ -327,7 +363,7 @@ fn channels(database: &Database) -> Result<BTreeMap<u32, Channel>, TableError> {
     Ok(channels)
 }
 
-/// The definitions of messages in the file, by type; empty for a recording from before ROS 2 Iron.
+/// Definitions of messages in the file, by type; empty for a recording from before ROS 2 Iron.
 fn definitions(database: &Database) -> Result<BTreeMap<String, Arc<Schema>>, TableError> {
     let mut found = BTreeMap::new();
     let Some(table) = database

@@ -2,7 +2,7 @@
 
 use crate::cell::Cell;
 
-/// `value` / 10^`scale`, rounded once: the decimal text is parsed as a number.
+/// `value` / 10^`scale`, rounded once: parses the decimal text as a number.
 pub(crate) fn decimal(value: i128, scale: i32) -> Cell {
     let text = format!("{value}e-{scale}");
     Cell::Number(
@@ -11,7 +11,7 @@ pub(crate) fn decimal(value: i128, scale: i32) -> Cell {
     )
 }
 
-/// Nanoseconds of a time unit; 64-bit counts of the longest, days, fit easily into 128 bits.
+/// Nanoseconds of a time unit. A 64-bit count of the longest unit, days, fits into 128 bits.
 pub(crate) fn nanoseconds_in(unit: &str) -> i128 {
     match unit {
         "ns" => 1,

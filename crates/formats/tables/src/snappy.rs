@@ -1,7 +1,7 @@
 //! Streaming decoder of the snappy block format.
 //!
-//! A block is a length, then elements: literals, and copies of earlier output. Compressors split their input into pieces of 64 KiB and copy
-//! within a piece, so that a window of that size suffices. A copy from further back is rejected.
+//! A block is a length, then elements. An element is a literal or a copy of earlier output. Compressors split their input into pieces of
+//! 64 KiB and copy within a piece. A window of that size is therefore sufficient. A copy from further back is rejected.
 
 use std::io::{self, BufRead, Read};
 
@@ -11,7 +11,7 @@ const WINDOW: usize = 1 << 16;
 /// Streaming decoder of a block.
 pub(crate) struct SnappyStream<R> {
     packed: R,
-    /// The last output, with the position up to which it was returned; trimmed to a window now and then.
+    /// Last output, with the position up to which it was returned. Trimmed to a window regularly.
     window: Vec<u8>,
     handed: usize,
     /// Number of bytes to unpack.
@@ -19,7 +19,7 @@ pub(crate) struct SnappyStream<R> {
     element: Element,
 }
 
-/// The current element.
+/// Current element.
 #[derive(Clone, Copy)]
 enum Element {
     Literal(usize),
@@ -27,7 +27,7 @@ enum Element {
 }
 
 impl<R: BufRead> SnappyStream<R> {
-    /// A decoder of a block that announces `size` bytes.
+    /// Decoder of a block that announces `size` bytes.
     pub(crate) fn new(mut packed: R, size: u32) -> Result<SnappyStream<R>, String> {
         let mut announced = 0_u64;
         for shift in (0..35).step_by(7) {
@@ -51,16 +51,16 @@ impl<R: BufRead> SnappyStream<R> {
         })
     }
 
-    /// The next element, of a length above 0.
+    /// Next element, with a length above 0.
     fn next(&mut self) -> io::Result<Element> {
         let mut bytes = [byte(&mut self.packed)?, 0, 0, 0, 0];
         let extra = numbers(bytes[0]);
         self.packed.read_exact(&mut bytes[1..=extra])?;
         let found = element(&bytes, 0).map(|(element, _)| element);
-        found.ok_or_else(|| wrong("a snappy element that does not fit in memory"))
+        found.ok_or_else(|| wrong("a snappy element does not fit in memory"))
     }
 
-    /// Unpacks more into the window.
+    /// Unpacks more data into the window.
     fn fill(&mut self) -> io::Result<()> {
         if self.window.len() >= 3 * WINDOW {
             let cut = self.window.len() - WINDOW;
@@ -100,7 +100,7 @@ impl<R: BufRead> SnappyStream<R> {
         Ok(())
     }
 
-    /// Unpacks the elements that are complete in the input buffer; returns whether there was one.
+    /// Unpacks the complete elements of the input buffer. True if there was an element.
     fn fill_from_buffer(&mut self) -> io::Result<bool> {
         let (packed, window) = (self.packed.fill_buf()?, &mut self.window);
         let (mut at, mut left) = (0, self.left);
@@ -147,16 +147,16 @@ impl<R: BufRead> Read for SnappyStream<R> {
     }
 }
 
-/// Appends a copy of `length` bytes from `from` bytes back; at most `left`.
+/// Appends a copy of `length` bytes from `from` bytes back, at most `left`.
 fn copy(window: &mut Vec<u8>, from: usize, length: usize, left: usize) -> io::Result<()> {
     let begin = window.len().checked_sub(from).filter(|_| from > 0);
     let Some(begin) = begin.filter(|_| length <= left) else {
-        return Err(wrong("a snappy copy from outside the decompressed data"));
+        return Err(wrong("a snappy copy is from outside the decompressed data"));
     };
     if length <= from {
         window.extend_from_within(begin..begin + length);
     } else {
-        // A copy that overlaps itself repeats its beginning.
+        // A copy that overlaps its own output repeats its beginning.
         for at in begin..begin + length {
             window.push(window[at]);
         }
@@ -164,7 +164,7 @@ fn copy(window: &mut Vec<u8>, from: usize, length: usize, left: usize) -> io::Re
     Ok(())
 }
 
-/// The element at `at`, and the offset after its numbers; `None` if they are not complete in `packed`.
+/// Element at `at`, and the offset after its numbers; `None` if `packed` ends before them.
 fn element(packed: &[u8], at: usize) -> Option<(Element, usize)> {
     let tag = *packed.get(at)?;
     let high = usize::from(tag >> 2);
@@ -232,7 +232,7 @@ mod tests {
         bytes
     }
 
-    /// Unpacks from the whole input, and checks that a small buffer gives the same.
+    /// Unpacks the whole input. Checks that a small buffer gives the same result.
     fn unpacked(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
         let size = u32::try_from(size).expect("small");
         let read = |mut stream: Box<dyn Read + '_>| {
@@ -280,7 +280,7 @@ mod tests {
             }
         }
         assert!(unpacked(&packed, 19_999).is_err());
-        // A copy before any output, and one from before the begin of a block.
+        // A copy before any output, and a copy from before the start of a block.
         assert!(unpacked(&[4, 0x0d, 0], 4).is_err());
         assert!(unpacked(&[8, 0x00, 7, 0x0d, 2], 8).is_err());
     }

@@ -1,4 +1,4 @@
-//! An untrusted file; each reader opens it separately, so that threads do not share a cursor.
+//! Untrusted file. Each reader opens it separately, so that threads do not share a cursor.
 
 use std::fs::{self, File};
 use std::io::{Read, Seek, SeekFrom};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Place, TableError};
 
-/// A regular file, with its length on first opening.
+/// Regular file, with its length at first opening.
 #[derive(Clone, Debug)]
 pub(crate) struct Source {
     path: PathBuf,
@@ -14,7 +14,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// The regular file at `path`. The kind is checked before opening, since opening a FIFO would block.
+    /// Regular file at `path`. The kind is checked before opening, because opening a FIFO blocks.
     pub(crate) fn new(path: &Path) -> Result<Source, TableError> {
         let metadata = fs::metadata(path).map_err(|source| TableError::Io {
             path: path.to_owned(),
@@ -55,7 +55,7 @@ impl Source {
         }
     }
 
-    /// The `count` bytes from `at`; allocates nothing beyond the end of the file, or above `limit`.
+    /// `count` bytes from `at`. Allocates nothing beyond the end of the file or above `limit`.
     pub(crate) fn bytes(
         &self,
         file: &mut File,

@@ -17,14 +17,14 @@ pub(crate) use page::Pages;
 pub(crate) use record::{Record, Value};
 use tree::walk;
 
-/// The first bytes of a database.
+/// First bytes of a database.
 pub(crate) const MAGIC: [u8; 16] = *b"SQLite format 3\0";
 /// Size of the header of a file, bytes.
 const HEADER: u64 = 100;
 /// First bytes of a hot journal, which must be rolled back.
 const JOURNAL: [u8; 8] = [0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7];
 
-/// A database: its tables.
+/// Database with its tables.
 #[derive(Debug)]
 pub(crate) struct Database {
     source: Source,
@@ -32,18 +32,21 @@ pub(crate) struct Database {
     page_bytes: u32,
     /// Usable size of a page, bytes.
     usable: u32,
+    /// Number of pages in the file.
     pages: u32,
+    /// Number of pages that its header announces.
+    announced: u32,
     tables: Vec<SqliteTable>,
 }
 
-/// A table of a database.
+/// Table of a database.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct SqliteTable {
     pub(crate) name: String,
     root: u32,
-    /// The names of its columns.
+    /// Names of the columns.
     pub(crate) columns: Vec<String>,
-    /// The column that is an alias of the row number.
+    /// Column that is an alias of the row number.
     id: Option<usize>,
 }
 
@@ -55,10 +58,10 @@ pub(crate) struct RowPlace {
 }
 
 impl Database {
-    /// The database in `source`.
+    /// Database in `source`.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] if a log beside it has pending changes; [`TableError::Damaged`] if it is truncated or no database.
+    /// [`TableError::Unsupported`] if a log beside it has pending changes; [`TableError::Damaged`] if it is no database.
     pub(crate) fn open(source: Source) -> Result<Database, TableError> {
         check_logs(&source)?;
         let mut file = source.open()?;
@@ -104,20 +107,15 @@ impl Database {
             return Err(source.unsupported(begin, "texts in UTF-16, expected UTF-8"));
         }
         let whole = u32::try_from(source.length() / u64::from(page_bytes)).unwrap_or(u32::MAX);
-        // The page count in the header is valid only if the version that wrote it also made the last change.
+        // The page count in the header is valid only if the change counter equals the counter of the last version.
         let stated = Some(four(28)).filter(|pages| *pages > 0 && four(24) == four(92));
-        let pages = stated.unwrap_or(whole);
-        if pages > whole {
-            return Err(damaged(format!(
-                "{pages} pages of {page_bytes} bytes are announced, but the file has {}: it is cut short",
-                source.length()
-            )));
-        }
+        let announced = stated.unwrap_or(whole);
         let mut database = Database {
             source,
             page_bytes,
             usable,
-            pages,
+            pages: announced.min(whole),
+            announced,
             tables: Vec::new(),
         };
         database.tables = database.read_tables()?;
@@ -126,6 +124,21 @@ impl Database {
 
     pub(crate) fn source(&self) -> &Source {
         &self.source
+    }
+
+    /// End of the last page of a file that has fewer pages than it announces; `None` for a whole one.
+    pub(crate) fn cut_at(&self) -> Option<u64> {
+        (self.pages < self.announced).then(|| u64::from(self.pages) * u64::from(self.page_bytes))
+    }
+
+    /// Description of the missing pages.
+    pub(crate) fn missing_pages(&self) -> String {
+        format!(
+            "{} pages of {} bytes are announced, but the file has {}: it is cut short",
+            self.announced,
+            self.page_bytes,
+            self.source.length()
+        )
     }
 
     /// The tables, in the order of creation.
@@ -169,7 +182,7 @@ impl Database {
                 Value::Integer(root) => u32::try_from(root).unwrap_or(0),
                 _ => 0,
             };
-            // Skips internal tables, and objects that are no tables of rows.
+            // Skips internal tables and objects that are not row tables.
             if kind != "table" || name.starts_with("sqlite_") || root == 0 {
                 return Ok(());
             }
@@ -188,13 +201,13 @@ impl Database {
 }
 
 impl SqliteTable {
-    /// Position of the column called `name`.
+    /// Position of the column `name`.
     pub(crate) fn position(&self, name: &str) -> Option<usize> {
         self.columns.iter().position(|column| column == name)
     }
 }
 
-/// The path `path` with `ending` appended.
+/// Path `path` with `ending` appended.
 fn beside(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(ending);

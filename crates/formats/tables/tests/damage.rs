@@ -1,4 +1,6 @@
-//! Damaged copies of every file: a result or a typed error that names the file, no panic of ours, little memory, soon.
+//! Tests with damaged copies of every file. Each gives a result or a typed error that names the file.
+//!
+//! Our code does not panic, and uses little memory and time.
 
 mod recordings;
 
@@ -8,7 +10,7 @@ use recordings::damage::{Endings, attempt, damage, peak_bytes};
 use recordings::recording;
 use taceva_tables::{ArrowTable, Cell, LeRobot, ParquetTable, Recording, TableError};
 
-/// What damaged files of at most 100 KB may take.
+/// Maximum memory for damaged files of at most 100 KB.
 const BYTES: u64 = 512 << 20;
 
 fn every_column(path: &Path) -> Result<Vec<Vec<Cell>>, TableError> {
@@ -26,7 +28,7 @@ fn check_memory() {
     }
 }
 
-/// All rows of two columns of bytes, one at a time, as pictures are read.
+/// Reads all rows of two columns of bytes one at a time, in the way of pictures.
 fn every_picture(path: &Path) -> Result<usize, TableError> {
     let table = ParquetTable::open(path)?;
     let rows: Vec<u64> = (0..table.rows()).collect();
@@ -113,7 +115,7 @@ fn damaged_files_of_arrow_are_refused_or_read() {
     check_memory();
 }
 
-/// All columns and pictures of all topics; what one topic lacks does not keep the others from being read.
+/// Reads all columns and pictures of all topics. A failure in one topic does not stop the others.
 fn every_topic(path: &Path) -> Result<usize, TableError> {
     let recording = Recording::open(path)?;
     let mut read = 0;
@@ -263,7 +265,7 @@ fn no_changed_byte_of_pages_with_sums_goes_unnoticed() {
                 Ok(Err(error)) => {
                     sums += usize::from(error.to_string().contains("the checksum of the page"))
                 }
-                // Headers have no sum: one that names another encoding can make the decoder panic.
+                // Headers have no checksum. A header with another encoding can make the decoder panic.
                 Err(place) => assert!(!place.contains("taceva-tables"), "byte {at}: {place}"),
             }
         }

@@ -1,4 +1,4 @@
-//! Files that were made to do harm, and files of other things under a familiar name: refused by a typed error, in little memory.
+//! Tests with malicious files and files of another format under a familiar name. They are rejected by a typed error, in little memory.
 
 mod recordings;
 
@@ -10,7 +10,7 @@ use recordings::damage::peak_bytes;
 use recordings::parquet_file::parquet_file;
 use taceva_tables::{Cell, ParquetTable, Recording, TableError};
 
-/// Writes `bytes` into a folder that lasts as long as what is returned.
+/// Writes `bytes` into a folder that lasts as long as the returned value.
 fn file(name: &str, bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join(name);
@@ -24,7 +24,7 @@ fn check_memory() {
     }
 }
 
-/// A record of MCAP.
+/// MCAP record.
 fn record(code: u8, fields: &[u8]) -> Vec<u8> {
     let length = fields.len() as u64;
     [&[code][..], &length.to_le_bytes(), fields].concat()
@@ -82,7 +82,7 @@ fn chunk(codec: &str, size: u64, packed: &[u8]) -> Vec<u8> {
     record(6, &fields.concat())
 }
 
-/// A file without a summary that holds `records`.
+/// MCAP file with `records` and without a summary.
 fn mcap(records: &[Vec<u8>]) -> Vec<u8> {
     let magic = &b"\x89MCAP0\r\n"[..];
     let header = record(1, &[0; 8]);
@@ -90,7 +90,7 @@ fn mcap(records: &[Vec<u8>]) -> Vec<u8> {
     [magic, &header, &records.concat(), &end, magic].concat()
 }
 
-/// The first error of reading all of `/x`.
+/// First error of reading all of `/x`.
 fn problem(records: &[Vec<u8>]) -> String {
     let (_folder, path) = file("x.mcap", &mcap(records));
     let result = Recording::open(&path).and_then(|recording| {
@@ -285,10 +285,10 @@ fn footers_that_lie_about_themselves_are_refused() {
         ParquetTable::open(&path).expect_err("hostile").to_string()
     };
     assert!(
-        open(b"\xff\xff\xff\x00PAR1").contains("a footer of 16777215 bytes, but only 34 bytes")
+        open(b"\xff\xff\xff\x00PAR1").contains("the footer has 16777215 bytes, but only 34 bytes")
     );
     assert!(
-        open(b"\xff\xff\xff\x7fPAR1").contains("a footer of 2147483647 bytes, at most 33554432")
+        open(b"\xff\xff\xff\x7fPAR1").contains("the footer has 2147483647 bytes, at most 33554432")
     );
     assert!(open(b"\x04\x00\x00\x00PARE").contains("the footer is encrypted"));
     assert!(open(b"\x04\x00\x00\x00ABCD").contains("does not end with `PAR1`"));

@@ -1,4 +1,4 @@
-//! The whole of a program that decodes AV1 for its parent: what `Decoders::av1` may name.
+//! Complete program that decodes AV1 for its parent, for use as `Decoders::av1`.
 
 use std::process::ExitCode;
 
@@ -6,7 +6,7 @@ fn main() -> ExitCode {
     match taceva_video::av1::serve(std::io::stdin().lock(), std::io::stdout().lock()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // Its parent passes the last line on.
+            // The parent reports the last line.
             drop(std::io::Write::write_all(
                 &mut std::io::stderr(),
                 format!("{error}\n").as_bytes(),

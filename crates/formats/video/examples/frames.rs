@@ -1,4 +1,6 @@
-//! What a clip is, and the time (in s) and the digest of the luma plane of each of its frames: `frames CLIP [--digests] [--ffmpeg PROGRAM] [--child PROGRAM]`.
+//! Prints the properties of a clip, and the time (in s) and luma digest of each frame.
+//!
+//! Arguments: `frames CLIP [--digests] [--ffmpeg PROGRAM] [--child PROGRAM]`.
 
 use std::error::Error;
 use std::io::Write;
@@ -65,7 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The most memory that this process had, where the system says so.
+/// Peak memory of this process; `None` if the system does not report it.
 fn peak() -> Option<String> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status

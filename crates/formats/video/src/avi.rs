@@ -1,7 +1,7 @@
-//! AVI files: finds the packets of the video stream by walking through its chunks, and checks the indices if there are any.
+//! AVI files. Reads the chunks to find the packets of the video stream. Checks the indices if there are any.
 //!
-//! Chunks state their kind and size, so a file without an index is readable too. An index that contradicts the chunks is an error, since
-//! either could be wrong.
+//! Chunks state their kind and size. A file without an index is therefore readable too. An index that contradicts the chunks is an error,
+//! because either can be wrong.
 
 mod chunk;
 mod header;
@@ -20,8 +20,8 @@ use index::Index;
 #[derive(Debug)]
 pub(crate) struct Avi {
     pub(crate) stream: StreamHeader,
-    /// Packets in file and presentation order. An empty packet marks a frame lost in recording: it is skipped, as by other readers, and the
-    /// times of the others show the gap.
+    /// Packets in file and presentation order. An empty packet marks a frame that was lost in recording. It is skipped, as in other readers.
+    /// The times of the other packets show the gap.
     pub(crate) packets: Vec<Packet>,
     /// Time of each packet, in frames of the stream.
     places: Vec<u64>,
@@ -33,7 +33,7 @@ pub(crate) fn is_avi(start: &[u8]) -> bool {
 }
 
 impl Avi {
-    /// Reads the headers and walks through all chunks.
+    /// Reads the headers and all chunks.
     pub(crate) fn read(source: &Source) -> Result<Avi, VideoError> {
         let mut walk = Walk {
             source,
@@ -44,7 +44,7 @@ impl Avi {
         };
         let mut parts = Chunks::new(source, 0, source.length());
         while let Some(part) = parts.next()? {
-            // Data after the last part is no AVI: some writers leave padding there.
+            // Data after the last part is not AVI. Some writers leave padding there.
             if part.id != ChunkId(*b"RIFF") {
                 break;
             }
@@ -74,7 +74,7 @@ impl Avi {
         )
     }
 
-    /// Name of the codec, or its four letters; uncompressed video has zeros there.
+    /// Name of the codec, or its four letters. Uncompressed video has zeros there.
     pub(crate) fn codec(&self) -> String {
         let letters = self.stream.codec;
         let name = match letters.to_ascii_uppercase().as_slice() {
@@ -100,7 +100,7 @@ impl Avi {
     }
 }
 
-/// State of the walk through the chunks.
+/// State of the reading of the chunks.
 struct Walk<'a> {
     source: &'a Source,
     stream: Option<StreamHeader>,
@@ -123,12 +123,12 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Reads one RIFF part of the file: `AVI `, then `AVIX` for each further GiB or so.
+    /// Reads one RIFF part of the file: `AVI `, then `AVIX` for each further GiB approximately.
     fn part(&mut self, part: &Chunk) -> Result<(), VideoError> {
         if part.size == 0 {
             return Err(self.source.damaged(
                 part.at,
-                "the size of the recording is 0: it was never closed; `ffmpeg -i OLD -c copy NEW` recovers its frames",
+                "the size of the recording is 0: the recording was never closed; `ffmpeg -i OLD -c copy NEW` recovers its frames",
             ));
         }
         let first_packet = self.packets.len();
@@ -159,7 +159,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Reads the packets of a list; `is_whole` is false for a record within the list of all packets.
+    /// Reads the packets of a list. `is_whole` is false for a record within the list of all packets.
     fn movie(&mut self, list: &Chunk, is_whole: bool) -> Result<(), VideoError> {
         let Some(number) = self.stream.as_ref().map(|stream| stream.number) else {
             return Err(self

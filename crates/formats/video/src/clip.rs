@@ -3,7 +3,7 @@
 /// Properties of a clip, known without decoding it.
 ///
 /// # Units
-/// Sizes are pixels, times are seconds from the beginning of the presentation.
+/// Sizes are in pixels, times in seconds from the beginning of the presentation.
 ///
 /// ```
 /// use taceva_video::{Decoders, Video};
@@ -21,7 +21,7 @@ pub struct VideoInfo {
     pub container: String,
     /// Codec, with its profile if known, such as `MJPEG` or `H.264 High`.
     pub codec: String,
-    /// Pixel format by the names of FFmpeg, such as `yuv420p`.
+    /// Pixel format as FFmpeg names it, such as `yuv420p`.
     pub pixel_format: String,
     /// Width of every frame, pixels.
     pub width: u32,
@@ -31,7 +31,7 @@ pub struct VideoInfo {
     pub frames: u64,
     /// Time of each frame, s; `None` if the container has no times.
     pub times_s: Option<Vec<f64>>,
-    /// True for a lossy codec; `None` for a codec with modes of both kinds.
+    /// True for a lossy codec; `None` for a codec with lossy and lossless modes.
     pub lossy: Option<bool>,
     /// Decoder of the frames, with its version if known; `None` if frames are the packets of the clip.
     pub decoder: Option<String>,
@@ -55,15 +55,15 @@ pub struct VideoInfo {
 pub enum Colours {
     /// Luma plane as stored.
     Luma,
-    /// Red, green and blue of 8 bits, converted by the matrix and range of the stream (default BT.601, limited range) with the nearest
-    /// chroma sample. Streams of more than 8 bits are reduced to their upper 8 bits.
+    /// Red, green and blue of 8 bits, converted with the matrix and range of the stream and the nearest chroma sample. The default is
+    /// BT.601 in the limited range. Streams of more than 8 bits are reduced to their upper 8 bits.
     Rgb,
 }
 
-/// A frame.
+/// Frame of a clip.
 ///
 /// # Shapes
-/// Samples lie row by row: `[height, width]`, with three colours `[height, width, 3]`.
+/// Samples are row by row: `[height, width]`, with three colours `[height, width, 3]`.
 ///
 /// ```
 /// use taceva_video::Picture;
@@ -78,8 +78,8 @@ pub enum Colours {
 #[derive(Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Picture {
-    /// A JPEG file, whatever [`Colours`] are requested: the bytes in the clip. If these lack Huffman tables, as in some Motion JPEG, the
-    /// standard tables are inserted before the scan, so that other programs can read it.
+    /// JPEG file with the bytes in the clip, for any requested [`Colours`]. Some Motion JPEG has no Huffman tables. The standard tables are
+    /// then inserted before the scan, so that other programs can read it.
     Jpeg(Vec<u8>),
     /// Pixels of 8 bits a sample.
     Pixels {
@@ -87,7 +87,7 @@ pub enum Picture {
         width: u32,
         /// Height, pixels.
         height: u32,
-        /// Samples row by row: one for each pixel with [`Colours::Luma`], red, green and blue with [`Colours::Rgb`].
+        /// Samples row by row: one for each pixel with [`Colours::Luma`], or red, green and blue with [`Colours::Rgb`].
         samples: Vec<u8>,
     },
     /// Luma plane of a clip of more than 8 bits a sample.
@@ -98,7 +98,7 @@ pub enum Picture {
         height: u32,
         /// Bits of each sample: 9 to 16.
         bits: u32,
-        /// Samples row by row, as in the stream: below 2 to the power of `bits`.
+        /// Samples row by row, as in the stream: less than 2 to the power of `bits`.
         samples: Vec<u16>,
     },
 }

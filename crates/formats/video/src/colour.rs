@@ -9,7 +9,7 @@ use crate::error::VideoError;
 pub(crate) struct YuvCoding {
     /// Matrix number of ITU-T H.273, if the stream states one.
     pub(crate) matrix: Option<u16>,
-    /// True for samples from 0 to 255; false for 16 to 235 (luma) and 16 to 240 (chroma).
+    /// True for samples from 0 to 255. False for 16 to 235 (luma) and 16 to 240 (chroma).
     pub(crate) is_full_range: bool,
 }
 
@@ -19,13 +19,13 @@ pub(crate) struct Planes<'a> {
     width: usize,
     height: usize,
     luma: &'a [u8],
-    /// Blue and red chroma, if there are any.
+    /// Blue and red chroma, if present.
     chroma: Option<[&'a [u8]; 2]>,
-    /// Pixels for each chroma sample as powers of two: along a row, along a column.
+    /// Pixels for each chroma sample as powers of two, along a row and along a column.
     shifts: (u32, u32),
 }
 
-/// A matrix that is not supported.
+/// Unsupported matrix.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct UnknownMatrix(u16);
 
@@ -39,10 +39,10 @@ impl UnknownMatrix {
 }
 
 impl<'a> Planes<'a> {
-    /// Planes with rows without padding; each chroma sample covers `1 << shifts.0` by `1 << shifts.1` pixels.
+    /// Planes without padding in their rows. Each chroma sample covers `1 << shifts.0` by `1 << shifts.1` pixels.
     ///
     /// # Panics
-    /// If a plane is too small; decoders check this before.
+    /// If a plane is too small. Decoders check this before.
     pub(crate) fn new(
         width: u32,
         height: u32,
@@ -65,10 +65,10 @@ impl<'a> Planes<'a> {
         }
     }
 
-    /// Converts each pixel to red, green and blue with the nearest chroma sample, in fixed-point arithmetic of 8 fractional bits.
+    /// Converts each pixel to red, green and blue with the nearest chroma sample. Uses fixed-point arithmetic with 8 fractional bits.
     ///
     /// # Errors
-    /// [`UnknownMatrix`] for a matrix other than those of BT.601, BT.709, FCC, SMPTE 240M and BT.2020.
+    /// [`UnknownMatrix`] for a matrix other than BT.601, BT.709, FCC, SMPTE 240M and BT.2020.
     pub(crate) fn to_rgb(self, coding: YuvCoding) -> Result<Vec<u8>, UnknownMatrix> {
         let Factors {
             luma,
@@ -120,9 +120,11 @@ struct Factors {
 }
 
 impl Factors {
-    /// Uses the weights K_r and K_b of red and blue in luma: R = Y + 2 (1 − K_r) V, B = Y + 2 (1 − K_b) U, and G from the sum.
+    /// Calculates the factors from the weights K_r and K_b of red and blue in luma.
+    ///
+    /// R = Y + 2 (1 − K_r) V, B = Y + 2 (1 − K_b) U, and G from the sum.
     fn of(coding: YuvCoding) -> Result<Factors, UnknownMatrix> {
-        // Unspecified: BT.601, as other decoders assume.
+        // Unspecified means BT.601, as in other decoders.
         let (of_red, of_blue) = match coding.matrix.unwrap_or(2) {
             1 => (0.2126, 0.0722),
             2 | 3 | 5 | 6 => (0.299, 0.114),

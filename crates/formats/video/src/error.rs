@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
 
-/// Reasons for which a clip or one of its frames cannot be read.
+/// Reason why a clip or one of its frames cannot be read.
 ///
 /// ```
 /// use taceva_video::{Decoders, Video, VideoError};
@@ -18,7 +18,7 @@ pub enum VideoError {
     /// The file, or a program that reads it, could not be used.
     #[error("cannot {doing} {}: {source}", shown(path))]
     Io {
-        /// The clip.
+        /// Clip.
         path: PathBuf,
         /// Failed action, as a verb.
         doing: &'static str,
@@ -28,11 +28,11 @@ pub enum VideoError {
     /// Bytes contradict the format of the container or of the stream.
     #[error("{} is damaged at byte {offset}: {problem}", shown(path))]
     Damaged {
-        /// The clip.
+        /// Clip.
         path: PathBuf,
         /// Byte offset in the file.
         offset: u64,
-        /// Value found, and value expected.
+        /// Found value and expected value.
         problem: String,
     },
     /// The index of the container contradicts its frames.
@@ -41,29 +41,29 @@ pub enum VideoError {
         shown(path)
     )]
     Index {
-        /// The clip.
+        /// Clip.
         path: PathBuf,
         /// Byte offset of the index entry in the file.
         offset: u64,
-        /// Value of the index, and value found.
+        /// Value of the index and found value.
         problem: String,
     },
-    /// A size exceeds its limit; nothing was allocated for it.
+    /// A size exceeds its limit. Nothing was allocated for it.
     #[error("{}: {what}: {found}, at most {limit} are accepted", shown(path))]
     TooLarge {
-        /// The clip.
+        /// Clip.
         path: PathBuf,
         /// Counted quantity.
         what: &'static str,
         /// Stated size.
         found: u64,
-        /// Greatest accepted size.
+        /// Maximum accepted size.
         limit: u64,
     },
-    /// The clip has no frame of the requested index.
+    /// The clip has no frame with the requested index.
     #[error("{}: no frame {index}, there are {frames} from 0", shown(path))]
     NoFrame {
-        /// The clip.
+        /// Clip.
         path: PathBuf,
         /// Requested frame, from 0.
         index: u64,
@@ -76,20 +76,20 @@ pub enum VideoError {
         shown(path)
     )]
     Unsorted {
-        /// The clip.
+        /// Clip.
         path: PathBuf,
         /// Frame out of order.
         index: u64,
         /// Frame before it.
         after: u64,
     },
-    /// The size of a frame differs from that of the first.
+    /// The size of a frame differs from the size of the first frame.
     #[error(
         "{}: frame {frame} is {found}, expected {expected} as in the first frame: split the clip where its size changes",
         shown(path)
     )]
     ChangedSize {
-        /// The clip.
+        /// Clip.
         path: PathBuf,
         /// Frame, from 0.
         frame: u64,
@@ -101,7 +101,7 @@ pub enum VideoError {
     /// No available decoder supports the clip.
     #[error("{}: no available decoder supports {codec}: {remedy}", shown(path))]
     NoDecoder {
-        /// The clip.
+        /// Clip.
         path: PathBuf,
         /// Codec, with the unsupported profile or pixel format.
         codec: String,
@@ -114,7 +114,7 @@ pub enum VideoError {
         shown(path)
     )]
     NoLuma {
-        /// The clip.
+        /// Clip.
         path: PathBuf,
         /// Pixel format.
         pixel_format: String,
@@ -125,7 +125,7 @@ pub enum VideoError {
         shown(path)
     )]
     Colours {
-        /// The clip.
+        /// Clip.
         path: PathBuf,
         /// Matrix number of ITU-T H.273.
         matrix: u16,
@@ -133,7 +133,7 @@ pub enum VideoError {
     /// The decoder rejected the stream.
     #[error("{}: {decoder} does not decode frame {frame}: {problem}", shown(path))]
     Decoder {
-        /// The clip.
+        /// Clip.
         path: PathBuf,
         /// Library or program.
         decoder: &'static str,
@@ -145,9 +145,9 @@ pub enum VideoError {
     /// A decoder program was killed, ended early, was too slow or broke the protocol.
     #[error("{}: {program}: {problem}", shown(path))]
     Process {
-        /// The clip.
+        /// Clip.
         path: PathBuf,
-        /// The program.
+        /// Program.
         program: String,
         /// Reason.
         problem: String,
@@ -173,7 +173,7 @@ impl VideoError {
     }
 }
 
-/// Reasons for which a visit of frames ended early.
+/// Reason why a visit of frames ended early.
 ///
 /// ```
 /// use taceva_video::{Colours, Decoders, Video, VisitError};
@@ -190,7 +190,7 @@ pub enum VisitError<E> {
     /// The clip could not be read or decoded.
     #[error(transparent)]
     Video(#[from] VideoError),
-    /// Error of the caller, which ended the visit.
+    /// Error of the caller. It ended the visit.
     #[error("{0}")]
     Caller(E),
 }

@@ -1,8 +1,8 @@
-//! Clips decoded by an external ffmpeg: any container and codec that it supports.
+//! Clips decoded by an external ffmpeg, in any container and codec that it supports.
 //!
-//! When a clip is opened, ffmpeg decodes all of it once. This gives the number of frames and their times, and reveals damage and changes of
-//! size. A visit decodes it again up to the last requested frame. ffmpeg converts no pixels: raw frames arrive in the format of the codec,
-//! and the luma is extracted here. The clip is its standard input, so it sees no file name, and it may open only files.
+//! When a clip is opened, ffmpeg decodes all of it once. This gives the number of frames and their times, and finds damage and changes of
+//! size. A visit decodes it again up to the last requested frame. ffmpeg converts no pixels. Raw frames arrive in the format of the codec,
+//! and the luma is extracted here. The clip is the standard input of ffmpeg. It therefore sees no file name, and may open only files.
 
 mod command;
 mod format;
@@ -24,7 +24,7 @@ use format::Layout;
 use picture::{RawFrame, Refused};
 use probe::Look;
 
-/// A clip decoded by ffmpeg.
+/// Clip decoded by ffmpeg.
 #[derive(Debug)]
 pub(crate) struct ForeignClip {
     path: PathBuf,
@@ -35,12 +35,12 @@ pub(crate) struct ForeignClip {
     frames: u64,
 }
 
-/// Properties of a clip known before ffmpeg runs.
+/// Properties of a clip that are known before ffmpeg runs.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Known {
     container: Option<&'static str>,
     codec: Option<String>,
-    /// Reason why it is not decoded in this process, to follow the name of the codec; empty if the codec is the reason.
+    /// Reason why it is not decoded in this process. It follows the name of the codec. Empty if the codec is the reason.
     why: String,
 }
 
@@ -53,7 +53,7 @@ impl Known {
         }
     }
 
-    /// Codec, with the reason.
+    /// Codec with the reason.
     fn codec(&self) -> String {
         let codec = self
             .codec
@@ -73,7 +73,7 @@ impl Known {
 }
 
 impl ForeignClip {
-    /// Runs ffmpeg over the clip at `path`, whose known properties are `known`.
+    /// Runs ffmpeg over the clip at `path` with the properties `known`.
     pub(crate) fn open(
         path: &Path,
         program: &Path,
@@ -86,7 +86,7 @@ impl ForeignClip {
             problem: problem.to_owned(),
         };
         let Some((pixel_format, width, height)) = look.first else {
-            return Err(process("it finds no frame"));
+            return Err(process("it found no frame"));
         };
         let known = Known {
             codec: known.codec.clone().or(look.codec.clone()),
@@ -98,9 +98,10 @@ impl ForeignClip {
         let Some((layout, frame_bytes)) = sized else {
             return Err(VideoError::NoDecoder {
                 path: path.to_owned(),
-                codec: format!("{} with pixels as {pixel_format}", known.codec()),
-                remedy: "convert it, such as with `ffmpeg -i OLD -pix_fmt bgr0 -c:v ffv1 NEW.mkv`"
-                    .to_owned(),
+                codec: format!("{} with pixel format {pixel_format}", known.codec()),
+                remedy:
+                    "convert it, for example with `ffmpeg -i OLD -pix_fmt bgr0 -c:v ffv1 NEW.mkv`"
+                        .to_owned(),
             });
         };
         if frame_bytes as u64 > limits::FRAME_BYTES {
@@ -161,7 +162,7 @@ impl ForeignClip {
         Ok((info, clip))
     }
 
-    /// Calls `each` with the frames in `sorted`, which must exist.
+    /// Calls `each` with the frames in `sorted`. All must exist.
     pub(crate) fn visit(
         &self,
         sorted: &[u64],
@@ -172,7 +173,7 @@ impl ForeignClip {
             return Ok(());
         };
         let count = (last + 1).to_string();
-        // Outputs each frame once whatever its time; otherwise ffmpeg repeats and drops frames of a variable rate.
+        // Outputs each frame once at any time. Otherwise ffmpeg repeats and drops frames of a variable rate.
         let raw = [
             "-frames:v",
             &count,
@@ -231,7 +232,7 @@ impl ForeignClip {
     }
 }
 
-/// True for a lossy codec, by its name in ffmpeg; `None` for a codec with modes of both kinds, and for others.
+/// True for a lossy codec, by its name in ffmpeg; `None` for unknown codecs and codecs with lossy and lossless modes.
 fn is_lossy(codec: &str) -> Option<bool> {
     match codec {
         "ffv1" | "huffyv" | "huffyuv" | "ffvhuff" | "utvideo" | "rawvideo" | "png" | "gif"

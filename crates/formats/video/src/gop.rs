@@ -1,4 +1,4 @@
-//! Visits dependent frames: decodes from the key frame before each requested one, and shows frames in presentation order.
+//! Visits of dependent frames. Decodes from the key frame before each requested frame. Shows frames in presentation order.
 
 use std::ops::ControlFlow;
 
@@ -9,7 +9,7 @@ use crate::source::Source;
 
 /// Decoder of samples in file order.
 pub(crate) trait SampleDecoder {
-    /// Error of the decoder.
+    /// Decoder error.
     type Refusal: From<VideoError>;
 
     /// True if decoding can begin at this sample.
@@ -18,11 +18,11 @@ pub(crate) trait SampleDecoder {
     /// Resets the decoder before the next sample.
     fn restart(&mut self);
 
-    /// Decodes a sample on the way to `towards`; returns the picture if it is that sample.
+    /// Decodes a sample on the way to `towards`. Returns the picture if it is that sample.
     fn decode(&mut self, sample: usize, towards: Wanted) -> Result<Option<Picture>, Self::Refusal>;
 }
 
-/// A requested frame.
+/// Requested frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Wanted {
     /// Index in decoding order.
@@ -31,7 +31,7 @@ pub(crate) struct Wanted {
     pub(crate) frame: u64,
 }
 
-/// Calls `each` with the frames in `sorted`; `presented` holds sample indices in presentation order.
+/// Calls `each` with the frames in `sorted`. `presented` holds sample indices in presentation order.
 pub(crate) fn visit<D: SampleDecoder>(
     decoder: &mut D,
     source: &Source,
@@ -59,7 +59,7 @@ pub(crate) fn visit<D: SampleDecoder>(
     let mut reorder = Reorder::new(source, sorted);
     let mut next = 0;
     for wanted in wanted {
-        // Without a key frame on the way, decoding continues.
+        // Without a key frame in between, decoding continues.
         for key in (next..=wanted.sample).rev() {
             if decoder.is_key(key)? {
                 next = key;

@@ -1,6 +1,6 @@
-//! H.264 of 8 bits and 4:2:0 in MP4: decoded sample by sample, from the key frame before the requested one.
+//! H.264 of 8 bits and 4:2:0 in MP4. Decodes sample by sample, from the key frame before the requested frame.
 //!
-//! Frames follow the presentation order of the container, so only those that wait for an earlier one are kept.
+//! Frames follow the presentation order of the container. Therefore only frames that wait for an earlier one are kept.
 
 mod bits;
 mod parameters;
@@ -25,7 +25,7 @@ pub(crate) use parameters::Sequence;
 /// Name and version of the decoder library.
 pub(crate) const DECODER: &str = "rusty_h264-decoder 0.17";
 
-/// An H.264 clip decoded in this process.
+/// H.264 clip, decoded in this process.
 #[derive(Debug)]
 pub(crate) struct H264Clip {
     source: Source,
@@ -37,14 +37,14 @@ pub(crate) struct H264Clip {
     coding: YuvCoding,
 }
 
-/// Reasons for which a frame was not decoded.
+/// Reason why a frame was not decoded.
 pub(crate) enum Refusal {
     Video(VideoError),
-    /// The stream needs an unsupported tool of the codec; the text follows the name of the codec.
+    /// The stream needs an unsupported tool of the codec. The text follows the name of the codec.
     Tool(String),
 }
 
-/// A decoded picture: rows without padding, chroma half as wide and high.
+/// Decoded picture: rows without padding, chroma with half the width and height.
 struct Decoded {
     width: usize,
     height: usize,
@@ -59,7 +59,7 @@ impl From<VideoError> for Refusal {
 }
 
 impl H264Clip {
-    /// Opens the clip of a track. Also returns the reason why this process cannot decode it, if so.
+    /// Opens the clip of a track. Also returns the reason if this process cannot decode it.
     pub(crate) fn open(
         source: Source,
         track: Track,
@@ -127,7 +127,7 @@ impl H264Clip {
         let Some(sequence) = Sequence::read(unit) else {
             return Err(self
                 .source
-                .damaged(offset, "a sequence parameter set of unknown layout")
+                .damaged(offset, "the sequence parameter set has an unknown layout")
                 .into());
         };
         if (sequence.width, sequence.height) != self.size() {
@@ -198,7 +198,7 @@ impl H264Clip {
     }
 }
 
-/// A visit of a clip.
+/// Visit of a clip.
 struct Session<'a> {
     clip: &'a H264Clip,
     colours: Colours,
@@ -287,7 +287,7 @@ impl SampleDecoder for Session<'_> {
     }
 }
 
-/// First sequence parameter set of a stream whose container has none.
+/// First sequence parameter set of a stream. Its container has none.
 fn first_sequence(
     source: &Source,
     settings: &Settings,

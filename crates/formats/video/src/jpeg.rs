@@ -5,16 +5,16 @@
 pub(crate) struct JpegHeader {
     pub(crate) width: u32,
     pub(crate) height: u32,
-    /// Pixel format by the names of FFmpeg.
+    /// Pixel format as FFmpeg names it.
     pub(crate) pixel_format: &'static str,
-    /// Offset at which the standard Huffman tables are inserted, if the file has none.
+    /// Offset for the standard Huffman tables, if the file has none.
     tables_missing_at: Option<usize>,
 }
 
 /// Parses the headers of the JPEG `bytes`, up to its first scan.
 ///
 /// # Errors
-/// The byte offset and the fault.
+/// Byte offset and fault.
 pub(crate) fn read_header(bytes: &[u8]) -> Result<JpegHeader, (usize, String)> {
     if bytes.get(..2) != Some(&[0xff, 0xd8]) {
         return Err((0, "no JPEG begins here".to_owned()));
@@ -42,7 +42,7 @@ pub(crate) fn read_header(bytes: &[u8]) -> Result<JpegHeader, (usize, String)> {
                 continue;
             }
             0xd8 | 0xd9 | 0x00 => {
-                return Err((at, format!("marker 0x{marker:02x} before the scan")));
+                return Err((at, format!("marker 0x{marker:02x} is before the scan")));
             }
             _ => {}
         }
@@ -60,7 +60,7 @@ pub(crate) fn read_header(bytes: &[u8]) -> Result<JpegHeader, (usize, String)> {
         at += 2 + size;
     }
     let (width, height, pixel_format) =
-        frame.ok_or((at, "a scan without a frame header".to_owned()))?;
+        frame.ok_or((at, "the scan has no frame header".to_owned()))?;
     Ok(JpegHeader {
         width,
         height,
@@ -89,7 +89,7 @@ fn read_frame(segment: &[u8]) -> Option<(u32, u32, &'static str)> {
         (8, [0x21, 0x11, 0x11] | [0x22, 0x12, 0x12]) => "yuvj422p",
         (8, [0x12, 0x11, 0x11]) => "yuvj440p",
         (8, [a, b, c]) if a == b && b == c => "yuvj444p",
-        _ => "of a kind that is not named here",
+        _ => "of an unknown kind",
     };
     Some((width, height, pixel_format))
 }
@@ -107,7 +107,7 @@ pub(crate) fn with_tables(packet: Vec<u8>, header: &JpegHeader) -> Vec<u8> {
     whole
 }
 
-/// Tables K.3 to K.6 of ITU-T T.81, each as its class and number, its counts of codes by length, and its values.
+/// Tables K.3 to K.6 of ITU-T T.81. Each is its class and number, its counts of codes by length, and its values.
 #[rustfmt::skip]
 const STANDARD_TABLES: [u8; 416] = [
     0x00, 0x00, 0x01, 0x05, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x01, 0x02,
@@ -137,7 +137,7 @@ const STANDARD_TABLES: [u8; 416] = [
 mod tests {
     use super::*;
 
-    /// A header of 32×16 pixels with the segments `tables`, and the beginning of a scan.
+    /// Header of 32×16 pixels with the segments `tables`, and the start of a scan.
     fn jpeg(tables: &[u8], sampling: [u8; 3]) -> Vec<u8> {
         let mut bytes = vec![0xff, 0xd8, 0xff, 0xe0, 0, 4, b'A', b'V'];
         bytes.extend([0xff, 0xc0, 0, 17, 8, 0, 16, 0, 32, 3]);

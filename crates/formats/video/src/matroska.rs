@@ -1,4 +1,4 @@
-//! Finds the codec name in a Matroska or WebM file, for the error without a decoder.
+//! Codec name of a Matroska or WebM file, for the error without a decoder.
 
 use crate::error::VideoError;
 use crate::source::Source;
@@ -8,7 +8,7 @@ const TRACKS: u32 = 0x1654_ae6b;
 const TRACK: u32 = 0xae;
 const TRACK_TYPE: u32 = 0x83;
 const CODEC: u32 = 0x86;
-/// Greatest number of elements in the search for the name.
+/// Maximum number of elements in the search for the name.
 const MOST_ELEMENTS: u32 = 10_000;
 
 /// True if a file that begins with `start` is a Matroska or WebM file.
@@ -97,7 +97,7 @@ impl<'a> Elements<'a> {
         }
     }
 
-    /// Continues with the children of `element`, the last one returned.
+    /// Continues with the children of `element`, the last returned element.
     fn enter(&mut self, element: &Element) {
         self.at = element.body;
     }
@@ -114,7 +114,7 @@ impl<'a> Elements<'a> {
             return Ok(None);
         };
         let body = at + id_bytes + size_bytes;
-        // A size of all ones is unknown: to the end.
+        // A size of all ones is unknown. The element then extends to the end.
         let is_unknown = size == (1 << (7 * size_bytes)) - 1;
         let end = if is_unknown {
             self.end
@@ -130,7 +130,7 @@ impl<'a> Elements<'a> {
         }))
     }
 
-    /// Variable-length number and its length in bytes; the leading zeros of the first byte give the length. `is_size` removes the length
+    /// Variable-length number and its length in bytes. The leading zeros of the first byte give the length. `is_size` removes the length
     /// marker.
     fn number(&self, at: u64, is_size: bool) -> Result<Option<(u64, u64)>, VideoError> {
         let mut first = [0];

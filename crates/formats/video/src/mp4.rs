@@ -1,7 +1,7 @@
 //! MP4 and QuickTime files: the first video track, with its samples in decoding and presentation order.
 //!
-//! All values are checked against the length of the file and against other tables. Files with several edits or descriptions, and encrypted
-//! ones, are left to ffmpeg.
+//! All values are checked against the length of the file and against other tables. ffmpeg reads encrypted files and files with several
+//! edits or descriptions.
 
 mod boxes;
 mod edits;
@@ -35,7 +35,7 @@ pub(crate) struct Track {
 #[derive(Debug)]
 pub(crate) enum Found {
     Track(Track),
-    /// A track that only ffmpeg reads: its codec, and the reason.
+    /// Track that only ffmpeg reads: its codec and the reason.
     Elsewhere {
         codec: String,
         why: &'static str,
@@ -64,7 +64,7 @@ pub(crate) fn read(source: &Source) -> Result<Found, VideoError> {
     let Some(movie) = movie else {
         return Err(source.damaged(
             source.length(),
-            "the file ends without its tables (`moov`): it was cut, or its recording never closed",
+            "the file ends without its tables (`moov`): it is truncated, or its recording was never closed",
         ));
     };
     has_fragments |= movie.find(source, b"mvex")?.is_some();
@@ -80,7 +80,7 @@ pub(crate) fn read(source: &Source) -> Result<Found, VideoError> {
     Err(source.damaged(movie.at, "the file has no video track"))
 }
 
-/// Reads a track; `None` if it is no video.
+/// Reads a track; `None` if it is not video.
 fn read_track(
     source: &Source,
     movie: &BoxAt,
@@ -151,7 +151,7 @@ fn time_scale(source: &Source, header: &BoxAt) -> Result<u32, VideoError> {
     }
 }
 
-/// Number by which fragments name a track, from its header.
+/// Number of a track in fragments, from its header.
 fn track_number(source: &Source, header: &BoxAt) -> Result<u32, VideoError> {
     let mut fields = header.fields(source, "bytes of a header", limits::HEADER_BYTES)?;
     let times = match fields.version(source)? {
@@ -162,7 +162,7 @@ fn track_number(source: &Source, header: &BoxAt) -> Result<u32, VideoError> {
     fields.u32(source)
 }
 
-/// Indices and times, in s, of the samples that the edit presents, ordered by time.
+/// Indices and times (in s) of the samples that the edit presents, ordered by time.
 fn present(
     samples: &[Sample],
     edit: Edit,

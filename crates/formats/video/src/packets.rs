@@ -1,4 +1,4 @@
-//! Clips whose packets are JPEG files, each a whole frame, returned unchanged.
+//! Clips with JPEG files as packets. Each packet is a whole frame, returned unchanged.
 
 use std::ops::ControlFlow;
 
@@ -13,7 +13,7 @@ use crate::source::Source;
 pub(crate) struct Packet {
     /// Byte offset in the file.
     pub(crate) offset: u64,
-    /// Size, in bytes.
+    /// Size, bytes.
     pub(crate) size: u64,
 }
 

@@ -1,4 +1,4 @@
-//! Reorders frames from decoding to presentation order.
+//! Conversion of frames from decoding to presentation order.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -11,7 +11,7 @@ use crate::source::Source;
 /// Buffer of decoded frames that wait for earlier ones.
 pub(crate) struct Reorder<'a> {
     source: &'a Source,
-    /// Frames still to be shown, in order.
+    /// Frames to show, in order.
     wanted: std::slice::Iter<'a, u64>,
     held: BTreeMap<u64, Picture>,
     held_bytes: u64,
@@ -27,7 +27,7 @@ impl<'a> Reorder<'a> {
         }
     }
 
-    /// Shows the frame and those that waited for it, or keeps it.
+    /// Shows the frame and the frames that waited for it, or keeps it.
     ///
     /// # Errors
     /// [`VideoError::TooLarge`] if the buffer exceeds its limit.

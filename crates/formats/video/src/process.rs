@@ -1,4 +1,4 @@
-//! A decoder program: its output arrives in pieces of bounded size. It is killed after a timeout without output, or when it is no longer
+//! Decoder program. Its output arrives in pieces of limited size. It is killed after a timeout without output, or when it is no longer
 //! needed.
 
 use std::io::{self, BufRead, BufReader, Read};
@@ -9,24 +9,24 @@ use std::time::Duration;
 
 /// Timeout without output.
 pub(crate) const SILENCE: Duration = Duration::from_secs(60);
-/// Greatest length of a line, in bytes; longer ones are split.
+/// Maximum length of a line, bytes. Longer lines are split.
 const LINE_BYTES: u64 = 1 << 16;
-/// Queue length of pieces, which bounds the memory.
+/// Queue length of pieces. Limits the memory.
 const WAITING: usize = 4;
 
-/// A piece of output.
+/// Piece of output.
 #[derive(Debug)]
 pub(crate) enum Piece {
-    /// A line of standard error, without its end.
+    /// Line of standard error, without its end.
     Line(String),
-    /// A block of standard output.
+    /// Block of standard output.
     Block(Vec<u8>),
 }
 
-/// Callback that reads the next block of standard output; an empty block ends it.
+/// Callback that reads the next block of standard output. An empty block ends it.
 pub(crate) type Take = Box<dyn FnMut(&mut dyn Read) -> io::Result<Vec<u8>> + Send>;
 
-/// Reads blocks of `size` bytes; the last one may be shorter.
+/// Reads blocks of `size` bytes. The last one may be shorter.
 pub(crate) fn blocks_of(size: usize) -> Take {
     Box::new(move |output| {
         let mut block = Vec::with_capacity(size);
@@ -35,29 +35,29 @@ pub(crate) fn blocks_of(size: usize) -> Take {
     })
 }
 
-/// A program that runs until it ends or this is dropped.
+/// Program that runs until it ends or this is dropped.
 #[derive(Debug)]
 pub(crate) struct Running {
     child: Child,
     pieces: Receiver<Piece>,
 }
 
-/// Reasons for which no further piece arrives.
+/// Reason why no further piece arrives.
 #[derive(Debug)]
 pub(crate) enum Ended {
     /// The program ended.
     By(ExitStatus),
-    /// No output for [`SILENCE`]; the program was killed.
+    /// No output for [`SILENCE`]. The program was killed.
     Silent,
     /// Waiting for its exit failed.
     Unknown(io::Error),
 }
 
 impl Running {
-    /// Starts `command`; `take` reads its standard output, which is discarded without it.
+    /// Starts `command`. `take` reads its standard output. Without `take` the output is discarded.
     ///
     /// # Errors
-    /// A system error if it does not start.
+    /// System error if it does not start.
     pub(crate) fn start(mut command: Command, take: Option<Take>) -> io::Result<Running> {
         command.stderr(Stdio::piped());
         command.stdout(match take {
@@ -79,7 +79,7 @@ impl Running {
         Ok(running)
     }
 
-    /// The child process.
+    /// Child process.
     pub(crate) fn child(&mut self) -> &mut Child {
         &mut self.child
     }
@@ -92,7 +92,7 @@ impl Running {
                 self.kill();
                 Err(Ended::Silent)
             }
-            // Both pipes were closed, which happens at the exit.
+            // Both pipes were closed. This happens at the exit.
             Err(RecvTimeoutError::Disconnected) => Err(match self.child.wait() {
                 Ok(status) => Ended::By(status),
                 Err(error) => Ended::Unknown(error),
@@ -101,7 +101,7 @@ impl Running {
     }
 
     fn kill(&mut self) {
-        // It may have ended by itself.
+        // It may have ended already.
         drop(self.child.kill());
         drop(self.child.wait());
     }

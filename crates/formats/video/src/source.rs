@@ -1,11 +1,11 @@
-//! File of a clip; reads are checked against its length.
+//! File of a clip. Reads are checked against its length.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use crate::error::VideoError;
 
-/// A regular file that stays open; threads may share it.
+/// Regular file that stays open. Threads may share it.
 #[derive(Debug)]
 pub(crate) struct Source {
     path: PathBuf,
@@ -14,7 +14,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// Opens a regular file. Checks the kind first: opening a FIFO would block.
+    /// Opens a regular file. Checks the kind first, because opening a FIFO would block.
     pub(crate) fn open(path: &Path) -> Result<Source, VideoError> {
         let metadata = fs::metadata(path).map_err(VideoError::io("read", path))?;
         if !metadata.is_file() {
@@ -55,7 +55,7 @@ impl Source {
         read_exact_at(&self.file, into, offset).map_err(VideoError::io("read", &self.path))
     }
 
-    /// Reads `size` bytes at `offset`; an error for more than `limit` bytes names them `what`.
+    /// Reads `size` bytes at `offset`. An error for more than `limit` bytes calls them `what`.
     pub(crate) fn read(
         &self,
         offset: u64,

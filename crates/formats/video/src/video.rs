@@ -1,4 +1,4 @@
-//! A clip of any supported container and codec.
+//! Clip of any supported container and codec.
 
 mod decoder_choice;
 
@@ -14,14 +14,14 @@ use crate::ffmpeg::{ForeignClip, Known};
 use crate::h264::{H264Clip, Refusal};
 use crate::packets::JpegClip;
 
-/// External decoders, for codecs that this process does not decode.
+/// External decoders for codecs that this process does not decode.
 ///
-/// The struct gets no further field: a codec is decoded in this process, in a confined child process, or by ffmpeg.
+/// The struct gets no further field. A codec is decoded in this process, in a confined child process, or by ffmpeg.
 ///
 /// ```
 /// use std::path::PathBuf;
 /// use taceva_video::Decoders;
-/// // An ffmpeg that somebody named, or that of the path; this program itself as the child, if it has such a command.
+/// // ffmpeg from a variable or from the path. This program is the child if it has such a command.
 /// let named = std::env::var_os("TACEVA_FFMPEG").map(PathBuf::from);
 /// let this = std::env::current_exe()?;
 /// let decoders = Decoders {
@@ -33,13 +33,13 @@ use crate::packets::JpegClip;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decoders {
-    /// Program ffmpeg, which decodes every other codec and container.
+    /// Program ffmpeg. It decodes every other codec and container.
     pub ffmpeg: Option<PathBuf>,
-    /// A program and its arguments that runs `taceva_video::av1::serve` between its standard input and output, for AV1.
+    /// Program and its arguments that run `taceva_video::av1::serve` between standard input and output, for AV1.
     pub av1: Option<Vec<OsString>>,
 }
 
-/// A clip whose frames are read by their index in presentation order.
+/// Clip. Its frames are read by their index in presentation order.
 ///
 /// ```
 /// use taceva_video::{Colours, Decoders, Video};
@@ -74,10 +74,10 @@ pub(crate) enum Frames {
 }
 
 impl Video {
-    /// Opens the clip at `path`: parses its container and chooses a decoder.
+    /// Opens the clip at `path`. Parses its container and chooses a decoder.
     ///
     /// # Errors
-    /// [`VideoError`] for a fault of the file, or [`VideoError::NoDecoder`] if no available decoder supports its codec.
+    /// [`VideoError`] for a fault of the file. [`VideoError::NoDecoder`] if no available decoder supports its codec.
     pub fn open(path: &Path, decoders: &Decoders) -> Result<Video, VideoError> {
         let (info, frames) = decoder_choice::open(path, decoders)?;
         Ok(Video {
@@ -92,13 +92,13 @@ impl Video {
         &self.info
     }
 
-    /// Calls `each` with the frames in `sorted` and their indices: strictly ascending, from 0 in presentation order.
+    /// Calls `each` with the frames in `sorted` and their indices, which must strictly ascend, from 0 in presentation order.
     ///
-    /// Decodes only from the key frame before a frame up to that frame. Memory holds one picture at a time, and those that the codec needs
-    /// for later ones. Threads may share the clip, each with its own visit.
+    /// Decodes only from the key frame before a frame up to that frame. Memory holds one picture, and the pictures that the codec needs
+    /// later. Threads may share the clip, each with its own visit.
     ///
     /// # Errors
-    /// [`VisitError::Video`] if a frame cannot be read, [`VisitError::Caller`] for an error of `each`.
+    /// [`VisitError::Video`] if a frame cannot be read. [`VisitError::Caller`] for an error of `each`.
     pub fn visit<E>(
         &self,
         sorted: &[u64],
@@ -134,7 +134,7 @@ impl Video {
         refused.map_or(Ok(()), |error| Err(VisitError::Caller(error)))
     }
 
-    /// Visits the frames of `rest` by ffmpeg, since the stream needs a `tool` that this process does not support.
+    /// Visits the frames of `rest` with ffmpeg, because the stream needs a `tool` that this process does not support.
     fn go_on(
         &self,
         program: Option<&Path>,
@@ -157,7 +157,7 @@ impl Video {
                 path: self.path.clone(),
                 program: program.display().to_string(),
                 problem: format!(
-                    "finds {} frames of {}×{}, but the container states {} of {}×{}",
+                    "found {} frames of {}×{}, but the container states {} of {}×{}",
                     found.2, found.0, found.1, expected.2, expected.0, expected.1
                 ),
             });

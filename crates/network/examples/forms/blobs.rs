@@ -6,7 +6,7 @@ use taceva_network::{Labels, Samples};
 /// Labels of each picture, as shares of its side.
 pub(crate) const LABELS: [&str; 3] = ["x", "y", "size"];
 
-/// The standard deviation of the noise of each pixel; a blob is half as bright as 1 to as bright.
+/// Standard deviation of the noise of each pixel, relative to the brightest blob. Blobs have brightness 0.5 to 1.
 const NOISE: f64 = 0.05;
 
 /// Pictures with their labels.
@@ -18,7 +18,7 @@ pub(crate) struct Blobs {
 }
 
 impl Blobs {
-    /// Pictures of `side`² pixels: the same ones for the same seed.
+    /// Generates pictures of `side`² pixels. The same seed gives the same pictures.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "pixels of single precision"

@@ -4,7 +4,7 @@ use taceva_network::ConvolutionForm;
 
 use crate::blobs::LABELS;
 
-/// Steps, counted from 0, whose losses are printed, beside the last.
+/// Steps, counted from 0, whose losses are printed in addition to the last.
 const STEPS: [usize; 3] = [10, 50, 100];
 
 /// Result of one training.
@@ -19,8 +19,8 @@ pub(crate) struct Course {
     pub(crate) seconds: f64,
 }
 
-/// Prints a row for each number: mean and standard deviation over seeds in each form, the difference of means, and whether that is no more
-/// than the spread over seeds, the root of the mean variance of both forms.
+/// Prints a row for each number: mean and standard deviation over seeds in each form, and the difference of means. The last columns are the spread
+/// over seeds (root of the mean variance of both forms), and `yes` if the difference does not exceed it.
 pub(crate) fn print(forms: [ConvolutionForm; 2], courses: &[Course], steps: usize) {
     let [first, second] = forms.map(|form| form.to_string());
     println!("| | {first} | {second} | difference | spread | within |\n|---|---|---|---|---|---|");

@@ -9,7 +9,7 @@ use crate::panel::{Aligned, PANEL};
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};
 
-/// Mask of a gradient by ReLU: it passes where the output was positive.
+/// Mask of a gradient by ReLU. The gradient passes where the output was positive.
 #[derive(Clone, Copy)]
 pub(crate) enum Gate<'a> {
     /// No mask: the gradient is masked already.

@@ -53,7 +53,7 @@ impl Forward {
         }
     }
 
-    /// Runs the pass into the first pictures of `output`. The callback of `each` receives each picture's output while still cached.
+    /// Runs the pass into the first pictures of `output`. The callback of `each` receives each picture's output while still in cache.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,

@@ -1,4 +1,4 @@
-//! Gathers outputs of separate parts, each of its own channel panels, into one picture.
+//! Gathers outputs of separately computed channel panels into one picture.
 
 use super::ending::Finish;
 use crate::panel::PANEL;

@@ -1,4 +1,4 @@
-//! Every pass against a plain implementation in double precision, on every instruction set of the machine.
+//! Compares every pass with a plain implementation in double precision, on every instruction set of the machine.
 
 mod divided;
 
@@ -20,7 +20,7 @@ pub(crate) fn random(length: usize, seed: u64) -> Vec<f32> {
     values.collect()
 }
 
-/// Every pair of an output pixel and channel with an input and the weight between: the definition of a convolution.
+/// Calls a function for every output pixel and channel with each input and weight it uses: the definition of a convolution.
 fn for_each_product(
     convolution: Convolution,
     input: Picture,
@@ -149,11 +149,11 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// First relative difference that exceeds the rounding error of sums of `terms` products in single precision.
+/// Asserts that relative differences are within the rounding error of sums of `terms` products in single precision.
 fn assert_close(found: &[f32], expected: &[f64], terms: usize, what: &str) {
     assert_eq!(found.len(), expected.len());
     for (place, (&found, &expected)) in found.iter().zip(expected).enumerate() {
-        // Products are below 1/4; rounding errors of a random walk of sums, ten standard deviations of them.
+        // Products are below 1/4. The bound is ten standard deviations of a random walk of rounding errors.
         let bound = 10.0 * f64::from(f32::EPSILON) * terms as f64 / 12.0;
         assert!(
             (f64::from(found) - expected).abs() <= bound,
@@ -182,8 +182,8 @@ pub(crate) fn values(planes: &Planes, batch: usize) -> Vec<f32> {
         .collect()
 }
 
-/// Outputs, input gradients, written and then added once more, and weight gradients. Without input gradients for a first convolution
-/// whose input channels are no whole panels.
+/// Outputs, input gradients (written, then added once more) and weight gradients. The input gradient is omitted for a first convolution whose input
+/// channels are not whole panels.
 pub(crate) fn passes(case: &Case, machine: Machine, numbers: &Numbers) -> [Vec<f32>; 3] {
     let Case {
         convolution,
@@ -360,7 +360,7 @@ fn epilogues_add_bias_and_pictures_and_cut_at_zero() {
             let sum = pass(Epilogue::BiasAddRelu(&bias, other.first(batch)));
             for place in 0..raw.len() {
                 let biased = raw[place] + bias[place % output.channels];
-                // Direct sums begin with the bias, so that roundings differ: one per term.
+                // Direct sums begin with the bias, so they round differently: once per term.
                 assert!((plain[place] - biased).abs() < 2e-6, "{isa} {form}");
                 assert_eq!(
                     relu[place].to_bits(),

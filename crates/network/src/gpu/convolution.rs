@@ -1,7 +1,7 @@
 //! Convolutions as matrix products: windows of pixels are gathered and multiplied by the kernels.
 //!
-//! Reasons against burn's own convolutions: tensor cores compute them in TF32, and without tensor cores they go pixel by pixel.
-//! burn 0.21 also drops the gradient of pixels where a kernel is narrower than its stride (`conv_transpose2d_direct`).
+//! burn's own convolutions are not used: with tensor cores they compute in TF32, and without them they go pixel by pixel. burn 0.21 also drops the
+//! gradient of pixels where a kernel is narrower than its stride (`conv_transpose2d_direct`).
 
 use burn_tensor::Tensor;
 use burn_tensor::backend::Backend;
@@ -26,7 +26,7 @@ pub(crate) struct Convolution<B: Backend> {
 const MOST: usize = 1 << 25;
 
 impl<B: Backend> Convolution<B> {
-    /// Convolution with weights of `shape`, for pictures of height and width `seen`.
+    /// Convolution with weights of `shape` for input pictures of height and width `seen`.
     pub(crate) fn new(
         shape: [usize; 4],
         stride: usize,
@@ -182,7 +182,7 @@ mod tests {
 
     fn check<B: Products>() {
         let whole = all::<B>(super::MOST);
-        // Windows of two pictures at once forward (5 × 4 × 9 × 4 values each), and of one backward.
+        // The limit allows windows of two pictures at once forward (5 × 4 × 9 × 4 values each), and of one backward.
         for (found, expected) in all::<B>(1500).iter().zip(&whole) {
             assert_eq!(found.len(), expected.len());
             for (found, expected) in found.iter().zip(expected) {

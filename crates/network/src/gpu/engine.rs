@@ -25,7 +25,7 @@ struct DeviceEngine<B: Backend> {
     /// Folded weights for prediction, built at the first prediction after a step.
     prediction: Option<Prediction<B>>,
     moments: Vec<Tensor<B, 1>>,
-    /// Last step, reported with weights that are not finite.
+    /// Last step, for the error about weights that are not finite.
     last: u64,
     /// Error of a failed step. The weights may be half updated, so every further step returns this error.
     failed: Option<NetworkError>,
@@ -73,7 +73,7 @@ impl<B: Products> DeviceEngine<B> {
         );
         let course = Course::forward(&self.passes, &self.layout, &self.weights, pictures);
         let (outputs, width) = (course.outputs(), self.architecture.outputs);
-        // The loss is computed on the CPU: few numbers, and one formula for all engines.
+        // The loss is computed on the CPU: it has few numbers, and all engines share one formula.
         let mut gradient = Vec::new();
         let loss = self
             .recipe

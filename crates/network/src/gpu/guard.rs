@@ -1,4 +1,4 @@
-//! Catches panics of burn and its libraries, which are their only report of a failed device.
+//! Catches panics of burn and its libraries. They report a failed device only by a panic.
 
 use taceva_core::contained;
 
@@ -9,7 +9,7 @@ pub(crate) fn guard<T>(
     gpu: &str,
     work: impl FnOnce() -> Result<T, NetworkError>,
 ) -> Result<T, NetworkError> {
-    // Unwind safety: an engine whose step failed makes no further step.
+    // Unwind safety: an engine never runs again after a failed step.
     contained(work).unwrap_or_else(|problem| {
         Err(NetworkError::Device {
             device: gpu.to_owned(),

@@ -44,7 +44,7 @@ impl<B: Backend> Backward<B, 3> for Normalised {
             register(node.id, of_bias.clone().reshape([channels]));
         }
         if let Some(node) = raw {
-            // Mean and variance depend on the pictures too: subtracts their share.
+            // The batch mean and variance depend on the pictures too: subtracts their share of the gradient.
             let shared = normalised * (of_gain / pixels) + of_bias / pixels;
             let found = (gradient - shared) * scale;
             gradients.register::<B>(node.id, found.into_primitive().tensor());
@@ -102,7 +102,7 @@ pub(crate) fn normalised<B: Backend>(
 /// Most pixels summed by one GPU thread.
 const ALONE: usize = 128;
 
-/// Sums of each channel: along rows, then columns, then pictures. Many GPU threads have work, and rounding errors stay small.
+/// Sums of each channel: along rows, then columns, then pictures. This order keeps many GPU threads busy and rounding errors small.
 ///
 /// # Shapes
 /// `pictures`: `[samples, height, width, channels]`; returns `[1, 1, 1, channels]`.

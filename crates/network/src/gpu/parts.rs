@@ -1,9 +1,9 @@
-//! Splits work that exceeds the memory, and sums too few to fill a GPU.
+//! Splits work that exceeds the memory limit, and sums with too few outputs to fill a GPU.
 
 use burn_tensor::Tensor;
 use burn_tensor::backend::Backend;
 
-/// Tiles of 64 × 64 that fill a GPU. Products with fewer tiles are computed in parts, which are added.
+/// Tiles of 64 × 64 that fill a GPU. Products with fewer tiles are computed in parts, then added.
 const BUSY: usize = 512;
 
 /// Values of a window that stay in one part.

@@ -1,7 +1,7 @@
 //! Matrix products in single precision.
 //!
-//! burn chooses the fastest algorithm, on NVIDIA GPUs tensor cores, which round both factors to TF32 with eleven bits. Here every product
-//! is computed by ordinary units in f32.
+//! Here every product is computed by ordinary units in f32. burn would choose the fastest algorithm: on NVIDIA GPUs tensor cores, which round both
+//! factors to TF32 (eleven bits).
 
 use burn_cubecl::cubecl::server::ComputeServer;
 use burn_cubecl::ops::numeric::empty_device_contiguous_dtype;
@@ -23,7 +23,7 @@ pub(crate) trait Products: Backend {
     fn product(left: Tensor<Self, 3>, right: Tensor<Self, 3>) -> Tensor<Self, 3>;
 }
 
-/// Fewest products per sum for double buffering, which is faster. For shorter sums, cubek 0.2 computes it wrongly.
+/// Fewest products per sum for double buffering, which is faster. cubek 0.2 computes shorter sums wrongly with it.
 const LONG: usize = 128;
 
 impl<R, I, B> Products for CubeBackend<R, f32, I, B>
@@ -63,7 +63,7 @@ where
             _ => multiply(&simple),
         };
         let made = made.or_else(|_| multiply(&Strategy::Naive));
-        made.expect("matrices of fitting sizes");
+        made.expect("product of matrices whose sizes match");
         Tensor::from_primitive(TensorPrimitive::Float(product))
     }
 }
@@ -108,7 +108,7 @@ mod tests {
             let left = numbers(stack * rows * inner, 1);
             let right = numbers(stack * inner * columns, 2);
             let right_there = tensor(&right, [stack, inner, columns]);
-            // Plain, transposed, and with parts of each row as matrices of a stack, as in convolutions.
+            // Plain, transposed, and with a part of each row as a matrix of the stack, as in convolutions.
             let plain = tensor(&left, [stack, rows, inner]);
             let turned = plain
                 .clone()

@@ -64,7 +64,7 @@ impl<B: Products> Course<B> {
         let device = self.outputs.device();
         let gradient: Vec<f32> = gradient.iter().map(|number| *number as f32).collect();
         let gradient = vector::<Autodiff<B>>(gradient, &device).reshape(self.outputs.dims());
-        // The derivative of this product by the outputs is `gradient`, for any loss.
+        // The derivative of this product with respect to the outputs is `gradient`, for any loss.
         let mut gradients = (self.outputs.clone() * gradient).sum().backward();
         let each = self.learnt.iter().map(|tensor| {
             let found = tensor.grad_remove(&mut gradients);

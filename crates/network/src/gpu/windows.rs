@@ -1,4 +1,4 @@
-//! Windows of a convolution: index tables by which a device gathers pixels.
+//! Windows of a convolution: index tables for gathering pixels on the device.
 
 use burn_tensor::backend::Backend;
 use burn_tensor::{Int, Tensor, TensorData};
@@ -82,7 +82,7 @@ fn onward(seen: [usize; 2], given: [usize; 2], kernel: usize, stride: usize) -> 
     positions(given, seen, kernel, place)
 }
 
-/// Output pixel for each input pixel and kernel position. The index after the last pixel means none.
+/// Output pixel for each input pixel and kernel position. The index after the last pixel means no output pixel.
 fn back(seen: [usize; 2], given: [usize; 2], kernel: usize, stride: usize) -> Vec<i32> {
     let place = |at: usize, tap: usize, length: usize| {
         let middle = (at + kernel / 2).checked_sub(tap)?;
@@ -92,7 +92,7 @@ fn back(seen: [usize; 2], given: [usize; 2], kernel: usize, stride: usize) -> Ve
     positions(seen, given, kernel, place)
 }
 
-/// Pixel indices in a picture of size `of`, by `place`, for each pixel of a picture of size `each` and each kernel position.
+/// Pixel index in a picture of size `of` for each pixel of a picture of size `each` and each kernel position, computed by `place`.
 fn positions(
     each: [usize; 2],
     of: [usize; 2],

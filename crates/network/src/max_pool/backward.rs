@@ -1,4 +1,4 @@
-//! Gradients: each output passes its whole gradient to the pixel that it came from.
+//! Gradients. Each output passes its whole gradient to its source pixel.
 
 use rayon::prelude::*;
 
@@ -53,7 +53,7 @@ pub(crate) fn gradient_sums(
     GradientSums::over(&sums[..count], moments, count * from.picture.pixels())
 }
 
-/// Replaces the raw pictures by their gradient, in place: they are the largest of a network and not needed again. `gradient` is the
+/// Replaces the raw pictures by their gradient, in place: they are the largest pictures of a network, and this is their last use. `gradient` is the
 /// output gradient, masked by [`gradient_sums`].
 pub(crate) fn input_gradient(
     machine: Machine,

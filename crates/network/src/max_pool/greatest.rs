@@ -1,4 +1,4 @@
-//! Plain max pooling for prediction, of one picture while it is cached.
+//! Plain max pooling for prediction, of one picture while it is in cache.
 
 use super::window;
 use crate::machine::Machine;

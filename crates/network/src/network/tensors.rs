@@ -26,7 +26,7 @@ impl NamedTensor {
     }
 }
 
-/// Suffix of PyTorch's batch counters, which running moments do not need here.
+/// Suffix of PyTorch's batch counters, which this crate does not use.
 const COUNTER: &str = ".num_batches_tracked";
 
 impl Network {

@@ -74,7 +74,7 @@ impl Layer {
             forward: Forward::new(convolution, input, output, form),
             output,
             products: output.picture.len() * convolution.taps() * convolution.inputs,
-            // Depends on shapes but not on the form, so that all forms pass the same number of pictures at a time.
+            // Depends on shapes but not on the form, so all forms process the same number of pictures at a time.
             is_light: weights_bytes <= WEIGHTS_IN_CACHE
                 && output.picture.pixels() >= PIXELS_WORTH_WEIGHTS,
         }
@@ -129,7 +129,7 @@ impl Layer {
         output
     }
 
-    /// Convolves pictures and pools each output while cached.
+    /// Convolves pictures and pools each output while in cache.
     pub(super) fn pass_pooled(
         &self,
         pass: Pass<'_>,

@@ -41,7 +41,7 @@ impl Folded {
             Stage::Plain(normed) => Folded::Plain(layer(normed, input, border)),
             Stage::Block(block) => {
                 let first = layer(&block.first, input, 1);
-                // The shortcut has the layout of the output, so that the two can be added.
+                // The shortcut has the layout of the output, so both can be added.
                 let past = block.shortcut.as_ref();
                 Folded::Block(Box::new(FoldedBlock {
                     second: layer(&block.second, first.output(), border),

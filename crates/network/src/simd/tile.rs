@@ -118,7 +118,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         }
     }
 
-    /// Stores the sums of row `row` in separate panels, at `start` of each.
+    /// Stores the sums of row `row` in separate panels, at index `start` of each.
     ///
     /// # Panics
     /// If a panel is too short.
@@ -133,7 +133,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         }
     }
 
-    /// Loads the sums of row `row` from separate panels, at `start` of each.
+    /// Loads the sums of row `row` from separate panels, at index `start` of each.
     ///
     /// # Panics
     /// If a panel is too short.
@@ -207,8 +207,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         self.sums = sums;
     }
 
-    /// Adds the products of `ROWS` input values of each pixel with the channels of its gradient, pixel after
-    /// pixel.
+    /// Adds the products of `ROWS` input values of each pixel with the channels of its gradient, pixel after pixel.
     ///
     /// # Panics
     /// If a pixel exceeds `input` or `gradient`.

@@ -10,7 +10,7 @@ pub(crate) trait Vector: Copy {
     type Proof: Copy;
     /// Values per vector: a divisor of a panel.
     const LANES: usize;
-    /// Pixels in a tile of sums, so that the sums, a row of weights and one value fit into registers.
+    /// Pixels in a tile of sums. The sums, a row of weights and one value must fit into registers.
     const ROWS: usize;
     /// Most panels of channels in a tile of sums.
     const PANELS: usize;
@@ -53,6 +53,6 @@ pub(crate) trait Vector: Copy {
 pub(crate) trait Job {
     /// Result of the computation.
     type Output;
-    /// Runs the computation. Always inlined, so that it is compiled for the instruction set of the vectors.
+    /// Runs the computation. Implementations are always inlined, so they are compiled for the instruction set of the vectors.
     fn run<V: Vector>(self, proof: V::Proof) -> Self::Output;
 }

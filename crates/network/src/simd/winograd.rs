@@ -1,5 +1,4 @@
-//! Strided vectors, as read and written by Winograd's transforms: a row or column of a tile, or values at several
-//! points.
+//! Strided vectors for Winograd's transforms: a row or column of a tile, or values at several points.
 
 #![expect(unsafe_code, reason = "loads and stores without bounds checks")]
 

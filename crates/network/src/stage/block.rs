@@ -106,8 +106,7 @@ impl BlockSpace {
         both.max(self.second.transformed_len()).max(past)
     }
 
-    /// Normalised output of the first convolution after ReLU. Both passes recompute it instead of storing it, in a hundredth of the
-    /// convolution's time.
+    /// Normalised output of the first convolution after ReLU. Both passes recompute it in a hundredth of the convolution's time, so it is not stored.
     fn middle(&self, machine: Machine, count: usize, scratch: &mut Scratch) -> Planes {
         let raw = &self.first.raw;
         let mut middle = scratch.take(self.middle, count);

@@ -12,7 +12,7 @@ use crate::scratch::Scratch;
 pub(crate) struct StemSpace {
     pub(super) normed: NormedSpace,
     pub(crate) output: Planes,
-    /// Window position that each output came from.
+    /// Window position of each output's source pixel.
     choices: Vec<u8>,
 }
 

@@ -1,4 +1,4 @@
-//! Random changes of pictures that keep their labels or change them by a known amount.
+//! Random changes of pictures. Labels stay the same or change by a known amount.
 
 use serde::{Deserialize, Serialize};
 
@@ -44,14 +44,18 @@ impl Augmentation {
             return refuse("brightness", self.brightness.to_string(), "0 to 1");
         }
         if !(self.noise.is_finite() && self.noise >= 0.0) {
-            return refuse("noise", self.noise.to_string(), "a number not below 0");
+            return refuse(
+                "noise",
+                self.noise.to_string(),
+                "a finite number, at least 0",
+            );
         }
         let side = architecture.input.height.min(architecture.input.width);
         if self.jitter.pixels >= side || self.jitter.pixels > 1 << 20 {
             return refuse(
                 "jitter",
                 self.jitter.pixels.to_string(),
-                "fewer pixels than a side has",
+                "fewer pixels than the shorter side",
             );
         }
         let moves = &self.jitter.label_per_pixel;
@@ -178,7 +182,7 @@ mod tests {
             let (_, shift) = augmentation.apply(draws, PICTURE, &VALUES);
             *counts.entry(shift).or_insert(0_u32) += 1;
         }
-        // 100 expected, standard deviation 9.4: five of them.
+        // Expected count 100, standard deviation 9.4; the limit is five standard deviations.
         assert_eq!(counts.len(), 9);
         assert!(
             counts.values().all(|count| count.abs_diff(100) < 47),
@@ -204,7 +208,7 @@ mod tests {
             .map(|value| (value - mean).powi(2))
             .sum::<f32>()
             / 10_000.0;
-        // Standard errors are 0.001 and 0.0007: five of them.
+        // Standard errors are 0.001 and 0.0007; the limits are five standard errors.
         assert!((mean - 0.5).abs() < 0.005 && (square.sqrt() - 0.1).abs() < 0.0035);
         let light = Augmentation {
             brightness: 0.2,

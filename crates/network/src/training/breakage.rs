@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::NetworkError;
 
-/// Position of the first number that is not finite. The training cannot continue from there.
+/// Position of the first number that is not finite. The training cannot continue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Breakage {

@@ -106,7 +106,7 @@ impl<'a> Trainer<'a> {
             tensors.map(|tensors| Network::from_tensors(&summary.architecture, tensors))
         };
         let Some(now) = network("now") else {
-            return refuse("no tensor begins with `now.`".into());
+            return refuse("no tensor has the prefix `now.`".into());
         };
         let best = network("best").transpose()?;
         let (network, recipe) = (now?, &summary.recipe);
@@ -122,7 +122,10 @@ impl<'a> Trainer<'a> {
             return refuse(format!("{} samples, expected {samples}", summary.samples));
         }
         if summary.state.best.is_some() != best.is_some() {
-            return refuse("the best epoch and its tensors must occur together".into());
+            return refuse(
+                "the best epoch and the tensors `best.…` must both be present or both be absent"
+                    .into(),
+            );
         }
         trainer.best = best;
         trainer.state = summary.state;

@@ -8,14 +8,14 @@ use crate::network::{NamedTensor, Network};
 
 /// Computes training steps, on the CPU or on another device.
 ///
-/// A [`Trainer`](super::Trainer) draws samples, composes batches, evaluates and stops; an engine computes. Recipes do not depend on it.
+/// A [`Trainer`](super::Trainer) draws samples, composes batches, evaluates and stops; an engine computes. Recipes are independent of the engine.
 pub trait Engine: fmt::Debug + Send {
     /// Runs a step: forward pass with batch moments, then update of weights and running moments. Returns the loss
     /// before the update.
     ///
     /// # Errors
-    /// [`NetworkError::LossNotFinite`] before any weight changes. [`NetworkError::WeightNotFinite`], which an engine may report later, at
-    /// the latest by [`network`](Engine::network). [`NetworkError::Device`].
+    /// [`NetworkError::LossNotFinite`] before any weight changes. [`NetworkError::WeightNotFinite`] after this step or a later one, at the latest by
+    /// [`network`](Engine::network). [`NetworkError::Device`].
     fn step(&mut self, batch: &Batch<'_>) -> Result<f64, NetworkError>;
 
     /// Predicts the outputs of each picture, with running moments.

@@ -34,7 +34,7 @@ pub struct Recipe {
 }
 
 impl Default for Recipe {
-    /// Forty epochs in batches of 32 with AdamW, one cycle up to a rate of 0.003, Huber's loss on standardised labels.
+    /// Forty epochs in batches of 32 with AdamW, one cycle with a maximum rate of 0.003, Huber's loss on standardised labels.
     fn default() -> Recipe {
         Recipe {
             epochs: 40,
@@ -69,7 +69,7 @@ impl Recipe {
             return refuse("epochs", "0".into(), "at least 1");
         }
         if self.batch < 2 {
-            // One picture of one pixel has no variance.
+            // A batch of one sample has no variance for pictures of one pixel.
             return refuse("batch", self.batch.to_string(), "at least 2");
         }
         if !(self.rate.is_finite() && self.rate > 0.0) {
@@ -104,7 +104,11 @@ impl Recipe {
             }
         };
         if !(decay.is_finite() && decay >= 0.0) {
-            return refuse("weight_decay", decay.to_string(), "a number not below 0");
+            return refuse(
+                "weight_decay",
+                decay.to_string(),
+                "a finite number, at least 0",
+            );
         }
         match self.schedule {
             Schedule::OneCycle { rise } if !(rise > 0.0 && rise < 1.0) => {

@@ -1,10 +1,10 @@
-//! Draws that other programs can make too, and networks that are filled with them.
+//! Random draws that other programs can reproduce, and networks filled with them.
 
 #![allow(dead_code, reason = "the program `memory` uses a part of it")]
 
 use taceva_network::{Architecture, NamedTensor, Network};
 
-/// Draw `position` of `seed`, evenly distributed in 0..1: that of SplitMix64 at step position + 1.
+/// Draw `position` of `seed`, uniform in 0..1: the output of SplitMix64 at step position + 1.
 pub(crate) fn unit(seed: u64, position: u64) -> f64 {
     let state = seed.wrapping_add((position + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     let state = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -26,7 +26,7 @@ pub(crate) fn doubles(seed: u64, count: usize) -> Vec<f64> {
     (0..count as u64).map(|at| unit(seed, at)).collect()
 }
 
-/// A network whose tensors, by sorted name, are draws of their own: seed, seed + 1, …
+/// Network whose tensors, sorted by name, are draws of the seeds `seed`, `seed` + 1, …
 #[expect(
     clippy::cast_possible_truncation,
     reason = "weights of single precision"

@@ -1,4 +1,4 @@
-//! The networks once more in double precision, as plainly as can be: channels before rows, one loop per dimension.
+//! The same networks in double precision, in plain code: channels before rows, one loop per dimension.
 
 #![allow(
     dead_code,

@@ -45,7 +45,7 @@ pub(crate) fn recipe() -> Recipe {
     }
 }
 
-/// Pictures whose labels are the sums of their upper and of their left half: something to be learnt.
+/// Pictures whose labels are the sums of their upper half and of their left half, so a network can learn them.
 pub(crate) fn sums(seed: u64, samples: usize) -> (Vec<f32>, Vec<f64>) {
     let pictures = singles(seed, samples * PICTURE.len());
     let labels = pictures.chunks_exact(PICTURE.len()).flat_map(|picture| {

@@ -1,4 +1,4 @@
-//! Networks of convolutions of 3 × 3 that keep the size of pictures: what Winograd's form is for.
+//! Networks of 3 × 3 convolutions that keep the size of pictures, for Winograd's form.
 
 use taceva_network::{Architecture, Body, Picture, PlainLayer, Pooling};
 
@@ -10,7 +10,7 @@ pub(crate) const fn picture(height: usize, width: usize, channels: usize) -> Pic
     }
 }
 
-/// A network with so many channels in each of its layers.
+/// Network with the given number of channels in each layer.
 pub(crate) fn same_size<const LAYERS: usize>(
     input: Picture,
     channels: [usize; LAYERS],

@@ -1,4 +1,4 @@
-//! Each kind of GPU that was built in and is at hand, against the engine of the processor. Where none is, the tests say so and skip.
+//! Compares each built and available kind of GPU with the CPU engine. Without a GPU, the tests print a message and skip.
 
 #![cfg(any(feature = "cuda", feature = "wgpu"))]
 
@@ -16,7 +16,7 @@ const PICTURE: Picture = Picture {
     channels: 3,
 };
 
-/// Every GPU that this program can reach, or only that of the kind that the variable `TACEVA_GPU` names.
+/// Every available GPU, or only the kind that the environment variable `TACEVA_GPU` names.
 #[expect(clippy::print_stderr, reason = "a test says where it ran")]
 fn gpus() -> Vec<Gpu> {
     let only = std::env::var("TACEVA_GPU").ok();
@@ -84,7 +84,7 @@ fn samples<'a>((pictures, labels): &'a (Vec<f32>, Vec<f64>)) -> Samples<'a> {
     }
 }
 
-/// The same training on the processor and on `gpu`.
+/// The same training on the CPU and on `gpu`.
 fn both<'a>(
     gpu: &Gpu,
     network: &Network,
@@ -96,14 +96,14 @@ fn both<'a>(
     [begin(), there.expect("a training on a device")]
 }
 
-/// Says how far a value was from the processor's, and fails if that is not below `bound`.
+/// Prints the deviation from the CPU's value, and fails unless it is below `bound`.
 #[expect(clippy::print_stderr, reason = "a test says what it found")]
 fn assert_below(error: f64, bound: f64, what: &str) {
     eprintln!("{what}: {error:.1e} of {bound:.0e}");
     assert!(error < bound, "{what}: {error:e}, not below {bound:e}");
 }
 
-/// The greatest of `errors`, and not a number if one is.
+/// Greatest of `errors`; NaN if one is NaN.
 fn worst(errors: impl Iterator<Item = f64>) -> f64 {
     errors.fold(0.0, |most, error| {
         if error > most || error.is_nan() {
@@ -114,7 +114,7 @@ fn worst(errors: impl Iterator<Item = f64>) -> f64 {
     })
 }
 
-/// The length of the difference of two lists of numbers over that of the second.
+/// Norm of the difference of two lists of numbers, relative to the norm of the second.
 fn distance(found: &[f32], expected: &[f32]) -> f64 {
     let length = |numbers: &mut dyn Iterator<Item = f64>| {
         numbers.map(|number| number * number).sum::<f64>().sqrt()
@@ -191,8 +191,8 @@ fn a_step_has_the_loss_the_gradients_and_the_weights_of_the_processor() {
             let what = format!("{gpu}, {name}");
             let error = (found.0 / expected.0 - 1.0).abs();
             assert_below(error, 1e-5, &format!("{what}: loss"));
-            // After one step the velocity is the gradient with the decay. The last stage has moments of few numbers, which
-            // magnify roundings.
+            // After one step, the velocity is the gradient plus the decay. Moments of the last stage average few numbers, which magnifies rounding
+            // errors.
             assert_near(&found.1, &expected.1, 2e-3, &format!("{what}: gradients"));
             assert_near(&found.2, &expected.2, 1e-5, &format!("{what}: weights"));
         }
@@ -236,7 +236,7 @@ fn twenty_steps_go_as_on_the_processor_and_the_network_predicts_the_same_there_a
             let pairs = found.iter().zip(&expected);
             let error = worst(pairs.map(|(found, expected)| (found - expected).abs()));
             assert_below(error, 1e-4, &format!("{gpu}, {name}: there and here"));
-            // A checkpoint made there can be read here, to the bit.
+            // A checkpoint made on the GPU can be read on the CPU, bit by bit.
             let again = Trainer::resume(checkpoint.clone(), samples(&eight), None);
             let again = again.expect("its own checkpoint").checkpoint();
             assert_eq!(again.expect("at hand"), checkpoint);

@@ -1,4 +1,4 @@
-//! Entry in the list of skips for builds without a GPU feature, which lack `device.rs` and its tests.
+//! Entry in the list of skipped tests for builds without a GPU feature, which lack `device.rs` and its tests.
 
 #![cfg(not(any(feature = "cuda", feature = "wgpu")))]
 

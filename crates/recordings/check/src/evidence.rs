@@ -48,10 +48,6 @@ impl Evidence<'_> {
         });
         pictures.collect()
     }
-
-    pub(crate) fn names<'b>(&'b self, rows: &'b [usize]) -> impl Iterator<Item = &'b str> {
-        rows.iter().map(|&row| self.table.samples()[row].as_str())
-    }
 }
 
 /// Statistics of one frame.

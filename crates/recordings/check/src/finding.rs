@@ -68,26 +68,19 @@ impl Found {
             count: 0,
         }
     }
+}
 
-    /// A finding about single samples.
-    pub(crate) fn about<'a>(
-        severity: Severity,
-        message: String,
-        samples: impl IntoIterator<Item = &'a str>,
-    ) -> Found {
-        let mut named = Vec::new();
-        let mut count = 0;
-        for sample in samples {
-            if count < Found::NAMED {
-                named.push(sample.to_owned());
-            }
-            count += 1;
-        }
+impl Evidence<'_> {
+    /// A finding about the samples in `rows`.
+    pub(crate) fn found(&self, severity: Severity, message: String, rows: &[usize]) -> Found {
+        let named = rows.iter().take(Found::NAMED);
         Found {
             severity,
             message,
-            samples: named,
-            count,
+            samples: named
+                .map(|&row| self.table.samples()[row].clone())
+                .collect(),
+            count: rows.len(),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod check;
 mod checks;
+mod count;
 mod evidence;
 mod finding;
 mod run;

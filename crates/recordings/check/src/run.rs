@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use taceva_core::shown;
 
-use taceva_core::{Field, Progress, SkipReason, Skipped};
+use taceva_core::{Field, Progress, SkipReason, Skipped, counted};
 use taceva_dataset::{Dataset, Pass, RecordedSessions};
 
 use crate::checks::{ALL, blank, damaged_frames, leakage};
@@ -44,21 +44,21 @@ pub fn check_plan(dataset: &Dataset, request: &CheckRequest) -> Result<Plan, Eva
     plan.step(
         "read",
         format!(
-            "{} rows of {}",
-            dataset.table().rows(),
+            "{} of {}",
+            counted(dataset.table().rows(), "row"),
             shown(&dataset.path())
         ),
     );
     if reads(dataset, &wanted, Field::Signals) {
-        let rows = dataset.table().rows();
-        plan.step("read", format!("the signals of {rows} rows"));
+        let rows = counted(dataset.table().rows(), "row");
+        plan.step("read", format!("the signals of {rows}"));
     }
     if reads(dataset, &wanted, Field::Frame) {
         plan.step(
             "decode",
-            format!(
-                "{} frames",
-                views * dataset.table().frames().iter().flatten().count()
+            counted(
+                views * dataset.table().frames().iter().flatten().count(),
+                "frame",
             ),
         );
     }

@@ -8,6 +8,8 @@ use taceva_dataset::{Dataset, Pass};
 
 use taceva_evaluate::EvaluateError;
 
+use crate::count::count;
+
 /// Statistics of every taxel of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalFacts {
@@ -163,14 +165,6 @@ fn extend(
             _ => *next = Some((value, 1)),
         }
     }
-}
-
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "numbers of a sample are far below 2^53"
-)]
-fn count(number: usize) -> f64 {
-    number as f64
 }
 
 #[cfg(test)]

@@ -3,13 +3,12 @@
 use std::collections::BTreeMap;
 
 use taceva_dataset::Table;
+use taceva_metrics::STREAM_S;
 
 use crate::evidence::Evidence;
 
 /// Minimum number of samples for any statement about steps.
 const LEAST: usize = 10;
-/// Maximum median step of a stream, s.
-const STREAM_S: f64 = 1.0;
 
 /// A step from a row to the next of the same contact, sensor and table.
 #[derive(Clone, Copy, Debug)]

@@ -2,6 +2,8 @@
 
 use taceva_core::Frame;
 
+use crate::count::count;
+
 /// Number of tiles across the width of a picture.
 const ACROSS: usize = 8;
 
@@ -112,11 +114,6 @@ impl Tiles {
     fn is_like(&self, other: &Tiles) -> bool {
         self.across == other.across && self.means.len() == other.means.len()
     }
-}
-
-#[expect(clippy::cast_precision_loss, reason = "at most a few hundred tiles")]
-fn count(tiles: usize) -> f64 {
-    tiles as f64
 }
 
 #[cfg(test)]

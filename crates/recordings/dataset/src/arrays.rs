@@ -133,10 +133,10 @@ impl Dataset {
     pub fn frame_arrays(&self, pass: Pass<'_>) -> Result<FrameArrays, DatasetError> {
         self.require_view()?;
         let Some(frames) = &self.header().frames else {
-            return Err(DatasetError::Request {
-                path: self.path().to_owned(),
-                problem: "the dataset has no frames to decode".to_owned(),
-            });
+            return Err(DatasetError::request(
+                self.path(),
+                "the dataset has no frames to decode",
+            ));
         };
         let mut pixels = Pixels::new(frames.info);
         self.map_frames(

@@ -88,7 +88,14 @@ impl Dataset {
         }
         let header = Header::read(&folder)?;
         let table = read_table(&folder, &header)?;
-        let dataset = Dataset {
+        let dataset = Dataset::of(folder, header, table);
+        dataset.check_consistency()?;
+        Ok(dataset)
+    }
+
+    /// A single recording without a chosen view, before any of its files is read.
+    fn of(folder: HeldFolder, header: Header, table: Table) -> Dataset {
+        Dataset {
             folder,
             header,
             table,
@@ -96,9 +103,7 @@ impl Dataset {
             signals: Mutex::default(),
             joined: Vec::new(),
             seen: Vec::new(),
-        };
-        dataset.check_consistency()?;
-        Ok(dataset)
+        }
     }
 
     /// The folder; for joined recordings that of the first.
@@ -133,11 +138,7 @@ impl Dataset {
         let bytes = self.folder.read(layout::SOURCES, limits::SOURCES_BYTES)?;
         let found = Digest::of(&bytes);
         if found != info.sha256 {
-            return Err(DatasetError::Digest {
-                path,
-                expected: info.sha256,
-                found,
-            });
+            return Err(DatasetError::digest(&path, info.sha256, found));
         }
         utf8(&path, bytes).map(Some)
     }

@@ -40,37 +40,25 @@ pub enum DatasetError {
         /// The error of the system.
         source: io::Error,
     },
-    /// A map, a header or another TOML file with invalid content.
+    /// A text file with invalid content: a map, a header, a table of sessions.
     #[error("{place}: {problem}")]
-    Toml {
+    Text {
         /// Location.
         place: Place,
         /// The fault, and the accepted form.
         problem: String,
     },
-    /// A table of labels that cannot be read.
-    #[error("{place}: {problem}")]
-    Table {
-        /// Location.
-        place: Place,
-        /// The fault, and the accepted form.
-        problem: String,
-    },
-    /// A path in a foreign file that is not followed.
-    #[error("{}`{}`: {problem}", named_by(place), shown(written))]
+    /// A path that is not followed.
+    #[error("`{}`: {problem}", shown(written))]
     Path {
-        /// Location of the path.
-        place: Option<Box<Place>>,
         /// The path as written.
         written: String,
         /// Reason why it is not followed.
         problem: String,
     },
     /// An image, or an array of images, that is damaged, too large or unlike the others.
-    #[error("{}{problem}", image_at(place, path))]
+    #[error("{}: {problem}", shown_path(path))]
     Image {
-        /// Location that names the image.
-        place: Option<Box<Place>>,
         /// The image.
         path: PathBuf,
         /// The fault, and the accepted form.
@@ -197,27 +185,6 @@ pub enum DatasetError {
 }
 
 impl DatasetError {
-    /// The same error with its line decremented, for a table to which a header was added.
-    pub fn a_line_above(mut self) -> DatasetError {
-        if let DatasetError::Table { place, .. } = &mut self
-            && let Some(line) = &mut place.line
-        {
-            *line = line.saturating_sub(1).max(1);
-        }
-        self
-    }
-
-    /// The same error with its line increased by `lines`, for a part of a table with only its header before it.
-    pub fn lines_below(mut self, lines: u64) -> DatasetError {
-        if let DatasetError::Table { place, .. } = &mut self
-            && let Some(line) = &mut place.line
-            && *line > 1
-        {
-            *line += lines;
-        }
-        self
-    }
-
     /// The kind of the error, from the closed list that all crates share.
     pub fn kind(&self) -> ErrorKind {
         match self {
@@ -236,8 +203,7 @@ impl DatasetError {
             | DatasetError::Unlike { .. }
             | DatasetError::View { .. }
             | DatasetError::Request { .. } => ErrorKind::InvalidArgument,
-            DatasetError::Toml { .. }
-            | DatasetError::Table { .. }
+            DatasetError::Text { .. }
             | DatasetError::Image { .. }
             | DatasetError::Digest { .. }
             | DatasetError::Damaged { .. }
@@ -248,33 +214,52 @@ impl DatasetError {
         }
     }
 
-    /// An error in a table of labels at `place`.
-    pub fn table(place: Place, problem: String) -> DatasetError {
-        DatasetError::Table { place, problem }
+    /// The path `written`, which is not followed.
+    pub fn path(written: impl Into<String>, problem: impl Into<String>) -> DatasetError {
+        DatasetError::Path {
+            written: written.into(),
+            problem: problem.into(),
+        }
     }
 
-    /// An error of the image at `path`, without a place that names it.
-    pub fn image(path: &Path, problem: String) -> DatasetError {
+    /// A fault of the image at `path`.
+    pub fn image(path: &Path, problem: impl Into<String>) -> DatasetError {
         DatasetError::Image {
-            place: None,
             path: path.to_owned(),
-            problem,
+            problem: problem.into(),
         }
     }
 
     /// A contradiction in the file at `path`, which belongs to a dataset.
-    pub fn damaged(path: &Path, problem: String) -> DatasetError {
+    pub fn damaged(path: &Path, problem: impl Into<String>) -> DatasetError {
         DatasetError::Damaged {
             path: path.to_owned(),
-            problem,
+            problem: problem.into(),
         }
     }
 
     /// A request for something that the dataset at `path` lacks.
-    pub fn request(path: &Path, problem: String) -> DatasetError {
+    pub fn request(path: &Path, problem: impl Into<String>) -> DatasetError {
         DatasetError::Request {
             path: path.to_owned(),
-            problem,
+            problem: problem.into(),
+        }
+    }
+
+    /// The sample `id`, which cannot be recorded.
+    pub fn sample(id: &str, problem: impl Into<String>) -> DatasetError {
+        DatasetError::Sample {
+            id: id.to_owned(),
+            problem: problem.into(),
+        }
+    }
+
+    /// A difference between the bytes of the file at `path` and those recorded.
+    pub(crate) fn digest(path: &Path, expected: Digest, found: Digest) -> DatasetError {
+        DatasetError::Digest {
+            path: path.to_owned(),
+            expected,
+            found,
         }
     }
 
@@ -286,57 +271,6 @@ impl DatasetError {
             path,
             source,
         }
-    }
-
-    /// The same error with mapped paths: `path` maps each path, and `text` each message.
-    pub fn with_paths(
-        mut self,
-        path: &dyn Fn(&Path) -> PathBuf,
-        text: &dyn Fn(&str) -> String,
-    ) -> DatasetError {
-        let of_place = |place: &mut Place| place.path = path(&place.path);
-        match &mut self {
-            DatasetError::Toml { place, problem } | DatasetError::Table { place, problem } => {
-                of_place(place);
-                *problem = text(problem);
-            }
-            DatasetError::Path { place, problem, .. } => {
-                place.as_deref_mut().into_iter().for_each(of_place);
-                *problem = text(problem);
-            }
-            DatasetError::Image {
-                place,
-                path: image,
-                problem,
-            } => {
-                place.as_deref_mut().into_iter().for_each(of_place);
-                *image = path(image);
-                *problem = text(problem);
-            }
-            DatasetError::Io { path: own, .. }
-            | DatasetError::TargetExists { path: own }
-            | DatasetError::Busy { path: own }
-            | DatasetError::NoDataset { path: own, .. }
-            | DatasetError::Damaged { path: own, .. } => *own = path(own),
-            _ => {}
-        }
-        self
-    }
-
-    /// The same error with the location that names the image or path.
-    pub fn named_at(mut self, at: Place) -> DatasetError {
-        if let DatasetError::Path { place, .. } | DatasetError::Image { place, .. } = &mut self {
-            *place = Some(Box::new(at));
-        }
-        self
-    }
-}
-
-/// The location of a picture: the place that names it, and its own file if that differs.
-fn image_at(place: &Option<Box<Place>>, path: &Path) -> String {
-    match place {
-        Some(place) if place.path == path => format!("{place}: "),
-        _ => format!("{}{}: ", named_by(place), shown_path(path)),
     }
 }
 
@@ -351,12 +285,6 @@ fn unreadable(found: Version) -> String {
             Version::CURRENT.major
         ),
     }
-}
-
-fn named_by(place: &Option<Box<Place>>) -> String {
-    place
-        .as_ref()
-        .map_or_else(String::new, |place| format!("{place}: "))
 }
 
 #[cfg(test)]

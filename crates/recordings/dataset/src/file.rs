@@ -26,21 +26,19 @@ pub(crate) fn check_regular(
     cap: u64,
 ) -> Result<(), DatasetError> {
     if !metadata.is_file() {
-        return Err(DatasetError::Path {
-            place: None,
-            written: path.to_string_lossy().into_owned(),
-            problem: "not a regular file".to_owned(),
-        });
+        return Err(DatasetError::path(
+            path.to_string_lossy(),
+            "not a regular file",
+        ));
     }
     if metadata.len() > cap {
-        return Err(DatasetError::Path {
-            place: None,
-            written: path.to_string_lossy().into_owned(),
-            problem: format!(
+        return Err(DatasetError::path(
+            path.to_string_lossy(),
+            format!(
                 "{} bytes, more than the {cap} that are accepted here",
                 metadata.len()
             ),
-        });
+        ));
     }
     Ok(())
 }
@@ -85,6 +83,17 @@ pub(crate) fn create_anew(path: &Path) -> Result<File, DatasetError> {
         created => created,
     };
     created.map_err(DatasetError::io("create", path))
+}
+
+/// Refuses a symbolic link at a name of a recording: its target would be written, cut or read instead.
+pub(crate) fn refuse_link(path: &Path) -> Result<(), DatasetError> {
+    match path.is_symlink() {
+        false => Ok(()),
+        true => Err(DatasetError::damaged(
+            path,
+            "a symbolic link, expected what the recorder made: put that in place of the link, or remove a link that is not yours".to_owned(),
+        )),
+    }
 }
 
 /// Writes a new file and returns once its bytes are on the disk. Its name is durable only after `make_names_durable`.

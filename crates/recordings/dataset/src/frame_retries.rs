@@ -12,10 +12,8 @@ pub fn add_frame_retries(path: &Path, count: u64) -> io::Result<()> {
     if count == 0 {
         return Ok(());
     }
-    fs::write(
-        place(path),
-        format!("{}\n", frame_retries(path).saturating_add(count)),
-    )
+    let all = frame_retries(path).saturating_add(count);
+    taceva_files::replace(&place(path), |staged| fs::write(staged, format!("{all}\n")))
 }
 
 /// Number of retried frames of the recording at `path`; 0 if there is no count, as for a recording that was moved.
@@ -46,5 +44,17 @@ mod tests {
         add_frame_retries(&recording, 3).expect("written");
         add_frame_retries(&recording, 4).expect("written");
         assert_eq!(frame_retries(&recording), 7);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_at_its_name_is_replaced_and_leads_nothing_elsewhere() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (recording, theirs) = (folder.path().join("1-gel"), folder.path().join("theirs"));
+        fs::write(&theirs, "5").expect("written");
+        std::os::unix::fs::symlink(&theirs, place(&recording)).expect("linked");
+        add_frame_retries(&recording, 3).expect("written");
+        assert_eq!(frame_retries(&recording), 8);
+        assert_eq!(fs::read_to_string(&theirs).expect("there"), "5");
     }
 }

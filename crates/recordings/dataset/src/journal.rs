@@ -145,13 +145,15 @@ impl Journal {
         let length = u32::try_from(payload.len())
             .ok()
             .filter(|length| *length <= limits::RECORD_BYTES)
-            .ok_or_else(|| DatasetError::Request {
-                path: self.path.clone(),
-                problem: format!(
-                    "a record of {} bytes, more than the {} that are accepted",
-                    payload.len(),
-                    limits::RECORD_BYTES
-                ),
+            .ok_or_else(|| {
+                DatasetError::request(
+                    &self.path,
+                    format!(
+                        "a record of {} bytes, more than the {} that are accepted",
+                        payload.len(),
+                        limits::RECORD_BYTES
+                    ),
+                )
             })?;
         let header = header(length, kind as u8, self.sequence);
         let chain = chained(&self.chain, &header, payload);

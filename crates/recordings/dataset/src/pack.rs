@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use crate::error::DatasetError;
-use crate::file::make_names_durable;
+use crate::file::{make_names_durable, refuse_link};
 use crate::layout;
 use crate::limits;
 
@@ -73,14 +73,13 @@ impl FromStr for Span {
 /// The bytes of the frame at `span` of the pack `file`, which is at `path`.
 pub(crate) fn read_span(mut file: File, path: &Path, span: Span) -> Result<Vec<u8>, DatasetError> {
     if u64::from(span.length) > limits::IMAGE_BYTES {
-        return Err(DatasetError::Path {
-            place: None,
-            written: format!("{}{span}", path.display()),
-            problem: format!(
+        return Err(DatasetError::path(
+            format!("{}{span}", path.display()),
+            format!(
                 "more than the {} bytes that are accepted of a picture",
                 limits::IMAGE_BYTES
             ),
-        });
+        ));
     }
     let failed = || DatasetError::io("read", path);
     file.seek(SeekFrom::Start(span.offset)).map_err(failed())?;
@@ -152,9 +151,11 @@ impl PackWriter {
         is_difference: bool,
     ) -> Result<(String, Span), DatasetError> {
         let path = layout::pack_path(self.end.number);
-        let length = u32::try_from(bytes.len()).map_err(|_| DatasetError::Request {
-            path: self.folder.join(&path),
-            problem: format!("a picture of {} bytes", bytes.len()),
+        let length = u32::try_from(bytes.len()).map_err(|_| {
+            DatasetError::request(
+                &self.folder.join(&path),
+                format!("a picture of {} bytes", bytes.len()),
+            )
         })?;
         let span = Span {
             offset: self.end.length,
@@ -195,18 +196,6 @@ impl PackWriter {
     }
 }
 
-/// Refuses a link in place of a pack: its target would be cut or written.
-fn refuse_link(path: &Path) -> Result<(), DatasetError> {
-    match path.is_symlink() {
-        false => Ok(()),
-        true => Err(DatasetError::Damaged {
-            path: path.to_owned(),
-            problem: "a symbolic link, expected a file that the recorder made: remove the link"
-                .to_owned(),
-        }),
-    }
-}
-
 /// Cuts unacknowledged bytes after `end` in the packs of the dataset at `folder`.
 pub(crate) fn cut_behind(folder: &Path, end: PackEnd) -> Result<(), DatasetError> {
     let path = folder.join(layout::pack_path(end.number));
@@ -218,14 +207,14 @@ pub(crate) fn cut_behind(folder: &Path, end: PackEnd) -> Result<(), DatasetError
             .and_then(|file| file.set_len(end.length))
             .map_err(DatasetError::io("cut the torn tail of", &path))?,
         Ok(found) if found.len() < end.length => {
-            return Err(DatasetError::Damaged {
-                path,
-                problem: format!(
+            return Err(DatasetError::damaged(
+                &path,
+                format!(
                     "{} bytes, but the journal names {}",
                     found.len(),
                     end.length
                 ),
-            });
+            ));
         }
         Err(error) if end.length > 0 => return Err(DatasetError::io("read", &path)(error)),
         _ => {}

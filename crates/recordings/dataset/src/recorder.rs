@@ -16,7 +16,6 @@ use crate::file::make_names_durable;
 use crate::header::{RecordingFacts, ReducedFrames, ReferenceInfo, StreamFacts};
 use crate::journal::{Journal, RecordKind};
 use crate::layout;
-use crate::lock::lock_folder;
 use crate::pack::{PackEnd, PackWriter, cut_behind};
 use crate::signals::{SignalsSpec, SignalsWriter};
 use crate::table::{FrameEntry, Row, Table};
@@ -31,7 +30,7 @@ mod press;
 mod replay;
 mod stream;
 
-use folder::{empty_folder, remove_journal};
+use folder::{empty_folder, unclosed_folder};
 use payload::{WrittenFrame, WrittenSample, WrittenStart};
 use predictions::PredictedTable;
 use replay::ReplayError;
@@ -157,19 +156,10 @@ impl Recorder {
     /// # Errors
     /// [`DatasetError::NoDataset`] if nothing was recorded there; [`DatasetError::TargetExists`] if it was closed;
     /// [`DatasetError::Busy`] if another process writes there; [`DatasetError::Journal`] if the journal is damaged before its
-    /// end; [`DatasetError::Io`].
+    /// end; [`DatasetError::Damaged`] for a symbolic link in it; [`DatasetError::Io`].
     pub fn resume(path: &Path) -> Result<Recorder, DatasetError> {
         let journal_path = path.join(layout::JOURNAL);
-        let lock = lock_folder(path)?;
-        if path.join(layout::HEADER).exists() {
-            if journal_path.exists() {
-                // Closed, but interrupted before the last step.
-                remove_journal(path)?;
-            }
-            return Err(DatasetError::TargetExists {
-                path: path.join(layout::HEADER),
-            });
-        }
+        let lock = unclosed_folder(path)?;
         let nothing = || DatasetError::NoDataset {
             path: path.to_owned(),
             problem: "nothing was recorded there".to_owned(),
@@ -186,10 +176,9 @@ impl Recorder {
         for (sequence, record) in records {
             recorder.replay(&record).map_err(|error| match error {
                 ReplayError::Io(error) => error,
-                ReplayError::Damaged(problem) => DatasetError::Damaged {
-                    path: journal_path.clone(),
-                    problem: format!("record {sequence}: {problem}"),
-                },
+                ReplayError::Damaged(problem) => {
+                    DatasetError::damaged(&journal_path, format!("record {sequence}: {problem}"))
+                }
             })?;
         }
         cut_behind(path, recorder.pack_end)?;
@@ -214,11 +203,10 @@ impl Recorder {
             || taxels != spec.signals.as_ref()
             || recorder.reduced != spec.reduced
         {
-            return Err(DatasetError::Request {
-                path: path.to_owned(),
-                problem: "the recording that was begun there has another sensor, clock, set of channels or taxels, or reduction of frames"
-                    .to_owned(),
-            });
+            return Err(DatasetError::request(
+                path,
+                "the recording that was begun there has another sensor, clock, set of channels or taxels, or reduction of frames",
+            ));
         }
         Ok(recorder)
     }
@@ -277,16 +265,12 @@ impl Recorder {
     /// resumed.
     pub fn append(&mut self, sample: &Sample) -> Result<u64, DatasetError> {
         self.check(sample)?;
-        let mut entries = self.write_frames(std::slice::from_ref(sample))?;
-        let row = self.row(sample, entries.pop().flatten());
-        let info = sample.frame.as_ref().map(Frame::info);
-        let written =
-            WrittenSample::new(&row, self.table.channels(), info, signals_of(sample)).to_toml();
-        let sequence = self
-            .journal
-            .append(RecordKind::Sample, written.as_bytes())?;
-        self.take(row, info, signals_of(sample))?;
-        Ok(sequence)
+        let entries = self.write_frames(std::slice::from_ref(sample))?;
+        let of_sample = |written: Vec<WrittenSample>| {
+            let texts = written.iter().map(WrittenSample::to_toml);
+            texts.collect::<String>()
+        };
+        self.append_all(RecordKind::Sample, [sample], entries, of_sample)
     }
 
     /// True if a frame without contact was recorded.

@@ -65,7 +65,7 @@ impl SensorFile {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// [`DatasetError::Toml`] with the line for invalid TOML, an unknown key, or an impossible length; [`DatasetError::Path`],
+    /// [`DatasetError::Text`] with the line for invalid TOML, an unknown key, or an impossible length; [`DatasetError::Path`],
     /// [`DatasetError::Io`].
     pub fn read(path: &Path) -> Result<SensorFile, DatasetError> {
         let written: Written = parse_toml(path, &read_toml_text(path)?)?;
@@ -139,7 +139,7 @@ mod tests {
             ("[footprint]\nshape = \"disc\"", "needs `radius_mm`"),
             (
                 "[footprint]\nshape = \"disc\"\nradius_mm = -1.0",
-                "no length",
+                "-1 mm is not a length",
             ),
             (
                 "[footprint]\nshape = \"disc\"\nradius_mm = 1e9",

@@ -60,10 +60,13 @@ impl SessionTable {
     /// Reads the table beside the recording at `recording`; empty without a session.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] for an invalid file.
+    /// [`DatasetError::Text`] for an invalid file.
     pub fn of(recording: &Path) -> Result<SessionTable, DatasetError> {
         let path = place(recording);
-        let refused = |problem: String| DatasetError::table(Place::file(&path), problem);
+        let refused = |problem: String| DatasetError::Text {
+            place: Place::file(&path),
+            problem,
+        };
         let rows = match File::open(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
             Err(error) => return Err(refused(error.to_string())),

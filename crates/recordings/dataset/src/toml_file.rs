@@ -13,7 +13,7 @@ use taceva_core::nearest;
 /// Parses the TOML file at `path` as a `T`.
 ///
 /// # Errors
-/// [`DatasetError::Toml`] with the line, if it is invalid TOML or `T` rejects it; [`DatasetError::Path`] if it is no regular file or
+/// [`DatasetError::Text`] with the line, if it is invalid TOML or `T` rejects it; [`DatasetError::Path`] if it is no regular file or
 /// exceeds 1 MiB; [`DatasetError::Io`].
 pub fn read_toml<T: DeserializeOwned>(path: &Path) -> Result<T, DatasetError> {
     parse_toml(path, &read_toml_text(path)?)
@@ -44,7 +44,7 @@ pub fn parse_toml<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, Dat
 
 /// The error for a line of the TOML file at `path`.
 pub fn toml_error(path: &Path, line: Option<u64>, problem: &str) -> DatasetError {
-    DatasetError::Toml {
+    DatasetError::Text {
         place: Place {
             line,
             ..Place::file(path)

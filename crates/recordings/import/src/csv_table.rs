@@ -17,10 +17,12 @@ use std::sync::OnceLock;
 
 use taceva_core::nearest;
 use taceva_dataset::internal::{all_cores, limits, read_capped, shown};
-use taceva_dataset::{DatasetError, Digest, Place};
+use taceva_dataset::{Digest, Place};
 
 use number::parse_number;
 use split::Block;
+
+use crate::error::{ImportError, table_error};
 
 /// A CSV file with a header, in memory.
 ///
@@ -61,9 +63,9 @@ impl CsvTable {
     /// Reads the file at `path` on all cores.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] naming the line if rows have different lengths, names repeat, a quote is not closed, or the text is
-    /// not UTF-8; [`DatasetError::Path`] if it is no regular file or above 4 GiB; [`DatasetError::Io`].
-    pub fn read(path: &Path) -> Result<CsvTable, DatasetError> {
+    /// [`ImportError::Table`] naming the line if rows have different lengths, names repeat, a quote is not closed, or the text is
+    /// not UTF-8; [`ImportError::Dataset`] if it is no regular file, is above 4 GiB or cannot be read.
+    pub fn read(path: &Path) -> Result<CsvTable, ImportError> {
         CsvTable::read_with(path, all_cores())
     }
 
@@ -71,7 +73,7 @@ impl CsvTable {
     ///
     /// # Errors
     /// As [`read`](CsvTable::read).
-    pub fn read_with(path: &Path, jobs: NonZeroUsize) -> Result<CsvTable, DatasetError> {
+    pub fn read_with(path: &Path, jobs: NonZeroUsize) -> Result<CsvTable, ImportError> {
         let text = as_text(path, read_capped(path, limits::TABLE_BYTES)?)?;
         let delimiter = delimiter_of(text.lines().next().unwrap_or(""));
         CsvTable::of_text(path, text, delimiter, jobs)
@@ -81,7 +83,7 @@ impl CsvTable {
     ///
     /// # Errors
     /// As [`read`](CsvTable::read).
-    pub(crate) fn read_headerless(path: &Path) -> Result<CsvTable, DatasetError> {
+    pub(crate) fn read_headerless(path: &Path) -> Result<CsvTable, ImportError> {
         let text = as_text(path, read_capped(path, limits::TABLE_BYTES)?)?;
         let delimiter = delimiter_of(text.lines().next().unwrap_or(""));
         let names: Vec<String> = (0..cells_of_first_row(&text, delimiter))
@@ -90,7 +92,7 @@ impl CsvTable {
         let header = names.join(&char::from(delimiter).to_string());
         let text = format!("{header}\n{text}");
         let read = CsvTable::of_text(path, text, delimiter, all_cores());
-        let mut table = read.map_err(DatasetError::a_line_above)?;
+        let mut table = read.map_err(ImportError::a_line_above)?;
         table.added_lines = 1;
         Ok(table)
     }
@@ -100,7 +102,7 @@ impl CsvTable {
         text: String,
         delimiter: u8,
         jobs: NonZeroUsize,
-    ) -> Result<CsvTable, DatasetError> {
+    ) -> Result<CsvTable, ImportError> {
         let table = if text.as_bytes().contains(&b'"') {
             quotation::read(path, &text, delimiter)?
         } else {
@@ -138,8 +140,8 @@ impl CsvTable {
     /// Position of the column called `name`.
     ///
     /// # Errors
-    /// [`DatasetError::Table`], listing the columns there are and suggesting the nearest.
-    pub fn position(&self, name: &str) -> Result<usize, DatasetError> {
+    /// [`ImportError::Table`], listing the columns there are and suggesting the nearest.
+    pub fn position(&self, name: &str) -> Result<usize, ImportError> {
         self.names
             .iter()
             .position(|known| known == name)
@@ -149,14 +151,12 @@ impl CsvTable {
                     .map_or_else(String::new, |guess| {
                         format!(", did you mean `{}`", shown(guess))
                     });
-                DatasetError::Table {
-                    place: Place::file(&self.path),
-                    problem: format!(
-                        "no column `{}`{guess}? the columns are {}",
-                        shown(name),
-                        known.join(", ")
-                    ),
-                }
+                table_error!(
+                    &self.path,
+                    "no column `{}`{guess}? the columns are {}",
+                    shown(name),
+                    known.join(", ")
+                )
             })
     }
 
@@ -171,10 +171,10 @@ impl CsvTable {
     /// The finite number in a cell, or `None` if it is empty.
     ///
     /// # Errors
-    /// [`DatasetError::Table`], naming the place, if it holds something else.
+    /// [`ImportError::Table`], naming the place, if it holds something else.
     /// # Panics
     /// If there is no such row or column.
-    pub fn number(&self, row: usize, column: usize) -> Result<Option<f64>, DatasetError> {
+    pub fn number(&self, row: usize, column: usize) -> Result<Option<f64>, ImportError> {
         parse_number(&self.text, self.block_of(row).cell(row, column))
             .ok_or_else(|| self.not_a_number(row, column))
     }
@@ -183,11 +183,12 @@ impl CsvTable {
     ///
     /// # Panics
     /// If there is no such row or column.
-    pub fn refuse(&self, row: usize, column: usize, expected: &str) -> DatasetError {
-        DatasetError::Table {
-            place: self.place(row, column),
-            problem: format!("`{}`: {expected}", shown(self.cell(row, column))),
-        }
+    pub fn refuse(&self, row: usize, column: usize, expected: &str) -> ImportError {
+        table_error!(
+            self.place(row, column),
+            "`{}`: {expected}",
+            shown(self.cell(row, column))
+        )
     }
 
     /// Place of a row (from 0) and column in the file, for messages.
@@ -230,15 +231,17 @@ impl CsvTable {
         &self.blocks[position]
     }
 
-    fn not_a_number(&self, row: usize, column: usize) -> DatasetError {
+    fn not_a_number(&self, row: usize, column: usize) -> ImportError {
         let cell = self.cell(row, column);
-        DatasetError::Table {
-            place: self.place(row, column),
-            problem: format!("`{}` {}", shown(cell), number::not_a_number(cell)),
-        }
+        table_error!(
+            self.place(row, column),
+            "`{}` {}",
+            shown(cell),
+            number::not_a_number(cell)
+        )
     }
 
-    fn check_names(&self) -> Result<(), DatasetError> {
+    fn check_names(&self) -> Result<(), ImportError> {
         let problem = if self.names.len() > limits::TABLE_COLUMNS {
             format!(
                 "{} columns, more than the {} that are accepted",
@@ -253,13 +256,12 @@ impl CsvTable {
                 None => return Ok(()),
             }
         };
-        Err(DatasetError::table(Place::line(&self.path, 1), problem))
+        Err(ImportError::table(Place::line(&self.path, 1), problem))
     }
 }
 
-fn as_text(path: &Path, mut bytes: Vec<u8>) -> Result<String, DatasetError> {
-    let refused =
-        |line: u64, problem: &str| DatasetError::table(Place::line(path, line), problem.to_owned());
+fn as_text(path: &Path, mut bytes: Vec<u8>) -> Result<String, ImportError> {
+    let refused = |line: u64, problem: &str| ImportError::table(Place::line(path, line), problem);
     let start = &bytes[..bytes.len().min(4_096)];
     let is_utf16 = start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff");
     let nothing = start.iter().position(|byte| *byte == 0);

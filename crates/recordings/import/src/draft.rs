@@ -14,12 +14,12 @@ mod views;
 
 use std::path::Path;
 
+use crate::error::ImportError;
 use crate::foreign::is_recording;
 use crate::layouts::Preset;
 use crate::source_folder::SourceFolder;
 use survey::FileGroup;
 use tables::SeenTable;
-use taceva_dataset::DatasetError;
 
 /// Limit of tables read for a draft.
 const TABLES: usize = 64;
@@ -42,8 +42,8 @@ impl MapDraft {
     /// Examines the files in `folder`: names, headers, 200 rows of each kind of table, the first picture of each array.
     ///
     /// # Errors
-    /// [`DatasetError::Io`] if the folder cannot be read; [`DatasetError::Request`] if nothing in it is a table or a picture.
-    pub fn of(folder: &Path) -> Result<MapDraft, DatasetError> {
+    /// [`ImportError::Dataset`] if the folder cannot be read, or nothing in it is a table or a picture.
+    pub fn of(folder: &Path) -> Result<MapDraft, ImportError> {
         let source = SourceFolder::open(folder)?;
         let groups = survey::groups(&source)?;
         let (pictures, others): (Vec<&FileGroup>, Vec<&FileGroup>) = groups
@@ -82,36 +82,37 @@ impl MapDraft {
         }
         let bare = groups.iter().find(|group| clips::is_clip(&group.ending));
         let most = pictures.iter().max_by_key(|group| group.paths.len());
-        let main = main_table(&source, &tables);
-        let array = main.filter(|main| most.is_some_and(|most| are_beside(&source, main, most)));
+        let main = main_table(&source, &groups, &tables);
+        let array =
+            main.filter(|main| most.is_some_and(|most| are_beside(&source, &groups, main, most)));
         notes.extend(array.map(notes::array_beside_pictures));
         let text = match main.filter(|_| array.is_none()) {
             Some(main) => {
                 let text = map_text::of_table(&source, &groups, main, &tables, &notes);
                 if let (Some(reason), true) = (main.unread.first(), is_empty(&text)) {
-                    return Err(DatasetError::Request {
-                        path: folder.to_owned(),
-                        problem: format!(
+                    return Err(ImportError::request(
+                        folder,
+                        format!(
                             "{} has no picture, no taxel and no number that may be a channel: {reason}",
                             main.group.first()
                         ),
-                    });
+                    ));
                 }
                 text
             }
             None => match most {
                 Some(group) => map_text::of_files(group, &notes),
                 None => {
-                    return Err(DatasetError::Request {
-                        path: folder.to_owned(),
-                        problem: match (notes.first(), bare) {
+                    return Err(ImportError::request(
+                        folder,
+                        match (notes.first(), bare) {
                             (Some(note), _) => {
                                 format!("nothing here can be read as a table: {note}")
                             }
                             (None, Some(bare)) => notes::bare_clips(bare),
                             (None, None) => "no table and no picture is in it".to_owned(),
                         },
-                    });
+                    ));
                 }
             },
         };
@@ -156,6 +157,7 @@ fn known_layout(folder: &Path, draft: &str) -> Option<&'static str> {
         true => {
             draft.contains("\n[columns]\n")
                 && !draft.contains("from = \"?\"")
+                && !draft.contains("cut = \"?\"")
                 && draft.contains("unit = \"")
         }
         false => preset.map(folder).is_ok(),
@@ -164,8 +166,13 @@ fn known_layout(folder: &Path, draft: &str) -> Option<&'static str> {
 }
 
 /// True if the pictures are the samples and `table` only accompanies them, such as a mean background.
-fn are_beside(folder: &SourceFolder, table: &SeenTable<'_>, pictures: &FileGroup) -> bool {
-    let has_pictures = !table.pictures.is_empty() || frames::file_column(folder, table).is_some();
+fn are_beside(
+    folder: &SourceFolder,
+    groups: &[FileGroup],
+    table: &SeenTable<'_>,
+    pictures: &FileGroup,
+) -> bool {
+    let has_pictures = frames::has_pictures(folder, groups, table);
     let is_other =
         table.is_single_array || (table.own_taxels().is_empty() && table.time().is_none());
     !has_pictures
@@ -178,6 +185,7 @@ fn are_beside(folder: &SourceFolder, table: &SeenTable<'_>, pictures: &FileGroup
 /// Table whose rows are the samples: prefers tables that name pictures, then tables of taxels, then the most channels.
 fn main_table<'t, 'g>(
     folder: &SourceFolder,
+    groups: &[FileGroup],
     tables: &'t [SeenTable<'g>],
 ) -> Option<&'t SeenTable<'g>> {
     let candidates = tables
@@ -186,10 +194,8 @@ fn main_table<'t, 'g>(
     candidates
         .filter(|table| table.rows > 0 && !table.columns.is_empty())
         .max_by_key(|table| {
-            let has_pictures =
-                !table.pictures.is_empty() || frames::file_column(folder, table).is_some();
             (
-                has_pictures,
+                frames::has_pictures(folder, groups, table),
                 !table.is_single_array && !table.own_taxels().is_empty(),
                 table.channels(),
                 table.group.paths.len(),

@@ -16,13 +16,15 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::Progress;
 
+use taceva_dataset::Dataset;
 use taceva_dataset::internal::{
     Cells, column_kind, staging::Place, staging::StagedFolder, write_durable,
 };
-use taceva_dataset::{Dataset, DatasetError};
 
 use content::Exported;
 use picture::Pictures;
+
+use crate::error::ImportError;
 
 pub use form::ExportForm;
 
@@ -102,13 +104,13 @@ impl<'a> ExportPlan<'a> {
     /// An export of `dataset` in `form`.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] if there is no sample.
-    pub fn new(dataset: &'a Dataset, form: ExportForm) -> Result<ExportPlan<'a>, DatasetError> {
+    /// [`ImportError::Dataset`] if there is no sample.
+    pub fn new(dataset: &'a Dataset, form: ExportForm) -> Result<ExportPlan<'a>, ImportError> {
         match dataset.table().rows() {
-            0 => Err(DatasetError::Request {
-                path: dataset.path().to_owned(),
-                problem: "no samples: there is nothing to export".to_owned(),
-            }),
+            0 => Err(ImportError::request(
+                dataset.path(),
+                "no samples: there is nothing to export",
+            )),
             _ => Ok(ExportPlan { dataset, form }),
         }
     }
@@ -120,14 +122,14 @@ impl<'a> ExportPlan<'a> {
     /// Each channel in the unit of the dataset, stated in the map.
     ///
     /// # Errors
-    /// [`DatasetError::TargetExists`]; [`DatasetError::Sample`] if the form cannot hold one as it is; [`DatasetError::Image`] and
-    /// [`DatasetError::Digest`] of a picture that is damaged; [`DatasetError::Cancelled`]; [`DatasetError::Io`]. After any of them `target` is absent.
+    /// [`ImportError::Dataset`] with `TargetExists`; `Sample` if the form cannot hold one as it is; `Image` and `Digest` of a picture that
+    /// is damaged; `Cancelled`; `Io`. After any of them `target` is absent.
     pub fn run(
         self,
         target: &Path,
         jobs: NonZeroUsize,
         progress: &dyn Progress,
-    ) -> Result<ExportReport, DatasetError> {
+    ) -> Result<ExportReport, ImportError> {
         let ExportPlan { dataset, form } = self;
         let table = dataset.table();
         let mut columns = table.columns();

@@ -16,6 +16,7 @@ mod members;
 mod messages;
 mod nested_tables;
 mod pictures;
+mod table_form;
 pub(crate) mod tar;
 mod webdataset;
 
@@ -25,26 +26,25 @@ use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
-use taceva_arrays::ArrayFormat;
-
-use crate::csv_table::text_form::TextForm;
+use crate::error::{ImportError, Place, table_error};
 use crate::frame_names::FrameNames;
 use crate::source_folder::SourceFolder;
 use taceva_core::nearest;
 use taceva_dataset::internal::{listed, shown};
-use taceva_dataset::{DatasetError, Place};
 use taceva_tables::{ArrowTable, DepthCodes, ParquetTable};
+use taceva_video::Decoders;
 
 pub(crate) use arrays::{ArrayPictures, stated};
 pub(crate) use clips::ClipPictures;
-pub(crate) use columns::{ColumnTable, PictureColumn, PictureKind, Stated};
+pub(crate) use columns::{BeforeCut, ColumnTable, PictureColumn, PictureKind, Stated};
 pub(crate) use delimited::DelimitedTable;
 pub(crate) use depth_pixels::DepthPixels;
 pub(crate) use file_series::SeveralPictures;
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
-pub(crate) use messages::{is_recording, topics};
+pub(crate) use messages::{Topics, is_recording};
 pub(crate) use pictures::{Picture, Pictures};
+pub(crate) use table_form::TableForm;
 
 /// Table of any form.
 #[derive(Debug)]
@@ -53,44 +53,6 @@ pub(crate) enum ForeignTable {
     Json(JsonRows),
     Files(FileRows),
     Columns(ColumnTable),
-}
-
-/// Form of a table.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum TableForm {
-    /// Cells between separators.
-    Delimited(TextForm),
-    /// JSON with a pointer to the rows: a step `*` matches each member, and the empty pointer is the whole value.
-    Json {
-        rows: Option<String>,
-    },
-    /// One JSON value per line.
-    JsonLines,
-    /// No table: each file is a row.
-    Files,
-    /// Arrays, with rows along the first axis. `rows` names a group, several groups with `*`, or a table in the file.
-    Arrays {
-        format: ArrayFormat,
-        rows: Option<String>,
-        /// True if the file is one row, with each array as a cell.
-        is_whole: bool,
-    },
-    Parquet,
-    /// Arrow stream or file.
-    Arrow,
-    /// Messages of one topic of a recording: MCAP, rosbag2 or a ROS 1 bag.
-    Messages {
-        topic: Option<String>,
-    },
-    /// LeRobot folder, version 2.1 or 3.0.
-    LeRobot,
-    /// WebDataset shard.
-    WebDataset,
-    /// Frames of a clip at `rate`, Hz, or at the times stated by the clip. The first frame is at `start_s`.
-    Clip {
-        rate: Option<f64>,
-        start_s: f64,
-    },
 }
 
 /// Error message about the file at `path`, without the path, which the outer error names.
@@ -102,7 +64,16 @@ pub(crate) fn said(path: &Path, error: &impl fmt::Display) -> String {
 
 impl ForeignTable {
     /// Reads the table at `path`.
-    pub(crate) fn read(path: &Path, form: &TableForm) -> Result<ForeignTable, DatasetError> {
+    pub(crate) fn read(path: &Path, form: &TableForm) -> Result<ForeignTable, ImportError> {
+        ForeignTable::read_by(path, form, &Decoders::default())
+    }
+
+    /// Reads the table at `path`, the times of a clip by `decoders`.
+    pub(crate) fn read_by(
+        path: &Path,
+        form: &TableForm,
+        decoders: &Decoders,
+    ) -> Result<ForeignTable, ImportError> {
         Ok(match form {
             TableForm::Delimited(form) => {
                 ForeignTable::Delimited(DelimitedTable::read(path, form)?)
@@ -121,15 +92,15 @@ impl ForeignTable {
             })?),
             TableForm::Clip { rate, start_s } => {
                 ForeignTable::Columns(ColumnTable::open(path, || {
-                    clip_rows::ClipRows::open(path, *rate, *start_s)
+                    clip_rows::ClipRows::open(path, *rate, *start_s, decoders)
                 })?)
             }
             TableForm::WebDataset => {
                 ForeignTable::Columns(ColumnTable::open(path, || webdataset::Shard::open(path))?)
             }
-            TableForm::Messages { topic } => {
+            TableForm::Messages { topic, is_to_cut } => {
                 ForeignTable::Columns(ColumnTable::open(path, || {
-                    messages::MessageRows::open(path, topic.as_deref())
+                    messages::MessageRows::open(path, topic.as_deref(), *is_to_cut)
                 })?)
             }
             TableForm::Arrays {
@@ -174,8 +145,8 @@ impl ForeignTable {
     /// Cell of a row (from 0) in the column called `name`, without surrounding blanks; empty if absent.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] if no row has such a column.
-    pub(crate) fn cell(&self, row: usize, name: &str) -> Result<Cow<'_, str>, DatasetError> {
+    /// [`ImportError::Table`] if no row has such a column.
+    pub(crate) fn cell(&self, row: usize, name: &str) -> Result<Cow<'_, str>, ImportError> {
         match self {
             ForeignTable::Delimited(table) => table.cell(row, name),
             ForeignTable::Json(table) if table.has(name) => Ok(table.cell(row, name)),
@@ -268,7 +239,7 @@ impl ForeignTable {
     }
 
     /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
-    pub(crate) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, DatasetError> {
+    pub(crate) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, ImportError> {
         match self {
             ForeignTable::Columns(table) => table.clips(key),
             _ => Ok(Vec::new()),
@@ -284,7 +255,7 @@ impl ForeignTable {
     }
 
     /// Reads columns in advance, if reading them together is faster.
-    pub(crate) fn read_ahead(&self, names: &[&str]) -> Result<(), DatasetError> {
+    pub(crate) fn read_ahead(&self, names: &[&str]) -> Result<(), ImportError> {
         match self {
             ForeignTable::Columns(table) => table.read_ahead(names),
             _ => Ok(()),
@@ -297,7 +268,7 @@ impl ForeignTable {
         folder: &SourceFolder,
         names: &[&str],
         into: &mut BTreeMap<String, u64>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let ForeignTable::Columns(table) = self else {
             return Ok(());
         };
@@ -348,24 +319,23 @@ impl ForeignTable {
     }
 
     /// Pictures of the rows, by row number.
-    pub(crate) fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, DatasetError> {
+    pub(crate) fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, ImportError> {
         match self {
             ForeignTable::Columns(table) => table.pictures(names),
-            _ => Err(DatasetError::Table {
-                place: Place::file(self.path()),
-                problem: "a table of this form holds no pictures: name picture files by `column` or `pattern`, or an array of another \
-                    file by `array = { file = \"…\" }`"
-                    .to_owned(),
-            }),
+            _ => Err(ImportError::table(
+                self.path(),
+                "a table of this form holds no pictures: name picture files by `column` or `pattern`, or an array of another \
+                    file by `array = { file = \"…\" }`",
+            )),
         }
     }
 
     /// Error for a missing column `name`. Lists the existing ones.
-    pub(crate) fn no_column(&self, name: &str) -> DatasetError {
+    pub(crate) fn no_column(&self, name: &str) -> ImportError {
         if let ForeignTable::Columns(table) = self
             && let Some(problem) = table.why_absent(name)
         {
-            return DatasetError::table(self.place(0, name).without_row(), problem);
+            return ImportError::table(self.place(0, name).without_row(), problem);
         }
         let names = self.names();
         let guess = nearest(name, names.iter().map(String::as_str));
@@ -376,10 +346,7 @@ impl ForeignTable {
             true => "the table has no columns of its own".to_owned(),
             false => format!("the columns are {}", listed(&names)),
         };
-        DatasetError::Table {
-            place: Place::file(self.path()),
-            problem: format!("no column `{}`{guess}? {known}", shown(name)),
-        }
+        table_error!(self.path(), "no column `{}`{guess}? {known}", shown(name))
     }
 }
 /// Adds the column `name` to `place`, unless it is empty.

@@ -5,10 +5,10 @@ use std::sync::OnceLock;
 
 use serde::Deserialize;
 
+use crate::error::ImportError;
 use crate::import::converter;
 use crate::import::source::has_match;
 use crate::source_folder::SourceFolder;
-use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{shown, shown_path};
 
 macro_rules! files {
@@ -191,8 +191,8 @@ impl Preset {
     /// Checks that the folder has everything the layout requires.
     ///
     /// # Errors
-    /// [`DatasetError::Path`] naming the missing file or folder and its place.
-    pub(crate) fn check(self, folder: &SourceFolder) -> Result<(), DatasetError> {
+    /// [`ImportError::Dataset`] naming the missing file or folder and its place.
+    pub(crate) fn check(self, folder: &SourceFolder) -> Result<(), ImportError> {
         let facts = self.facts();
         let is_there = |pattern: &String| has_match(folder.path(), pattern);
         let mut needs = facts.needs.iter();
@@ -205,17 +205,16 @@ impl Preset {
             (None, Some(remedy)) => format!("; {remedy}"),
             (None, None) => String::new(),
         };
-        Err(DatasetError::Path {
-            place: None,
-            written: missing.any_of.join("` or `"),
-            problem: format!(
+        Err(ImportError::path(
+            &missing.any_of.join("` or `"),
+            format!(
                 "preset {} expects {} there, and {} has none; the layout is {}{another}",
                 facts.name,
                 missing.what,
                 shown_path(folder.path()),
                 facts.layout
             ),
-        })
+        ))
     }
 }
 

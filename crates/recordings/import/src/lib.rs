@@ -3,6 +3,7 @@
 mod advice;
 mod csv_table;
 mod draft;
+mod error;
 mod export;
 mod foreign;
 mod frame_names;
@@ -19,6 +20,7 @@ pub use csv_table::CsvTable;
 pub use csv_table::parts::CsvParts;
 pub use csv_table::stream::CsvStream;
 pub use draft::MapDraft;
+pub use error::{ImportError, Place};
 pub use export::{ExportForm, ExportPlan, ExportReport, export_csv};
 pub use import::{
     Addition, ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames,

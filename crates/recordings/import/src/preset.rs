@@ -6,9 +6,9 @@ mod lines;
 
 use std::path::Path;
 
+use crate::error::ImportError;
 use crate::import::ImportMap;
 use crate::source_folder::SourceFolder;
-use taceva_dataset::DatasetError;
 
 use crate::layouts::{Fit, Preset};
 
@@ -16,7 +16,7 @@ impl Preset {
     /// Map for the folder at `source`, as `import --preset` uses it. Its comments state the verified facts. It may be printed and adapted.
     ///
     /// # Errors
-    /// [`DatasetError::Path`] naming the expected file if the folder has another layout; errors of reading the first table.
+    /// [`ImportError::Dataset`] naming the expected file if the folder has another layout; errors of reading the first table.
     ///
     /// ```
     /// use taceva_import::Preset;
@@ -29,7 +29,7 @@ impl Preset {
     /// assert!(text.contains(r#"Px = { from = "pose_x", unit = "mm" }"#));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn text(self, source: &Path) -> Result<String, DatasetError> {
+    pub fn text(self, source: &Path) -> Result<String, ImportError> {
         let folder = SourceFolder::open(source)?;
         self.check(&folder)?;
         match self.facts().fit {
@@ -42,7 +42,7 @@ impl Preset {
     ///
     /// # Errors
     /// As [`text`](Preset::text).
-    pub fn map(self, source: &Path) -> Result<ImportMap, DatasetError> {
+    pub fn map(self, source: &Path) -> Result<ImportMap, ImportError> {
         let name = format!("the map of preset {}", self.name());
         ImportMap::parse(name.as_ref(), &self.text(source)?)
     }

@@ -5,8 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{check_relative, layout, limits};
+
+use crate::error::ImportError;
 
 /// Foreign folder. Paths that leave it are rejected.
 #[derive(Clone, Debug)]
@@ -20,10 +21,8 @@ pub(crate) struct SourceFolder {
 }
 
 impl SourceFolder {
-    pub(crate) fn open(path: &Path) -> Result<SourceFolder, DatasetError> {
-        let canonical = path
-            .canonicalize()
-            .map_err(DatasetError::io("open", path))?;
+    pub(crate) fn open(path: &Path) -> Result<SourceFolder, ImportError> {
+        let canonical = path.canonicalize().map_err(ImportError::io("open", path))?;
         Ok(SourceFolder {
             given: path.to_owned(),
             canonical,
@@ -46,12 +45,8 @@ impl SourceFolder {
     }
 
     /// Path of the file `relative` to `base`, a folder inside this one.
-    pub(crate) fn file(&self, base: &Path, relative: &str) -> Result<PathBuf, DatasetError> {
-        let refused = |problem: &str| DatasetError::Path {
-            place: None,
-            written: relative.to_owned(),
-            problem: problem.to_owned(),
-        };
+    pub(crate) fn file(&self, base: &Path, relative: &str) -> Result<PathBuf, ImportError> {
+        let refused = |problem: &str| ImportError::path(relative, problem);
         if relative.is_empty() {
             return Err(refused(
                 "empty, expected a path relative to the folder; write `frames_named = [\"\"]` under [drop] to leave out rows without a \

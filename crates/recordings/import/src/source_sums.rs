@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::Progress;
 use taceva_dataset::internal::{layout, limits, open_regular, ordered_map, shown};
-use taceva_dataset::{Dataset, DatasetError, Digest, Place};
+use taceva_dataset::{Dataset, DatasetError, Digest};
 
+use crate::error::{ImportError, table_error};
 use crate::source_folder::{SourceFolder, files_below};
 
 /// Differences that a message names.
@@ -92,8 +93,8 @@ impl SourceSums {
     /// Reads a list as `sha256sum` writes it.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] naming the line that is none; [`DatasetError::Io`].
-    pub fn read(list: &Path) -> Result<SourceSums, DatasetError> {
+    /// [`ImportError::Table`] naming the line that is none; [`ImportError::Dataset`] if it cannot be read.
+    pub fn read(list: &Path) -> Result<SourceSums, ImportError> {
         let bytes = taceva_dataset::internal::read_capped(list, limits::SOURCES_BYTES)?;
         let text = taceva_dataset::internal::utf8(list, bytes)?;
         SourceSums::parse(list, &text)
@@ -103,26 +104,26 @@ impl SourceSums {
     ///
     /// # Errors
     /// Errors of [`Dataset::source_sums`].
-    pub fn of_dataset(dataset: &Dataset) -> Result<Option<SourceSums>, DatasetError> {
+    pub fn of_dataset(dataset: &Dataset) -> Result<Option<SourceSums>, ImportError> {
         let list = dataset.path().join(layout::SOURCES);
         let text = dataset.source_sums()?;
         text.map(|text| SourceSums::parse(&list, &text)).transpose()
     }
 
-    fn parse(list: &Path, text: &str) -> Result<SourceSums, DatasetError> {
+    fn parse(list: &Path, text: &str) -> Result<SourceSums, ImportError> {
         let mut folders = vec![BTreeMap::new()];
         for (number, line) in text.lines().enumerate() {
             if line.starts_with('#') {
                 folders.push(BTreeMap::new());
                 continue;
             }
-            let (name, digest) = entry(line).ok_or_else(|| DatasetError::Table {
-                place: Place::file(list),
-                problem: format!(
+            let (name, digest) = entry(line).ok_or_else(|| {
+                table_error!(
+                    list,
                     "line {}: `{}` is not a line of sha256sum; expected 64 hexadecimal digits, two spaces and a name: write the list with `sha256sum FILES > SHA256SUMS`",
                     number + 1,
                     shown(line)
-                ),
+                )
             })?;
             let folder = folders.last_mut().expect("one from the beginning");
             folder.insert(name, digest);
@@ -137,13 +138,13 @@ impl SourceSums {
     /// Differences of the named files in `folder`. If rows were added from several folders, compares with the most similar one.
     ///
     /// # Errors
-    /// [`DatasetError::Io`] if a file cannot be read; [`DatasetError::Cancelled`].
+    /// [`ImportError::Dataset`] if a file cannot be read, or the work was cancelled.
     pub fn differences(
         &self,
         folder: &Path,
         jobs: NonZeroUsize,
         progress: &dyn Progress,
-    ) -> Result<Vec<SourceDifference>, DatasetError> {
+    ) -> Result<Vec<SourceDifference>, ImportError> {
         let names = self.folders.iter().flat_map(BTreeMap::keys);
         let names: Vec<&String> = names.collect();
         let paths: Vec<PathBuf> = names.iter().map(|name| folder.join(name)).collect();
@@ -176,7 +177,7 @@ impl SourceSums {
         folder: &Path,
         jobs: NonZeroUsize,
         progress: &dyn Progress,
-    ) -> Result<Vec<SourceDifference>, DatasetError> {
+    ) -> Result<Vec<SourceDifference>, ImportError> {
         let mut differences = self.differences(folder, jobs, progress)?;
         let own = self.list.canonicalize().ok();
         for path in files_below(folder) {
@@ -193,13 +194,13 @@ impl SourceSums {
     /// Refuses `folder` unless it is as the list says, file by file.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] naming the files that differ; those of [`differences_of_all`](SourceSums::differences_of_all).
+    /// [`ImportError::Dataset`] naming the files that differ; those of [`differences_of_all`](SourceSums::differences_of_all).
     pub fn verify(
         &self,
         folder: &Path,
         jobs: NonZeroUsize,
         progress: &dyn Progress,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let differences = self.differences_of_all(folder, jobs, progress)?;
         if differences.is_empty() {
             return Ok(());
@@ -212,14 +213,14 @@ impl SourceSums {
         if differences.len() > NAMED {
             named.push(format!("and {} more", differences.len() - NAMED));
         }
-        Err(DatasetError::Request {
-            path: folder.to_owned(),
-            problem: format!(
+        Err(ImportError::request(
+            folder,
+            format!(
                 "differs from {}: {}; copy the recording again, or write a new list if the files are right",
                 shown(&self.list.to_string_lossy()),
                 named.join("; ")
             ),
-        })
+        ))
     }
 
     /// Number of files that are named.
@@ -233,7 +234,7 @@ pub(crate) fn list_of(
     folder: &SourceFolder,
     jobs: NonZeroUsize,
     progress: &dyn Progress,
-) -> Result<String, DatasetError> {
+) -> Result<String, ImportError> {
     let mut paths: Vec<PathBuf> = folder.files_read();
     paths.retain(|path| path.to_str().is_some());
     let found = digests(&paths, jobs, progress)?;
@@ -272,20 +273,20 @@ fn digests(
     paths: &[PathBuf],
     jobs: NonZeroUsize,
     progress: &dyn Progress,
-) -> Result<Vec<Option<Digest>>, DatasetError> {
+) -> Result<Vec<Option<Digest>>, ImportError> {
     let mut digests = Vec::with_capacity(paths.len());
-    let digest = |item: usize| -> Result<Option<Digest>, DatasetError> {
+    let digest = |item: usize| -> Result<Option<Digest>, ImportError> {
         let path = &paths[item];
         if !path.is_file() {
             return Ok(None);
         }
         let (mut file, _) = open_regular(path, u64::MAX)?;
         let digest = Digest::of_reader(&mut file);
-        digest.map(Some).map_err(DatasetError::io("read", path))
+        digest.map(Some).map_err(ImportError::io("read", path))
     };
     ordered_map(paths.len(), jobs, digest, |_, digest| {
         if progress.is_cancelled() {
-            return Err(DatasetError::Cancelled);
+            return Err(ImportError::from(DatasetError::Cancelled));
         }
         digests.push(digest?);
         Ok(())

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
-use taceva_import::{ImportMap, ImportPlan, MapDraft, Preset};
+use taceva_import::{ImportError, ImportMap, ImportPlan, MapDraft, Preset};
 
 fn data(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -128,19 +128,96 @@ fn a_bag_whose_frames_change_and_one_that_is_cut_are_refused_with_the_remedy() {
     }
 
     fs::write(&path, &bytes[..bytes.len() / 2]).expect("written");
-    let problem = MapDraft::of(folder.path()).expect_err("cut").to_string();
+    let draft = MapDraft::of(folder.path()).expect("before the cut");
+    let table = "{ file = \"none.bag\", cut = \"?\", rows = \"/ft\" }";
+    let draft = draft.text();
     assert!(
-        problem.contains("cut short") && problem.contains("rosbag reindex"),
-        "{problem}"
+        draft.contains(table) && draft.contains("# The recording was cut or not closed."),
+        "{draft}"
     );
-    let map = "map_version = 2\ntable = { file = \"none.bag\", rows = \"/ft\" }\n[columns]\nFz = { from = \"wrench.force.z\", unit = \"N\" }\n[time]\nclock = \"unknown\"\n\
-               [sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n";
-    let map = ImportMap::parse("map.toml".as_ref(), map).expect("a map");
-    let problem = ImportPlan::new(folder.path(), &map)
-        .expect_err("cut")
-        .to_string();
+    assert!(!draft.contains("--preset"), "{draft}");
+
+    let refused = |map: &str| {
+        let planned = of_ft(folder.path(), map);
+        planned.expect_err("refused").to_string()
+    };
+    let problem = refused("rows = \"/ft\"");
+    for word in [
+        "none.bag",
+        "complete messages are before the cut",
+        "rosbag reindex",
+        "`cut = \"keep\"`",
+    ] {
+        assert!(problem.contains(word), "no `{word}` in {problem}");
+    }
+    assert_eq!(refused("cut = \"refuse\", rows = \"/ft\""), problem);
+    let open = refused("cut = \"?\", rows = \"/ft\"");
+    assert!(open.contains("`cut = \"?\"`, expected \"keep\""), "{open}");
+}
+
+/// The plan of an import of the forces in `none.bag`, with these keys of its table.
+fn of_ft(folder: &Path, keys: &str) -> Result<ImportPlan, ImportError> {
+    let map = format!(
+        "map_version = 2\ntable = {{ file = \"none.bag\", {keys} }}\n[columns]\nFz = {{ from = \"wrench.force.z\", unit = \"N\" }}\n\
+         [time]\nclock = \"unknown\"\n\
+         [sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n"
+    );
+    ImportPlan::new(folder, &ImportMap::parse("map.toml".as_ref(), &map)?)
+}
+
+#[test]
+fn messages_before_a_cut_are_imported_by_a_key_of_the_map_with_a_warning() {
+    let folder = lab("bags/none.bag");
+    let path = folder.path().join("none.bag");
+    let bytes = fs::read(&path).expect("there");
+    fs::write(&path, &bytes[..bytes.len() * 2 / 3]).expect("written");
+    let plan = of_ft(folder.path(), "rows = \"/ft\", cut = \"keep\"").expect("a plan");
+    let rows = plan.summary().rows_kept;
+    assert!((1..8).contains(&rows), "{rows}");
+    let warnings: Vec<String> = plan
+        .summary()
+        .warnings
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
     assert!(
-        problem.contains("none.bag") && problem.contains("rosbag reindex"),
+        warnings[0].starts_with("cut-recording: none.bag was cut or not closed: its "),
+        "{warnings:?}"
+    );
+    let target = tempfile::tempdir().expect("a folder");
+    let target = target.path().join("dataset");
+    plan.run(&target, NonZeroUsize::MIN, &SilentProgress)
+        .expect("imported");
+    let dataset = Dataset::open(&target).expect("a dataset");
+    assert_eq!(dataset.header().warnings, warnings);
+    let forces: Vec<f64> = dataset
+        .table()
+        .as_text("Fz")
+        .expect("a column")
+        .into_iter()
+        .flatten()
+        .map(|cell| cell.parse().expect("a number"))
+        .collect();
+    let whole = [0.0, 1.0, 1.5, 2.5, 3.0, 4.0, 4.5, 5.5];
+    assert_eq!(forces, whole[..forces.len()]);
+    assert_eq!(forces.len() as u64, rows);
+    // A whole recording is read as without the key.
+    fs::write(&path, &bytes).expect("written");
+    let plan = of_ft(folder.path(), "rows = \"/ft\", cut = \"keep\"").expect("a plan");
+    assert_eq!(plan.summary().rows_kept, 8);
+    assert!(plan.summary().warnings.is_empty());
+}
+
+#[test]
+fn the_key_of_a_cut_is_for_recordings_of_messages_alone() {
+    let map = "map_version = 2\ntable = { file = \"a.csv\", cut = \"keep\" }\n[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n\
+               [time]\nclock = \"unknown\"\n\
+               [sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n";
+    let problem = ImportMap::parse("map.toml".as_ref(), map).expect_err("refused");
+    let problem = problem.to_string();
+    assert!(
+        problem.contains("`cut` is for recordings of messages alone"),
         "{problem}"
     );
 }

@@ -5,8 +5,8 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use taceva_core::{PixelFormat, SilentProgress};
-use taceva_dataset::{Dataset, DatasetError};
-use taceva_import::{ImportMap, ImportPlan};
+use taceva_dataset::Dataset;
+use taceva_import::{ImportError, ImportMap, ImportPlan};
 
 const MAP: &str = r#"
 map_version = 2
@@ -30,7 +30,7 @@ fn fixture(name: &str) -> PathBuf {
 }
 
 /// Imports a folder with `bytes` as its only picture.
-fn import(bytes: &[u8], order: &str) -> Result<(tempfile::TempDir, Dataset), DatasetError> {
+fn import(bytes: &[u8], order: &str) -> Result<(tempfile::TempDir, Dataset), ImportError> {
     let lab = tempfile::tempdir().expect("a folder");
     std::fs::create_dir(lab.path().join("lab")).expect("made");
     std::fs::write(lab.path().join("lab/a.tif"), bytes).expect("written");

@@ -43,7 +43,7 @@ struct Shown {
     jpeg: Option<Arc<[u8]>>,
     overlay: Option<Arc<Overlay>>,
     sight: Option<Sight>,
-    /// Time of the last sight.
+    /// Time of the last saturation and sharpness measurement.
     looked: Option<Instant>,
 }
 

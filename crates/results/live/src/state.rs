@@ -1,4 +1,4 @@
-//! State of the page besides frames.
+//! State of the page without frames.
 
 use serde::Serialize;
 use taceva_protocol::{Answer, Question};
@@ -143,7 +143,7 @@ pub(crate) struct Asked {
     pub(crate) done: String,
     /// True if the question can be skipped.
     pub(crate) can_skip: bool,
-    /// A picture of what to mount, as SVG.
+    /// A picture of the specimen to mount, as SVG.
     pub(crate) picture: Option<String>,
     #[serde(skip)]
     pub(crate) answer: Option<Answer>,

@@ -4,7 +4,7 @@
 mod support;
 
 use divan::{Bencher, black_box};
-use taceva_report::{Report, report};
+use taceva_report::{ReportPage, report};
 use taceva_results::Samples;
 
 fn main() {
@@ -16,7 +16,7 @@ fn main() {
 fn page(bencher: Bencher<'_, '_>, samples: usize) {
     let studies = [support::drawn("drawn", samples, 1.0)];
     bencher.bench(|| {
-        report(&Report {
+        report(&ReportPage {
             title: "drawn",
             studies: black_box(&studies),
             pictures: &[],

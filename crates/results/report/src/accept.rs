@@ -71,7 +71,7 @@ pub enum LimitsError {
 
 /// Result of checking one limit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Finding {
+pub struct LimitCheck {
     /// Checked limit.
     pub limit: Limit,
     /// Value of the score, if there is one.
@@ -149,7 +149,7 @@ impl LimitsFile {
 }
 
 /// Checks each limit on the scores of `study`, in the order of the limits. A missing score or value breaks its limit.
-pub fn accept(study: &Study, limits: &LimitsFile) -> Vec<Finding> {
+pub fn accept(study: &Study, limits: &LimitsFile) -> Vec<LimitCheck> {
     limits
         .limits
         .iter()
@@ -157,8 +157,8 @@ pub fn accept(study: &Study, limits: &LimitsFile) -> Vec<Finding> {
         .collect()
 }
 
-fn hold(study: &Study, limit: &Limit) -> Finding {
-    let mut finding = Finding {
+fn hold(study: &Study, limit: &Limit) -> LimitCheck {
+    let mut finding = LimitCheck {
         limit: limit.clone(),
         value: None,
         ends: None,

@@ -1,6 +1,8 @@
 //! Model benchmarks as table rows.
 
+use taceva_core::counted;
 use taceva_metrics::Better;
+use taceva_results::not_measured;
 
 use crate::number::{FormattedValue, numeral};
 use crate::results::{ModelBench, ModelRow};
@@ -35,15 +37,12 @@ impl ModelBench {
         for row in &self.rows {
             table.push(row.cells(&channels));
         }
-        if self.is_simulated() {
-            let source = &recording.source;
-            table.note(format!(
-                "Nothing here was measured: the samples are {source}."
-            ));
+        if let Some(words) = not_measured([recording.source.as_str()]) {
+            table.note(words);
         }
         table.note(format!(
-            "Fitted on {} samples, scored on {}, split {}; {}, {} of {} cores. Intervals of 95 % by contact point.",
-            recording.train, recording.test, recording.split, self.machine.cpu, self.machine.threads, self.machine.cores
+            "Fitted on {}, scored on {}, split {}; {}, {} of {}. Intervals of 95 % by contact point.",
+            counted(recording.train, "sample"), recording.test, recording.split, self.machine.cpu, self.machine.threads, counted(self.machine.cores, "core")
         ));
         table.note(
             "front of: channels on which every model that takes less processor time to fit is shown, pair by pair, to have a larger error.",

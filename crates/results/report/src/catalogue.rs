@@ -120,7 +120,7 @@ mod tests {
         for name in ["ViTacTip", "MagicTac", "GelSight", "GelSightWM"] {
             let sensor = find(name).expect("there");
             for metric in ["mae", "r2", "smape", "r_spatial"] {
-                for channel in ["Pxy", "Pz", "Fxy", "Fz"] {
+                for channel in crate::variables::VARIABLES {
                     assert!(
                         sensor.result(metric, channel).is_some(),
                         "{name} {metric} {channel}"

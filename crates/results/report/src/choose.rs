@@ -99,7 +99,7 @@ pub struct Dropped {
 ///
 /// A hard need drops every sensor whose number breaks it, and sets apart those whose number is unknown. A score without a part in verdicts
 /// bars the sensor from ranking. Studies of sensors are skipped. A soft need ranks the remaining sensors by the mean share of the best over
-/// its numbers; an unknown number counts as 0. A sensor without any number for a soft need is not ranked. The rank is the mean over soft
+/// its numbers. A sensor without one of these numbers is not ranked, as nothing is known to take its place. The rank is the mean over soft
 /// needs. Equal sensors share a place, in order of their names.
 ///
 /// ```
@@ -237,13 +237,10 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     unproven.next()
 }
 
-/// Properties of the soft needs for which no number of `sensor` is known.
+/// Properties of the soft needs of which no number of `sensor` is known.
 fn unplaced(sensor: &Sensor, needs: &[Need]) -> Option<String> {
-    let is_unknown = |property: &Property| property.of(sensor).is_none();
-    let unknown = needs
-        .iter()
-        .filter(|need| need.ranks.iter().all(is_unknown));
-    let unknown = unknown.flat_map(|need| &need.ranks);
+    let ranks = needs.iter().flat_map(|need| &need.ranks);
+    let unknown = ranks.filter(|property| property.of(sensor).is_none());
     let unknown: Vec<String> = unknown.map(Property::to_string).collect();
     (!unknown.is_empty()).then(|| format!("no known {}", listed(&unknown)))
 }
@@ -270,7 +267,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
         for property in &need.ranks {
             let value = property.of(sensor);
             let share = value.and_then(|value| property.share(value, remaining));
-            of_need.push(share.unwrap_or(0.0));
+            of_need.extend(share);
             steps.push(Step {
                 need: need.words.clone(),
                 property: *property,

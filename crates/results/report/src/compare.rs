@@ -6,25 +6,27 @@ mod overview;
 mod paired;
 mod remarks;
 mod render;
+mod request;
 mod ties;
 
 pub(crate) use overview::QUESTIONS;
 pub use overview::{Decision, OVERVIEW_LINES, OVERVIEW_WIDTH};
 pub use render::COMPARISON_SCHEMA;
+pub use request::RequestError;
 pub use ties::ties;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::Unit;
 use taceva_metrics::{
-    Better, ComparisonError, Difference, Question, Side, Sides, Standing, Verdict, by_intervals,
-    decide,
+    Better, ComparisonError, Difference, Estimate, Question, Side, Sides, Standing, Verdict,
+    by_intervals, catalogue, decide,
 };
 
 use crate::names::listed;
 use crate::results::Study;
 use remarks::Remarks;
-use taceva_results::Score;
+use taceva_results::{Score, not_measured};
 
 /// Options of a comparison.
 #[derive(Clone, Debug, Default)]
@@ -48,6 +50,8 @@ pub struct Comparison {
     pub notes: Vec<String>,
     /// Remarks on the verdicts, by score.
     asides: Vec<Remarks>,
+    /// Metrics that the request names.
+    asked: Vec<String>,
 }
 
 /// Comparison of one score between two studies.
@@ -152,6 +156,9 @@ struct Pair<'a> {
 /// scores are compared by their intervals, on their own scales. The pairs and channels of one metric form one family of Holm's procedure,
 /// which yields verdict, p value and interval of an answer.
 ///
+/// If a model was trained several times, the variance of the score between trainings is added to that between clusters. Predictions of the
+/// same samples are then compared by Student's t: signs of clusters do not show how another training would have scored.
+///
 /// If a metric names a variant for verdicts (`excess` of `r_spatial`, `debiased` of `uniformity`, `pooled` of `repeatability`), the answers
 /// compare and contain that variant.
 pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
@@ -174,25 +181,41 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
         asides: asides(studies, &names, &answers),
         notes: comparability::notes(studies, &names)
             .into_iter()
-            .chain(simulated(studies))
+            .chain(unmeasured(studies))
             .chain(trainings(&names, &answers))
             .chain(unpaired)
+            .chain(unknown(studies, request))
             .collect(),
         names,
         answers,
+        asked: request.metrics.clone(),
     }
 }
 
-/// Note that some or all samples are simulated.
-fn simulated(studies: &[Study]) -> Option<String> {
-    let simulated = studies.iter().filter(|study| study.is_simulated()).count();
-    match simulated {
-        0 => None,
-        _ if simulated == studies.len() => {
-            Some("the samples are simulated: nothing here was measured".to_owned())
+/// Note that some or all samples were not measured.
+fn unmeasured(studies: &[Study]) -> Option<String> {
+    let words = not_measured(studies.iter().map(|study| study.source.as_str()))?;
+    Some(words.trim_end_matches('.').to_owned())
+}
+
+/// Note on metrics of several studies that no comparison includes, because the catalogue has no direction for them.
+fn unknown(studies: &[Study], request: &CompareRequest) -> Option<String> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for study in studies {
+        let metrics = study.scores.iter().map(|score| score.metric.as_str());
+        let unknown = metrics.filter(|metric| catalogue::find(metric).is_none());
+        for metric in unknown.collect::<BTreeSet<&str>>() {
+            *counts.entry(metric).or_default() += 1;
         }
-        _ => Some("some of the samples are simulated and were not measured".to_owned()),
     }
+    let shared = counts.into_iter().filter(|(_, count)| *count > 1);
+    let shared: Vec<String> = shared.map(|(metric, _)| metric.to_owned()).collect();
+    (request.metrics.is_empty() && !shared.is_empty()).then(|| {
+        format!(
+            "{} not compared: this version of taceva does not know which values are better",
+            listed(&shared)
+        )
+    })
 }
 
 /// Note on differences that depend on a single training of a model with a random seed, with the way to try other seeds.
@@ -297,8 +320,18 @@ fn difference(
             )
         }),
     };
-    let difference = estimate::of_both(scores)
-        .and_then(|both| by_intervals(both).map_err(|error| error.to_string()));
+    let difference = estimate::of_both(scores).and_then(|both| {
+        let over_trainings =
+            |estimate: Estimate, study: &Study, score: &Score| match study.trainings(score) {
+                Some(spread) => estimate.over_trainings(spread),
+                None => estimate,
+            };
+        let both = Sides {
+            a: over_trainings(both.a, studies.a, scores.a),
+            b: over_trainings(both.b, studies.b, scores.b),
+        };
+        by_intervals(both).map_err(|error| error.to_string())
+    });
     (difference, unpaired)
 }
 
@@ -357,8 +390,8 @@ fn answer(pair: Pair<'_>, studies: &[Study], request: &CompareRequest) -> Answer
             b: pair.scores.b.standing,
         },
         one_training: Sides {
-            a: studies[pair.sides.a].is_one_training(metric),
-            b: studies[pair.sides.b].is_one_training(metric),
+            a: studies[pair.sides.a].is_one_training(pair.scores.a),
+            b: studies[pair.sides.b].is_one_training(pair.scores.b),
         },
     }
 }

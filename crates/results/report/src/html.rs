@@ -29,15 +29,16 @@ pub use triple::Triple;
 pub(crate) use triple::cards as triples;
 
 use maud::{Markup, html};
+use taceva_core::counted;
 
 use crate::figures::figures as all_figures;
-use crate::markup::{counted, fold, folded_glossary};
+use crate::markup::{fold, folded_glossary};
 use crate::results::Study;
 use crate::scores::ScoreTable;
 
 /// Content of a report.
 #[derive(Clone, Copy, Debug)]
-pub struct Report<'a> {
+pub struct ReportPage<'a> {
     /// Title of the page: name of the scene or the recording.
     pub title: &'a str,
     /// Results.
@@ -52,7 +53,7 @@ pub struct Report<'a> {
 ///
 /// The page opens from disk without external requests. Its content security policy allows only its own style and script, by their digests.
 /// Equal results give equal bytes.
-pub fn report(report: &Report<'_>) -> String {
+pub fn report(report: &ReportPage<'_>) -> String {
     let studies = report.studies;
     if studies.is_empty() {
         let mut document = Document::new(report.title, Markup::default());
@@ -101,7 +102,7 @@ pub fn report(report: &Report<'_>) -> String {
 fn details(studies: &[Study], table: &ScoreTable) -> Markup {
     let named = table.rows.iter().map(|row| row.metric.as_str());
     let (count, left_out) = left_out::section(studies);
-    let entries = counted(count, "entry").replace("entrys", "entries");
+    let entries = counted(count, "entry");
     let provenance = provenance::section(studies, table);
     let holds = "digests, settings, seeds, and methods of intervals";
     html! {

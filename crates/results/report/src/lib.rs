@@ -22,10 +22,12 @@ mod spread;
 mod table;
 mod tables_page;
 mod tie;
+mod variables;
 mod wrap;
 
 pub use accept::{
-    ACCEPTANCE_SCHEMA, Acceptance, Finding, Limit, LimitsError, LimitsFile, accept, limits_template,
+    ACCEPTANCE_SCHEMA, Acceptance, Limit, LimitCheck, LimitsError, LimitsFile, accept,
+    limits_template,
 };
 pub use choose::{
     Bound, CHOICE_SCHEMA, Candidate, Choice, Dropped, Evidence, Need, NeedError, Property, Step,
@@ -33,14 +35,14 @@ pub use choose::{
 };
 pub use compare::{
     Answer, COMPARISON_SCHEMA, CompareRequest, Comparison, Decision, OVERVIEW_LINES,
-    OVERVIEW_WIDTH, compare, ties,
+    OVERVIEW_WIDTH, RequestError, compare, ties,
 };
 pub use escape::{latex as escape_latex, markdown as escape_markdown, terminal as escape_terminal};
 pub use figure::{DARK, Figure, FigureStyle, LIGHT, SERIES, STYLE};
 pub use figures::{
     Race, RacePoint, StudyFigures, figures, figures_for, model_bench, race, study_figures, undrawn,
 };
-pub use html::{Pick, Picture, Report, Triple, picks, report};
+pub use html::{Pick, Picture, ReportPage, Triple, picks, report};
 pub use names::names;
 pub use number::{FormattedValue, spaced, with_interval};
 pub use paper::{PaperForm, paper_form};

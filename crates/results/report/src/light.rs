@@ -1,5 +1,6 @@
 //! Effect of light on the errors of a sensor: the scenes of its lighting robustness, in numbers and words.
 
+use taceva_core::by_count;
 use taceva_metrics::{Flag, Standing};
 
 use crate::number::numeral;
@@ -56,10 +57,7 @@ impl Light {
     /// `errors become 66 to 325 times as large in the lit scenes`
     fn errors(&self) -> Option<String> {
         let [low, high] = crate::figure::extent(self.scenes.iter().filter_map(|of| of.error))?;
-        let scenes = match self.scenes.len() {
-            1 => "scene",
-            _ => "scenes",
-        };
+        let scenes = by_count(self.scenes.len(), "scene", "scenes");
         let times = range(low, high);
         Some(format!(
             "errors of unbounded predictions become {times} times as large in the lit {scenes}"

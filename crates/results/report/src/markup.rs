@@ -4,6 +4,6 @@ mod fold;
 mod glossary;
 mod pieces;
 
-pub(crate) use fold::{counted, fold};
+pub(crate) use fold::fold;
 pub(crate) use glossary::{folded_glossary, glossary, metric_link, score_link};
 pub(crate) use pieces::{filter, heads, right_heads, scroll, terms};

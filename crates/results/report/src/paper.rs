@@ -2,11 +2,14 @@
 
 mod beside;
 mod contradictions;
+mod figures;
 mod tables;
 
+use crate::figures::StudyFigures;
 use crate::results::Study;
 use crate::scores::ScoreTable;
 use crate::table::{Layout, Table};
+use beside::SENSORS;
 
 /// The tables of a run in the form of the TacEva study.
 ///
@@ -24,11 +27,13 @@ pub struct PaperForm {
     pub tables: Vec<(String, Table)>,
     /// The tables that no result has a value for, each with its reason.
     pub absent: Vec<(String, String)>,
+    /// The numbers that the study prints in figures beside ours, each with the name of its figure: `figure-3c`.
+    pub figures: Vec<(String, Table)>,
     /// Places in which the study contradicts itself.
     pub contradictions: Vec<String>,
 }
 
-/// The tables I to V of the study, of the sensors in `studies`: those that it measured first, in its order.
+/// The tables I to V of the study and the numbers of its figures, of the sensors in `studies`: those that it measured first, in its order.
 pub fn paper_form(studies: &[Study]) -> PaperForm {
     let ordered = in_order(studies);
     let scores = ScoreTable::of(&ordered);
@@ -40,15 +45,13 @@ pub fn paper_form(studies: &[Study]) -> PaperForm {
             None => form.absent.push((name, format!("needs {}", made.needs))),
         }
     }
+    form.figures = figures::all(&ordered, &scores);
     form.contradictions = match form.tables.is_empty() {
         true => Vec::new(),
         false => contradictions::all(),
     };
     form
 }
-
-/// The sensors that the study measured, in the order of its tables.
-const SENSORS: [&str; 4] = ["ViTacTip", "MagicTac", "GelSight", "GelSightWM"];
 
 /// The studies, those of sensors of the paper first.
 fn in_order(studies: &[Study]) -> Vec<Study> {
@@ -62,11 +65,12 @@ fn in_order(studies: &[Study]) -> Vec<Study> {
 }
 
 impl PaperForm {
-    /// Every table and every contradiction as one text of LaTeX.
+    /// Every table, that of figures too, and every contradiction as one text of LaTeX.
     pub fn latex(&self) -> String {
         let tables = self
             .tables
             .iter()
+            .chain(&self.figures)
             .map(|(_, table)| table.latex(Layout::Float));
         let mut out: String = tables.collect::<Vec<_>>().join("\n");
         for said in &self.contradictions {
@@ -75,7 +79,33 @@ impl PaperForm {
         out
     }
 
-    /// The same as Markdown.
+    /// The figures of the study as Markdown: each that is drawn with its caption and the printed numbers, and the reasons of the others.
+    /// Pictures are SVG files beside the text.
+    pub fn markdown_of(&self, figures: &StudyFigures) -> String {
+        let mut out = String::new();
+        for figure in &figures.drawn {
+            let [title, caption] =
+                [&figure.title, &figure.caption].map(|text| crate::escape::markdown(text));
+            out += &format!(
+                "## {title}\n\n![{title}]({}.svg)\n\n{caption}\n\n",
+                figure.id
+            );
+            let mut numbers = self.figures.iter();
+            if let Some((_, table)) = numbers.find(|(name, _)| *name == figure.id) {
+                let caption = crate::escape::markdown(&table.caption);
+                out += &format!("**{caption}**\n\n{}\n", table.markdown());
+            }
+        }
+        if !figures.drawn.is_empty() {
+            out += &format!("{}\n", figures::UNPRINTED);
+        }
+        for (name, reason) in &figures.absent {
+            out += &format!("\n{name} is absent: {reason}\n");
+        }
+        out
+    }
+
+    /// The tables and contradictions as Markdown.
     pub fn markdown(&self) -> String {
         let mut out = String::new();
         for (_, table) in &self.tables {

@@ -11,7 +11,7 @@ pub use model_bench::{
 };
 pub(crate) use standing::by_published_r2;
 
-use taceva_metrics::catalogue;
+use taceva_metrics::{TrainingSpread, catalogue};
 use taceva_results::{EvaluationReport, OverSeeds, Provenance, ResultsError, Samples, Score, Skip};
 
 /// Definition of numbers published without one.
@@ -148,11 +148,23 @@ impl Study {
         scores.filter(move |score| score.metric == metric)
     }
 
-    /// True if scores of `metric` depend on a single training of a model with a random seed.
-    pub(crate) fn is_one_training(&self, metric: &str) -> bool {
-        let reads = catalogue::find(metric).is_some_and(|metric| metric.reads_predictions());
+    /// Spread of `score`, one of [`deciding`](Study::deciding), between the trainings of its model; `None` if fewer than two have it.
+    pub(crate) fn trainings(&self, score: &Score) -> Option<TrainingSpread> {
+        let name = match score.decided_by() {
+            Some(variant) => format!("{}.{}", score.metric, variant.name),
+            None => score.metric.clone(),
+        };
+        let mut scores = self.over_seeds.as_ref()?.scores.iter();
+        let found = scores.find(|of| of.metric == name && of.channel == score.channel)?;
+        let known: Vec<f64> = found.values.iter().copied().flatten().collect();
+        TrainingSpread::of_one(&known)
+    }
+
+    /// True if `score` depends on a single training of a model with a random seed.
+    pub(crate) fn is_one_training(&self, score: &Score) -> bool {
+        let reads = catalogue::find(&score.metric).is_some_and(|metric| metric.reads_predictions());
         let draws = self.made.settings.iter().any(|(key, _)| key == "seed");
-        reads && draws && self.over_seeds.is_none()
+        reads && draws && self.trainings(score).is_none()
     }
 
     /// True if its samples are simulated or synthetic, without a real sensor.

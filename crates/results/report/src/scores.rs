@@ -11,7 +11,7 @@ mod values;
 pub(crate) use mark::{BARRED, sign};
 
 use taceva_core::Unit;
-use taceva_metrics::{Standing, catalogue};
+use taceva_metrics::{Standing, catalogue, plane_of};
 
 use crate::compare::{Answer, CompareRequest, compare};
 use crate::number::{FormattedValue, fixed};
@@ -124,17 +124,13 @@ impl ScoreTable {
     /// Scores without variants, of planes if there are any, to fit a page of a paper.
     #[must_use]
     pub fn headlines(&self) -> ScoreTable {
-        const IN_PLANES: [(&str, &str); 4] =
-            [("Px", "Pxy"), ("Py", "Pxy"), ("Fx", "Fxy"), ("Fy", "Fxy")];
         let has = |metric: &str, channel: &str| {
             let mut rows = self.rows.iter();
             rows.any(|row| row.metric == metric && row.channel == channel)
         };
         let is_kept = |row: &&ScoreRow| {
-            let plane = IN_PLANES
-                .iter()
-                .find(|(channel, _)| *channel == row.channel);
-            row.is_headline && plane.is_none_or(|(_, plane)| !has(&row.metric, plane))
+            let plane = plane_of(&row.channel);
+            row.is_headline && plane.is_none_or(|plane| !has(&row.metric, plane))
         };
         ScoreTable {
             names: self.names.clone(),

@@ -8,6 +8,7 @@ use crate::html::Document;
 use crate::markup::{filter, folded_glossary, heads, metric_link, right_heads, scroll, terms};
 use crate::number::numeral;
 use crate::results::Study;
+use crate::variables::VARIABLES;
 
 const TITLE: &str = "Catalogue of vision-based tactile sensors";
 
@@ -116,8 +117,7 @@ fn row(sensor: &Sensor) -> Markup {
     if !sensor.results.is_empty() {
         tags.push("numbers".to_owned());
     }
-    let mae = ["Pxy", "Pz", "Fxy", "Fz"]
-        .map(|channel| sensor.result("mae", channel).map(|result| result.value));
+    let mae = VARIABLES.map(|channel| sensor.result("mae", channel).map(|result| result.value));
     let number = |value: f64| (value.to_string(), numeral(value));
     let numbers = mae.into_iter().chain([sensor.frame_rate_hz()]);
     let count = properties_reported(sensor).to_string();

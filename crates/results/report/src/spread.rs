@@ -1,6 +1,7 @@
 //! Spread of labels between sensors. If labels vary little, errors in units are small.
 
 use taceva_core::Unit;
+use taceva_metrics::plane_axes;
 
 use crate::number::{numeral, spaced};
 use crate::results::Study;
@@ -110,10 +111,8 @@ fn spreads<'a>(
 /// Standard deviation of a channel's labels in a part of the protocol; for a plane the mean over both axes. Without samples it is that of
 /// the calibration: the root mean square error over √(1 − R²), which planes do not have.
 fn spread(study: &Study, part: &str, channel: &str) -> Option<f64> {
-    let axes = match channel {
-        "Pxy" => ["Px", "Py"],
-        "Fxy" => ["Fx", "Fy"],
-        _ => return of_channel(study, part, channel),
+    let Some(axes) = plane_axes(channel) else {
+        return of_channel(study, part, channel);
     };
     let [x, y] = axes.map(|axis| of_channel(study, part, axis));
     Some(f64::midpoint(x?, y?))

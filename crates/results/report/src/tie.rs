@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use taceva_core::counted;
 use taceva_metrics::Better;
 
 use crate::names::listed;
@@ -175,10 +176,11 @@ fn meaning(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<String> {
     let count = known.len();
     Some(match step > nanometres(tolerance_mm) {
         true => format!(
-            ", which is exactly right among {count} learnt boards at least {} mm apart",
+            ", which is exactly right among {} at least {} mm apart",
+            counted(count, "learnt board"),
             numeral(step / NM)
         ),
-        false => format!(", each time as one of {count} learnt boards"),
+        false => format!(", each time as one of {}", counted(count, "learnt board")),
     })
 }
 

@@ -1,13 +1,13 @@
 //! Errors of rejected results.
 
-/// Reason that results are rejected.
+/// Reason why results are rejected.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ResultsError {
     /// Invalid JSON.
     #[error("not JSON: {0}")]
     Json(#[from] serde_json::Error),
-    /// The seal is missing, unreadable or of other content.
+    /// The seal is missing, unreadable or does not match the content.
     #[error("{0}")]
     Seal(#[from] taceva_files::seal::SealError),
     /// The text names no schema of results.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use taceva_core::PressOutcome;
 
-/// Words of every note that calls the scores too good: neighbours or copies of test samples were trained on.
+/// Text in every note of optimistic scores: neighbours or copies of test samples were in the training part.
 ///
 /// ```
 /// let note = "3 of 9 pictures of the test part are in the fit too: the scores are optimistic";

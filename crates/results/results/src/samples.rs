@@ -62,14 +62,14 @@ pub struct SampleChannel<'a> {
     prediction: Option<&'a Column>,
 }
 
-/// Reason that a table of samples is rejected.
+/// Reason why a table of samples is rejected.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SamplesError {
     /// Invalid CSV, or a row whose length differs from the header.
     #[error("samples: {0}")]
     Csv(#[from] csv::Error),
-    /// A cell that is no finite number.
+    /// A cell that is not a finite number.
     #[error("samples, line {line}, column `{column}`: expected a finite number, found `{found}`")]
     Cell {
         /// Line, from 1.
@@ -109,7 +109,7 @@ impl Samples {
             .push((name.to_owned(), SampleColumn::Words(words)));
     }
 
-    /// Adds the protocol parts of each sample, behind `sample`.
+    /// Adds the protocol parts of each sample, in a column after `sample`.
     pub fn insert_protocol(&mut self, parts: Vec<Option<String>>) {
         let column = ("protocol".to_owned(), SampleColumn::Words(parts));
         self.columns.insert(1.min(self.columns.len()), column);

@@ -5,7 +5,7 @@ use taceva_core::Unit;
 
 /// Scores of one model fitted with several seeds on the same presses and split.
 ///
-/// Their spread is that of the training. Intervals by contact point describe the spread over other presses instead.
+/// Their spread comes from the training. Intervals by contact point describe the spread over other presses instead. Comparisons add both.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OverSeeds {
     /// Seeds in order. The scores of the report are those of the first.
@@ -19,7 +19,7 @@ pub struct OverSeeds {
 /// One score over the seeds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SeedScore {
-    /// Metric: `r2`.
+    /// Metric, or the variant that decides its verdicts: `r2`, `repeatability.pooled`.
     pub metric: String,
     /// Channel or plane.
     pub channel: String,

@@ -2,7 +2,7 @@
 
 use taceva_metrics::{Curve, Map, Matrix};
 
-/// Value of a score, or the reason that it is absent.
+/// Value of a score, or the reason why it is absent.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// One finite number.
@@ -43,7 +43,7 @@ impl Value {
         }
     }
 
-    /// Reason that the value is absent, in words.
+    /// Reason why the value is absent, in words.
     pub fn reason(&self) -> Option<String> {
         match self {
             Value::Undefined(reason) => Some(format!("undefined: {reason}")),

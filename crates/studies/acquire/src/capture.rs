@@ -20,9 +20,7 @@ mod transducer;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use taceva_core::{
-    Axis, Channel, Channels, Clock, DriverError, DriverKey, DriverSource, ErrorKind, Progress,
-};
+use taceva_core::{Axis, Channel, Channels, Clock, DriverError, DriverKey, ErrorKind, Progress};
 use taceva_dataset::{
     DatasetError, Header, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
     StreamFacts, Streamed,
@@ -326,7 +324,7 @@ fn channels(live: &LiveDevices) -> Channels {
 }
 
 fn source(live: &LiveDevices) -> Source {
-    match live.is_emulated() || live.sensor_source() == DriverSource::Simulated {
+    match live.is_simulated() {
         true => Source::Simulated,
         false => Source::Recorded,
     }

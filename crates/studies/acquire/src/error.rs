@@ -62,7 +62,9 @@ pub enum AcquireError {
     OpenLive(Box<OpenError>),
     /// A device failed during a capture; the frames before are a whole recording.
     #[error(
-        "{source}; the {frames} frames before it are a complete recording in {}",
+        "{source}; the {} before it {} a complete recording in {}",
+        taceva_core::counted(*frames, "frame"),
+        taceva_core::by_count(*frames, "is", "are"),
         taceva_core::shown(path)
     )]
     CaptureEnded {
@@ -129,10 +131,12 @@ fn lister(device: DriverKind) -> &'static str {
 /// Describes the state of a broken capture, and the command that closes it.
 fn kept(path: &Path, frames: u64, is_whole: bool) -> String {
     let path = taceva_core::shown(path);
+    let are = taceva_core::by_count(frames, "is", "are");
+    let frames = taceva_core::counted(frames, "frame");
     match is_whole {
-        true => format!("the {frames} frames before it are a complete recording in {path}"),
+        true => format!("the {frames} before it {are} a complete recording in {path}"),
         false => format!(
-            "the {frames} frames before it are stored: free disk space, then run taceva capture {path} --close"
+            "the {frames} before it {are} stored: free disk space, then run taceva capture {path} --close"
         ),
     }
 }

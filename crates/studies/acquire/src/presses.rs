@@ -22,20 +22,20 @@ mod workshop;
 
 use std::path::Path;
 
-use taceva_core::Outline;
+use taceva_core::{DriverSource, Outline};
 use taceva_dataset::{
     Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec,
     ReducedFrames, SensorFacts, SessionTable, Source, add_frame_retries,
 };
-use taceva_drivers::Drivers;
-use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, StopCause};
+use taceva_drivers::{Drivers, Selector};
+use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, Setting, StopCause};
 
 use crate::error::AcquireError;
 use crate::scene::{PlannedStudy, RigSpec, StudySource};
 pub(crate) use device::Opened;
 pub(crate) use devices::written_latencies_ms;
 use devices::{OpenRig, Sitting};
-pub(crate) use file_devices::{FileDevices, FileOpener};
+pub(crate) use file_devices::FileOpener;
 use log::RecordedPresses;
 use operator::{acquisition, presses_skipped, stopped, unit_is_there};
 use reduction::reduction;
@@ -109,9 +109,7 @@ fn acquire(
         let log = match &mut log {
             Some(log) => log,
             None => {
-                let is_emulated = study.study.rig.as_ref().is_some_and(|rig| rig.simulated);
-                let is_simulated = is_emulated || rig.is_simulated(workshop.drivers);
-                let spec = recording_spec(study, &open, is_simulated);
+                let spec = recording_spec(study, &open, origin(study, rig, workshop.drivers));
                 let reduction = reduction(study, &open)?;
                 let spec = match &reduction {
                     Some(reduction) => {
@@ -203,14 +201,27 @@ fn acquire_unit(
     done
 }
 
-/// Header of the recording of `study`.
-fn recording_spec(study: &PlannedStudy, open: &OpenRig, is_simulated: bool) -> RecordingSpec {
-    let plan = &study.plan;
-    let gel = open.surroundings.gel.clone();
-    let source = match is_simulated {
+/// Origin of the samples of `study`: one simulated or emulated device makes all of them simulated.
+fn origin(study: &PlannedStudy, rig: &RigSpec, drivers: &Drivers) -> Source {
+    let file = study.study.rig.as_deref();
+    let changers = file.map(|file| [&file.changers.specimen, &file.changers.unit]);
+    let is_simulated = |device: &Setting<String>| {
+        let selector: Option<Selector> = device.value.parse().ok();
+        let factory = selector.and_then(|selector| drivers.changers.get(selector.driver()).ok());
+        factory.is_some_and(|factory| factory.descriptor().source() == DriverSource::Simulated)
+    };
+    let is_emulated = file.is_some_and(|file| file.simulated);
+    let mut changers = changers.into_iter().flatten().flatten();
+    match is_emulated || rig.is_simulated(drivers) || changers.any(is_simulated) {
         true => Source::Simulated,
         false => Source::Recorded,
-    };
+    }
+}
+
+/// Header of the recording of `study`.
+fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> RecordingSpec {
+    let plan = &study.plan;
+    let gel = open.surroundings.gel.clone();
     let mut sensor = SensorFacts::new(&plan.name).with_serial(plan.units.join(", "));
     sensor.opaque = plan.opaque.map_or(Known::Unknown, Known::Is);
     if let Some(gel) = gel {

@@ -1,6 +1,8 @@
 //! Setup of a rig: registration of its robot, latencies, and checks of its devices.
 
 mod check;
+mod problem;
+mod stock;
 mod stream;
 mod switch;
 mod tap;
@@ -11,7 +13,9 @@ use std::path::Path;
 use taceva_protocol::RigFile;
 
 use crate::error::AcquireError;
-pub use check::{HaltTrip, RigCheck, RigProblem, check_rig};
+pub use check::{HaltTrip, RigCheck, check_rig};
+pub use problem::RigProblem;
+pub use stock::Stock;
 pub use stream::Stream;
 pub use switch::SwitchCheck;
 pub use tap::{RigTap, tap_rig};

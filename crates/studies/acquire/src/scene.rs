@@ -18,7 +18,9 @@ use taceva_protocol::{
 use crate::error::AcquireError;
 
 pub use overrides::Overrides;
-pub(crate) use rig::{RigSpec, open_switch};
+pub(crate) use rig::{
+    Refused, RigSpec, check_changers, check_switch, check_taught, is_untaught, open_switch,
+};
 pub use text::SceneText;
 pub(crate) use text::read_rig_file;
 

@@ -1,13 +1,11 @@
 //! Builds a report from scores, with its subject and its provenance.
 
 use taceva_metrics::{Evaluation, Evaluator};
-use taceva_results::{
-    EvaluationReport, OverSeeds, Provenance, RecordingScores, Samples, Score, Subject,
-};
+use taceva_results::{EvaluationReport, OverSeeds, Provenance, RecordingScores, Samples, Subject};
 
 use crate::bounded_share::Bounded;
 use crate::error::EvaluateError;
-use crate::note::Note;
+use crate::note::{Detection, Note};
 use crate::row_ledger::Taken;
 use crate::state_file::StateFile;
 
@@ -111,11 +109,9 @@ pub fn assess(
     report.by_recording = context.by_recording;
     report.over_seeds = context.over_seeds;
     report.samples = context.samples;
-    let has_noise =
-        |score: &Score| score.metric == "noise_equivalent_force" && score.value.number().is_some();
-    if report.scores.iter().any(has_noise) {
+    if let Some(detection) = Detection::of(&report.scores) {
         let notes = &mut report.provenance.notes;
-        notes.push(Note::DetectionLimit.to_string());
+        notes.push(Note::DetectionLimit(detection).to_string());
     }
     Ok(Assessed { report, state })
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use taceva_core::{ErrorKind, ModelError};
 use taceva_dataset::DatasetError;
+use taceva_import::ImportError;
 use taceva_metrics::{MetricError, UnknownMetric};
 use taceva_models::{FeatureError, FormatError, SettingError, SplitError, UnknownModel};
 use taceva_tables::TableError;
@@ -12,9 +13,12 @@ use taceva_tables::TableError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EvaluateError {
-    /// A dataset or a table that cannot be read.
+    /// A dataset that cannot be read.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
+    /// A table of labels or predictions that cannot be read.
+    #[error(transparent)]
+    Table(#[from] ImportError),
     /// The model cannot be fitted, read or used.
     #[error(transparent)]
     Model(#[from] ModelError),
@@ -85,6 +89,7 @@ impl EvaluateError {
     pub fn kind(&self) -> ErrorKind {
         match self {
             EvaluateError::Dataset(error) => error.kind(),
+            EvaluateError::Table(error) => error.kind(),
             EvaluateError::Model(error) => error.kind(),
             EvaluateError::Tables { .. }
             | EvaluateError::Parquet(_)

@@ -2,6 +2,7 @@
 
 mod callers_model;
 mod divisions;
+mod fold_progress;
 pub(crate) mod folds;
 mod notes;
 mod passes;

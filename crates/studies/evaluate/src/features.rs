@@ -130,9 +130,8 @@ fn make(
             let pass = Pass::new(rows, NonZeroUsize::MIN, work.progress);
             let read = |row| {
                 let signals = dataset.signals(row)?;
-                let signals = signals.ok_or_else(|| DatasetError::Request {
-                    path: dataset.path().to_owned(),
-                    problem: format!("row {row} has no signals"),
+                let signals = signals.ok_or_else(|| {
+                    DatasetError::request(dataset.path(), format!("row {row} has no signals"))
                 })?;
                 Ok(of((&signals).into()))
             };

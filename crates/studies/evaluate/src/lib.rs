@@ -55,7 +55,7 @@ pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
 pub use merge::merge;
 pub use neighbours::Resemblance;
 pub use note::{
-    Coverage, Division, Independence, Learning, Neighbours, Note, PairedBy, SampleOrder,
+    Coverage, Detection, Division, Independence, Learning, Neighbours, Note, PairedBy, SampleOrder,
 };
 pub use over_seeds::of as over_seeds;
 pub use plan::{Plan, Step};
@@ -71,7 +71,8 @@ pub use rows::{DataPart, Divided, Need, require_samples, usable};
 pub use run_layout::{PLANS, RECORDINGS};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
-    RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, score_in_one_pass,
+    Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError,
+    score_in_one_pass,
 };
 pub use skill::{skill, with_skill};
 pub use state_file::{STATE_SCHEMA, StateFile};

@@ -1,5 +1,6 @@
 //! Notes on the samples and the model behind scores: data here, sentences in a report.
 
+mod detection;
 mod division;
 mod sentence;
 
@@ -8,6 +9,7 @@ use std::fmt;
 use taceva_core::shown;
 use taceva_dataset::{Extension, FramesInfo};
 
+pub use detection::Detection;
 pub use division::{Division, Independence, Neighbours, SampleOrder};
 
 /// One note for a reader of scores; `Display` gives its sentence.
@@ -181,8 +183,8 @@ pub enum Note {
         /// The serial numbers of all units.
         of: Vec<String>,
     },
-    /// The noise of untouched frames as a force, which is not a detection limit.
-    DetectionLimit,
+    /// The detection limit of normal force, or the reason that there is none.
+    DetectionLimit(Detection),
     /// The way in which spacings of gratings were predicted.
     Spacings(&'static str),
     /// The sessions on a real rig in which a recording was made.

@@ -1,4 +1,4 @@
-//! Scores of one model fitted with several seeds.
+//! Scores of one model fitted with several seeds, and the variants that decide verdicts.
 
 use taceva_core::Field;
 use taceva_metrics::{Evaluation, Repeats};
@@ -10,18 +10,30 @@ pub fn of(seeds: &[u64], evaluations: &[&Evaluation]) -> OverSeeds {
     let scores = first.flat_map(|evaluation| evaluation.scores());
     let of_predictions =
         scores.filter(|(metric, ..)| metric.needs.fields.contains(Field::Prediction));
-    let scores = of_predictions.filter_map(|(metric, channel, score)| {
+    let with_deciding = of_predictions.flat_map(|(metric, channel, score)| {
+        let deciding = metric.decided_by.into_iter().map(Some);
+        let numbers = std::iter::once(None).chain(deciding);
+        numbers.map(move |variant| (metric, channel, score, variant))
+    });
+    let scores = with_deciding.filter_map(|(metric, channel, score, variant)| {
         let of_seed = evaluations.iter().map(|evaluation| {
-            let score = evaluation.score(metric.id, channel);
-            score.and_then(|score| score.value.scalar())
+            let score = evaluation.score(metric.id, channel)?;
+            match variant {
+                Some(name) => score.variant(name)?.value.scalar(),
+                None => score.value.scalar(),
+            }
         });
         let values: Vec<Option<f64>> = of_seed.collect();
         let known: Vec<f64> = values.iter().copied().flatten().collect();
         let repeats = Repeats::of(&known)?.within(range(metric.id, &known));
+        let variant = variant.and_then(|name| score.variant(name));
         Some(SeedScore {
-            metric: metric.id.to_owned(),
+            metric: match variant {
+                Some(variant) => format!("{}.{}", metric.id, variant.name),
+                None => metric.id.to_owned(),
+            },
             channel: channel.to_owned(),
-            unit: score.unit,
+            unit: variant.map_or(score.unit, |variant| variant.unit),
             values,
             mean: repeats.mean,
             standard_deviation: repeats.standard_deviation,
@@ -43,5 +55,49 @@ fn range(metric: &str, known: &[f64]) -> [f64; 2] {
         // Metrics that are never negative, such as errors; a bias may be.
         _ if known.iter().all(|value| *value >= 0.0) => [0.0, f64::MAX],
         _ => [f64::MIN, f64::MAX],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{Channel, Channels, FieldSet, Readings, Sample, SampleSink};
+    use taceva_metrics::{Evaluator, MetricPlan, catalogue};
+
+    use super::*;
+
+    /// Two repeats at each of six points, `scatter` mm to either side at the first and six times as much at the last.
+    fn evaluation(scatter: f64) -> Evaluation {
+        let channels = Channels::new([Channel::PZ]).expect("one channel");
+        let wanted = catalogue::select(["repeatability"]).expect("a known name");
+        let fields: FieldSet = Field::ALL.into_iter().collect();
+        let mut evaluator = Evaluator::new(&MetricPlan::new(&wanted, channels, fields));
+        for press in 0..12_u32 {
+            let side = if press % 2 == 0 { scatter } else { -scatter };
+            let predicted = 1.0 + side * f64::from(press / 2 + 1);
+            let sample = Sample::default()
+                .with_point_id(format!("p{}", press / 2))
+                .with_depth_step(0)
+                .with_repeat(press % 2)
+                .with_truth(Readings::from_values([1.0]))
+                .with_prediction(Readings::from_values([predicted]));
+            evaluator.accept(&sample).expect("of the plan");
+        }
+        evaluator.finish().expect("scores")
+    }
+
+    #[test]
+    fn the_variant_that_decides_verdicts_stands_beside_the_value() {
+        let all = [0.01, 0.02].map(evaluation);
+        let over = of(&[3, 4], &all.each_ref());
+        let names: Vec<&str> = over.scores.iter().map(|of| of.metric.as_str()).collect();
+        assert_eq!(names, ["repeatability", "repeatability.pooled"]);
+        let pooled = |evaluation: &Evaluation| {
+            let score = evaluation.score("repeatability", "Pz").expect("a score");
+            score
+                .variant("pooled")
+                .and_then(|variant| variant.value.scalar())
+        };
+        assert_eq!(over.scores[1].values, all.each_ref().map(pooled));
+        assert_ne!(over.scores[0].values, over.scores[1].values);
     }
 }

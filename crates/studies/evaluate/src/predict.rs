@@ -5,7 +5,7 @@ mod predictions;
 mod predictor;
 mod target;
 
-use taceva_core::{Channel, Column, Field};
+use taceva_core::{Channel, Column, Features, Field};
 use taceva_dataset::Dataset;
 use taceva_models::Model;
 
@@ -18,7 +18,8 @@ pub use predictions::Predicted;
 pub use predictor::Predictor;
 pub use target::Target;
 
-/// Predicts a part of `dataset`; by default the unseen data: the test part of the model's own dataset, or all of another.
+/// Predicts a part of `dataset`; by default the unseen data: the test part of the model's own dataset, or all of another. Each prediction has
+/// the distance of its picture from the training part, if the model knows it.
 ///
 /// # Errors
 /// [`EvaluateError`] if the model does not fit the dataset, or the dataset cannot be read.
@@ -29,7 +30,13 @@ pub fn predict(
     work: Work<'_>,
 ) -> Result<Predicted, EvaluateError> {
     let target = Target::new(dataset, model, part)?;
-    predict_target(dataset, model, &target, work)
+    let features = features_of(dataset, model, &target, work)?;
+    let numbers = numbers_of(model, &features)?;
+    let predicted = predicted_table(dataset, Predictor::of(model), &target, &numbers)?;
+    Ok(Predicted {
+        distance: model.distances(&features)?,
+        ..predicted
+    })
 }
 
 /// Predictions of `model` for the rows of `target`, both within the bounds of the model and unclipped.
@@ -56,19 +63,31 @@ pub fn predicted_numbers(
     target: &Target,
     work: Work<'_>,
 ) -> Result<Column, EvaluateError> {
+    numbers_of(model, &features_of(dataset, model, target, work)?)
+}
+
+/// Features of the rows of `target`; blank ones for a model that reads none.
+fn features_of(
+    dataset: &Dataset,
+    model: &Model,
+    target: &Target,
+    work: Work<'_>,
+) -> Result<Features, EvaluateError> {
     let rows = &target.rows;
-    let features = if model.reads_features() {
-        extract(
+    match model.reads_features() {
+        true => extract(
             dataset,
             |recording| model_extractor(recording, model),
             rows,
             work,
-        )?
-    } else {
-        blank(model.card().features.shape(), rows.len())?
-    };
-    let mut numbers = model.predict_unbounded(&features)?;
-    numbers.extend(model.deviations(&features)?.into_iter().flatten());
+        ),
+        false => blank(model.card().features.shape(), rows.len()),
+    }
+}
+
+fn numbers_of(model: &Model, features: &Features) -> Result<Column, EvaluateError> {
+    let mut numbers = model.predict_unbounded(features)?;
+    numbers.extend(model.deviations(features)?.into_iter().flatten());
     Ok(Column::full(numbers))
 }
 
@@ -130,6 +149,7 @@ pub fn predicted_table(
                     .collect()
             })
             .collect(),
+        distance: None,
         constants: predictor.constants,
         frames_decoded: if predictor.reads_frames {
             rows.len() as u64

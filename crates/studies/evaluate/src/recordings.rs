@@ -5,15 +5,13 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::{Labels, shown};
 use taceva_dataset::Dataset;
+use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::Model;
 use taceva_results::RecordingProvenance;
 
 use crate::error::EvaluateError;
 use crate::note::Note;
 use crate::row_ledger::Taken;
-
-/// Minimum recordings with scored samples for intervals; fewer clusters give no interval.
-pub(crate) const CLUSTERS_LEAST: usize = 5;
 
 /// The recordings that `dataset` was joined from; empty for a single one.
 pub(crate) fn provenance(dataset: &Dataset) -> Vec<RecordingProvenance> {
@@ -283,7 +281,7 @@ impl Clusters {
 
     /// True if there are enough recordings for intervals by recording.
     pub(crate) fn are_recordings(self) -> bool {
-        self.recordings >= CLUSTERS_LEAST
+        self.recordings >= LEAST_CLUSTERS
     }
 
     /// The note on the intervals.
@@ -291,7 +289,7 @@ impl Clusters {
         Note::Clusters {
             recordings: self.recordings,
             points: self.points,
-            least: CLUSTERS_LEAST,
+            least: LEAST_CLUSTERS,
         }
     }
 }

@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
+use taceva_core::{by_count, counted};
 
 /// Rows of one input.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -141,9 +142,12 @@ impl AllTaken {
             for (before, old) in &self.taken {
                 if let Some((first, count)) = new.shared(old) {
                     return Err(format!(
-                        "{count} rows of {} are already in {}, from row {first} on: they would count twice",
+                        "{} of {} {} already in {}, from row {first} on: {} would count twice",
+                        counted(count, "row"),
                         old.input.split(' ').next().unwrap_or_default(),
-                        before.display()
+                        by_count(count, "is", "are"),
+                        before.display(),
+                        by_count(count, "it", "they")
                     ));
                 }
             }
@@ -238,7 +242,7 @@ mod tests {
         let rows = all.add(path("c.state"), "3", &[taken("x", &[1, 2])]);
         let rows = rows.expect_err("rows again");
         assert!(
-            rows.contains("1 rows of x are already in a.state, from row 1 on"),
+            rows.contains("1 row of x is already in a.state, from row 1 on: it would"),
             "{rows}"
         );
     }

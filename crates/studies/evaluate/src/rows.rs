@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Channel, Channels, Field, shown};
 use taceva_dataset::{Dataset, Table};
+use taceva_metrics::PLANES;
 use taceva_models::{
     Fractions, Model, Part as SplitPart, Split, SplitKind, SplitManifest, SplitSpec,
 };
@@ -27,6 +28,9 @@ pub(crate) const BESIDE_CHANNELS: [Field; 10] = [
     Field::Spacing,
     Field::Intensity,
 ];
+
+/// Column of the distances of pictures from the training part, as beside a recording with live predictions.
+pub(crate) const DISTANCE: &str = "distance";
 
 /// A part of a dataset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -315,17 +319,14 @@ pub(crate) fn chosen_channels(
     Ok(chosen)
 }
 
-/// Planes of two channels each, which scores have and models do not predict.
-const PLANES: [(&str, [&str; 2]); 2] = [("Pxy", ["Px", "Py"]), ("Fxy", ["Fx", "Fy"])];
-
 /// Meaning of the unknown channel `name`, if it is a plane or like one of `known`.
 fn hint(name: &str, known: &[&str]) -> String {
     let mut planes = PLANES.into_iter();
-    let plane = planes.find(|(plane, of)| {
+    let plane = planes.find(|(plane, of, _)| {
         plane.eq_ignore_ascii_case(name) && of.iter().all(|channel| known.contains(channel))
     });
     match (plane, taceva_core::nearest(name, known.iter().copied())) {
-        (Some((plane, [x, y])), _) => {
+        (Some((plane, [x, y], _)), _) => {
             format!("; {plane} is formed of {x} and {y}: --channels {x},{y}")
         }
         (None, Some(nearest)) => format!("; did you mean `{nearest}`?"),

@@ -7,6 +7,7 @@ mod key_parts;
 mod likely_key;
 mod one_pass;
 mod parquet_parts;
+mod period;
 mod request;
 mod row_key;
 mod row_pairs;
@@ -17,7 +18,7 @@ mod tables;
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Channel, Column, Progress, shown};
+use taceva_core::{Channel, Column, Progress, counted, shown};
 use taceva_dataset::SensorFile;
 use taceva_import::CsvTable;
 use taceva_metrics::{Evaluator, MetricPlan, SensorFacts, catalogue};
@@ -43,6 +44,7 @@ use row_pairs::PairedRows;
 use tables::Pairing;
 
 pub use one_pass::score_in_one_pass;
+pub use period::Period;
 pub use request::ScoreRequest;
 pub use row_key::RowKey;
 pub use shard::{Shard, ShardError};
@@ -120,16 +122,16 @@ impl Scoring {
         plan.step(
             "read",
             format!(
-                "{} rows of {}",
-                self.truth.rows(),
+                "{} of {}",
+                counted(self.truth.rows(), "row"),
                 shown(&self.request.truth)
             ),
         );
         plan.step(
             "read",
             format!(
-                "{} rows of {}",
-                self.prediction.rows(),
+                "{} of {}",
+                counted(self.prediction.rows(), "row"),
                 shown(&self.request.prediction)
             ),
         );

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use taceva_core::{Field, SkipReason};
+use taceva_core::{Field, SkipReason, by_count, counted};
 
 use crate::phase_kind::PhaseKind;
 
@@ -194,7 +194,12 @@ impl fmt::Display for PlanReason {
             ),
             PlanReason::NoMetricNeeds => f.write_str("no kept metric needs it"),
             PlanReason::VisitedBy { phase, presses } => {
-                write!(f, "{presses} presses are shared with {phase}: made once")
+                write!(
+                    f,
+                    "{} {} shared with {phase}: made once",
+                    counted(*presses, "press"),
+                    by_count(*presses, "is", "are")
+                )
             }
         }
     }

@@ -1,18 +1,21 @@
 //! Tests of each choice against the other configurations; the family of tests is the sweep.
 
 mod reach;
+mod trainings;
 
 use std::collections::BTreeMap;
 
 use taceva_core::Unit;
 use taceva_metrics::{
     Better, ClusterSums, ComparisonError, Difference, Question, Sides, SignFlip, Verdict, decide,
+    paired_over_trainings,
 };
 use taceva_report::{Cell, Column, Table};
 
 use crate::analysis::Group;
 use crate::choices::Choice;
 use reach::{flips_of, out_of_reach};
+use trainings::between_seeds;
 
 /// Compares each chosen configuration with each other of the same recording, split and channel.
 pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
@@ -29,7 +32,12 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
                 a: &chosen,
                 b: &sums(other),
             };
-            pairs.push((choice, other, test.test(both)));
+            let spread = between_seeds(&groups[choice.chosen], &groups[other], &choice.channel);
+            let tested = match spread {
+                Some(spread) => paired_over_trainings(both, &[spread]),
+                None => test.test(both),
+            };
+            pairs.push((choice, other, tested));
         }
     }
     let mut family: Vec<Difference> = pairs
@@ -64,8 +72,9 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
         ]);
     }
     table.note(format!(
-        "Sign-flip tests of mean absolute errors on test parts, paired by sample and summed by contact point over all seeds. All {count} \
-         tests of the sweep form one family of Holm's procedure, at a level of 5 %."
+        "Tests of mean absolute errors on test parts, paired by sample and summed by contact point over all seeds: by sign flips for one \
+         seed, by Student's t with the variance between seeds for several. All {count} tests of the sweep form one family of Holm's \
+         procedure, at a level of 5 %."
     ));
     if let Some(words) = out_of_reach {
         table.note(words);

@@ -2,7 +2,9 @@
 
 mod times;
 
+use taceva_core::counted;
 use taceva_report::{Cell, Column, PagePart, PageSection, Table, TablesPage};
+use taceva_results::not_measured;
 
 use crate::analysis::{self, Found, Loaded};
 use crate::choices;
@@ -44,7 +46,7 @@ pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collec
         vec![PagePart::Table(effects)],
     );
     let decided = decisions::table(&groups, &choices);
-    let count = format!("{} pairs", decided.rows.len());
+    let count = counted(decided.rows.len(), "pair");
     section(
         "compared",
         "Compared",
@@ -55,8 +57,8 @@ pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collec
         section("failed", "Without a result", vec![PagePart::Table(left)]);
     }
     let lead = format!(
-        "{} tasks: {} scored, {} failed, {} not run.",
-        list.tasks.len(),
+        "{}: {} scored, {} failed, {} not run.",
+        counted(list.tasks.len(), "task"),
         collected.scored,
         collected.failed,
         collected.missing
@@ -83,16 +85,7 @@ fn title(list: &TaskList) -> String {
 /// The badge of a page whose samples are all or partly simulated or synthetic.
 fn badge(loaded: &[Loaded<'_>]) -> Option<String> {
     let results = loaded.iter().filter_map(Loaded::result);
-    let drawn = results.map(|result| matches!(result.source.as_str(), "simulated" | "synthetic"));
-    let drawn: Vec<bool> = drawn.collect();
-    let words = match drawn.iter().filter(|is_drawn| **is_drawn).count() {
-        0 => return None,
-        count if count == drawn.len() => {
-            "Nothing here was measured: the samples are simulated or synthetic."
-        }
-        _ => "Not everything here was measured: some of the samples are simulated or synthetic.",
-    };
-    Some(words.to_owned())
+    not_measured(results.map(|result| result.source.as_str()))
 }
 
 /// The tasks without a result.

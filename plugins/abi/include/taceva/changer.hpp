@@ -8,8 +8,8 @@
 namespace taceva {
 class changer : public device {
  public:
-  /* Brings what is called `name` into place and returns what is there once nothing moves: what its own signals say, or `name` where it has
-   * none. A name that it does not hold is INVALID_ARGUMENT. Whoever moves in slices of `rest_until` stops the motion before that throws on. */
+  /* Brings the item `name` into place. Returns the name of the item in place after the motion: by its own sensors, or `name` without sensors.
+   * Throws INVALID_ARGUMENT for an unknown name. If `rest_until` throws during the motion, stop the motion before the exception leaves. */
   virtual std::string bring(std::string_view name, deadline until) = 0;
 };
 
@@ -17,8 +17,8 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<changer> {
   static constexpr std::string_view id = TACEVA_CHANGER_FACTORY;
   static taceva_status bring(void *handle, taceva_text name, uint64_t timeout_ns, taceva_take_text take, void *context, taceva_error *error) noexcept {
     return device_calls::guarded(error, [&] {
-      device_calls::expect(name.data || name.length == 0, "a name that is no text");
-      device_calls::expect(take, "nobody takes what is in place");
+      device_calls::expect(name.data || name.length == 0, "`name` is NULL");
+      device_calls::expect(take, "`take` is NULL");
       const std::string there = device_calls::begun<changer>(handle).bring(std::string_view(name.data, name.length), device_calls::after(timeout_ns));
       take(context, {there.data(), there.size()});
     });
@@ -27,6 +27,6 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<changer> {
 };
 }  // namespace taceva
 
-/* Exports a plugin with these changers, which needs `needs`: a need a line, "" for nothing. */
+/* Exports a plugin with these changers, with `needs`: one need per line, "" for none. */
 #define TACEVA_CHANGERS(id, version, needs, ...) TACEVA_EXPORTED(taceva::changer, id, version, needs, __VA_ARGS__)
 #endif

@@ -1,4 +1,4 @@
-/* A transducer of force, and perhaps torque. */
+/* A transducer of force, and optionally torque. */
 #ifndef TACEVA_FORCE_H
 #define TACEVA_FORCE_H
 
@@ -14,7 +14,7 @@ typedef struct taceva_wrench {
   double torque_n_mm[3];
 } taceva_wrench;
 
-/* `read` waits for the next reading. A clipped force is no force: OUT_OF_RANGE. */
+/* `read` waits for the next reading. It returns OUT_OF_RANGE for a clipped force. */
 typedef struct taceva_force_calls {
   taceva_device_calls device;
   taceva_status (*start)(void *handle, uint64_t timeout_ns, taceva_error *error); /* [owner & open] idempotent */

@@ -10,17 +10,17 @@
 namespace taceva {
 class force : public device {
  public:
-  virtual void next_reading(taceva_wrench &into, taceva_stamp &stamp, deadline until) = 0; /* N and N mm; both are 0 before */
+  virtual void next_reading(taceva_wrench &into, taceva_stamp &stamp, deadline until) = 0; /* N and N mm; `into` and `stamp` are 0 before the call */
 };
 
-/* Abilities that a transducer derives from beside `force`; its manifest says `tare = true`, `numbered = true`. */
+/* Abilities: further base classes of a transducer, with `tare = true` or `numbered = true` in its manifest. */
 struct can_tare {
   virtual ~can_tare() = default;
-  virtual void zero(deadline until) = 0; /* returns once it holds */
+  virtual void zero(deadline until) = 0; /* returns once the zero takes effect */
 };
 struct can_number {
   virtual ~can_number() = default;
-  virtual uint64_t sequence() = 0; /* the device's own number of the last reading */
+  virtual uint64_t sequence() = 0; /* number of the last reading, assigned by the device */
 };
 
 template <> struct [[gnu::visibility("hidden")]] kind_of<force> {
@@ -29,7 +29,7 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<force> {
   static taceva_status read(void *handle, taceva_wrench *wrench, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error) noexcept {
     return device_calls::guarded(error, [&] {
       force &it = device_calls::begun<force>(handle);
-      device_calls::expect(wrench && stamp, "no place for the reading");
+      device_calls::expect(wrench && stamp, "`wrench` or `stamp` is NULL");
       device_calls::expect(device_calls::is_started(it), "it is not started");
       *wrench = {}, *stamp = {};
       it.next_reading(*wrench, *stamp, device_calls::after(timeout_ns));
@@ -43,7 +43,7 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<force> {
   }
   static taceva_status sequence(void *handle, uint64_t *number, taceva_error *error) noexcept {
     return device_calls::guarded(error, [&] {
-      device_calls::expect(number, "no place for the number");
+      device_calls::expect(number, "`sequence` is NULL");
       *number = able<can_number>(handle)->sequence();
     });
   }
@@ -60,6 +60,6 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<force> {
 };
 }  // namespace taceva
 
-/* Exports a plugin with these transducers, which needs `needs`: a need a line, "" for nothing. */
+/* Exports a plugin with these transducers, with `needs`: one need per line, "" for none. */
 #define TACEVA_FORCES(id, version, needs, ...) TACEVA_EXPORTED(taceva::force, id, version, needs, __VA_ARGS__)
 #endif

@@ -1,4 +1,4 @@
-/* Light around a sensor, in scenes that have a name; the manifest lists them. */
+/* Light around a sensor, in named scenes. The manifest lists them. */
 #ifndef TACEVA_LIGHTING_H
 #define TACEVA_LIGHTING_H
 
@@ -10,7 +10,7 @@ extern "C" {
 
 typedef struct taceva_lighting_calls {
   taceva_device_calls device;
-  taceva_status (*set)(void *handle, taceva_text scene, uint64_t timeout_ns, taceva_error *error); /* [owner & open] returns once it holds */
+  taceva_status (*set)(void *handle, taceva_text scene, uint64_t timeout_ns, taceva_error *error); /* [owner & open] returns once the light is steady */
 } taceva_lighting_calls;
 
 #ifdef __cplusplus

@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-/* The tip in the sensor's frame: m, and a unit quaternion. */
+/* Pose of the tip in the frame of the sensor: m, and a unit quaternion. */
 typedef struct taceva_pose {
   double x, y, z;
   double qw, qx, qy, qz;
@@ -21,14 +21,14 @@ typedef struct taceva_motion {
   double speed_m_per_s; /* along the path of the tip */
 } taceva_motion;
 
-/* Opening moves nothing. `move_to` and `wait` follow each other; the tip goes along a straight line and rests at the end.
- * A halt latches: until `clear_halt` every motion is refused with INTERRUPTED. After an error the robot stands still. */
+/* Opening moves nothing. A call of `wait` follows each `move_to`. The tip moves along a straight line and rests at the end.
+ * A halt latches: until `clear_halt`, every motion returns INTERRUPTED. After an error, the robot stands still. */
 typedef struct taceva_robot_calls {
   taceva_device_calls device;
   taceva_status (*pose)(void *handle, taceva_pose *pose, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error); /* [owner & open] */
   taceva_status (*move_to)(void *handle, const taceva_motion *motion, uint64_t *token, taceva_error *error); /* [owner & open] returns when accepted; may leave the motion to `wait` */
-  taceva_status (*wait)(void *handle, uint64_t token, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error); /* [owner & open] until the tip rests at the target */
-  taceva_status (*halt)(void *handle, taceva_error *error);                                  /* [any & open] at rest within 50 ms; idempotent */
+  taceva_status (*wait)(void *handle, uint64_t token, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error); /* [owner & open] returns when the tip rests at the target */
+  taceva_status (*halt)(void *handle, taceva_error *error);                                  /* [any & open] the tip rests within 50 ms; idempotent */
   taceva_status (*clear_halt)(void *handle, uint64_t timeout_ns, taceva_error *error);       /* [owner & open] */
 } taceva_robot_calls;
 

@@ -1,7 +1,7 @@
 /* A robot in C++17: see device.hpp. Exported with TACEVA_ROBOTS(id, version, needs, class...).
  *
- * A halt is latched here: it ends `rest_until` of a motion, and motions are refused until `clear_halt`. An emergency stop, a collision or a
- * boundary is a fault: `throw taceva::failure(TACEVA_DEVICE_FAULT, "axis 3", TACEVA_FAULT_COLLISION)`; nothing moves after it. */
+ * The base class latches a halt: it ends `rest_until` of a motion, and rejects motions until `clear_halt`. An emergency stop, a collision or a
+ * workspace limit is a fault: `throw taceva::failure(TACEVA_DEVICE_FAULT, "axis 3", TACEVA_FAULT_COLLISION)`. Nothing moves after it. */
 #ifndef TACEVA_ROBOT_HPP
 #define TACEVA_ROBOT_HPP
 
@@ -16,11 +16,11 @@ namespace taceva {
 class robot : public device {
  public:
   virtual void pose(taceva_pose &into, taceva_stamp &stamp, deadline until) = 0;
-  /* Whether the tip may be sent there, at that speed: throws OUT_OF_RANGE where not. Nothing moves. */
+  /* Checks target and speed of a motion: throws OUT_OF_RANGE if a limit is exceeded. Nothing moves. */
   virtual void check(const taceva_motion &) {}
-  /* Moves along a straight line and returns when the tip rests at the target; it stands still whenever this ends. */
+  /* Moves along a straight line, and returns when the tip rests at the target. The robot must stand still whenever this call ends. */
   virtual void move(const taceva_motion &to, taceva_stamp &stamp, deadline until) = 0;
-  /* [any thread] Stops the tip within 50 ms; whoever moves in slices of `rest_until` needs nothing more. */
+  /* [any thread] Stops the tip within 50 ms. A motion in slices of `rest_until` needs no override. */
   virtual void halt() {}
   virtual void clear_halt(deadline) {}
 
@@ -32,10 +32,10 @@ class robot : public device {
   bool is_accepted_ = false;
 };
 
-/* An ability that a robot derives from beside `robot`: its controller drops what it was told after 200 ms, unless it is told again. */
+/* Ability: a further base class of a robot whose controller drops a command after 200 ms, unless it is repeated. */
 struct can_expire {
   virtual ~can_expire() = default;
-  virtual void move_expiring(const taceva_motion &to, taceva_stamp &stamp, deadline until) = 0; /* as `move`, renewed until the tip rests */
+  virtual void move_expiring(const taceva_motion &to, taceva_stamp &stamp, deadline until) = 0; /* as `move`, with repeated commands until the tip rests */
 };
 
 template <> struct [[gnu::visibility("hidden")]] kind_of<robot> {
@@ -43,24 +43,24 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<robot> {
   static void unless_halted(const robot &it) { if (it.is_halted_) throw failure(TACEVA_INTERRUPTED, "it is halted"); }
   static taceva_status pose(void *handle, taceva_pose *into, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error) noexcept {
     return device_calls::guarded(error, [&] {
-      device_calls::expect(into && stamp, "no place for the pose");
+      device_calls::expect(into && stamp, "`pose` or `stamp` is NULL");
       *into = {}, *stamp = {};
       device_calls::begun<robot>(handle).pose(*into, *stamp, device_calls::after(timeout_ns));
     });
   }
-  static void admit(robot &it, const taceva_motion *motion) { /* what may be begun now */
-    device_calls::expect(motion && motion->size >= sizeof *motion, "a motion of another size");
+  static void admit(robot &it, const taceva_motion *motion) { /* throws unless the motion may begin now */
+    device_calls::expect(motion && motion->size >= sizeof *motion, "`motion` is NULL or too short");
     const taceva_pose &to = motion->target;
     const double turn = to.qw * to.qw + to.qx * to.qx + to.qy * to.qy + to.qz * to.qz;
-    device_calls::expect(std::isfinite(to.x + to.y + to.z) && std::fabs(turn - 1) < 1e-6, "a target that is none");
-    device_calls::expect(std::isfinite(motion->speed_m_per_s) && motion->speed_m_per_s > 0, "a speed that is none");
+    device_calls::expect(std::isfinite(to.x + to.y + to.z) && std::fabs(turn - 1) < 1e-6, "expected a finite target with a unit quaternion");
+    device_calls::expect(std::isfinite(motion->speed_m_per_s) && motion->speed_m_per_s > 0, "expected a speed above 0");
     unless_halted(it);
     it.check(*motion);
   }
   static taceva_status move_to(void *handle, const taceva_motion *motion, uint64_t *token, taceva_error *error) noexcept {
     return device_calls::guarded(error, [&] {
       robot &it = device_calls::begun<robot>(handle);
-      device_calls::expect(token, "no place for the token");
+      device_calls::expect(token, "`token` is NULL");
       admit(it, motion);
       it.accepted_ = *motion, it.is_accepted_ = true;
       *token = ++it.token_;
@@ -69,7 +69,7 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<robot> {
   static taceva_status wait(void *handle, uint64_t token, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error) noexcept {
     return device_calls::guarded(error, [&] {
       robot &it = device_calls::begun<robot>(handle);
-      device_calls::expect(stamp, "no place for the stamp");
+      device_calls::expect(stamp, "`stamp` is NULL");
       device_calls::expect(it.is_accepted_ && token == it.token_, "no such motion was accepted, or it was waited for");
       it.is_accepted_ = false;
       *stamp = {};
@@ -96,7 +96,7 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<robot> {
   static taceva_status move_expiring(void *handle, const taceva_motion *motion, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error) noexcept {
     return device_calls::guarded(error, [&] {
       robot &it = device_calls::begun<robot>(handle);
-      device_calls::expect(stamp, "no place for the stamp");
+      device_calls::expect(stamp, "`stamp` is NULL");
       admit(it, motion);
       *stamp = {};
       expiring(handle)->move_expiring(*motion, *stamp, device_calls::after(timeout_ns));
@@ -111,6 +111,6 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<robot> {
 };
 }  // namespace taceva
 
-/* Exports a plugin with these robots, which needs `needs`: a need a line, "" for nothing. */
+/* Exports a plugin with these robots, with `needs`: one need per line, "" for none. */
 #define TACEVA_ROBOTS(id, version, needs, ...) TACEVA_EXPORTED(taceva::robot, id, version, needs, __VA_ARGS__)
 #endif

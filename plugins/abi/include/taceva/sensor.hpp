@@ -9,7 +9,7 @@ namespace taceva {
 class sensor : public device {
  public:
   sensor(uint32_t format, uint32_t width, uint32_t height) : format(format), width(width), height(height) {}
-  virtual void next_frame(taceva_frame &into, deadline until) = 0; /* fills `length` bytes of `buffer`, and the stamp */
+  virtual void next_frame(taceva_frame &into, deadline until) = 0; /* writes `length` bytes of `buffer`, and the stamp */
   const uint32_t format, width, height;
 
  private:
@@ -23,9 +23,9 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<sensor> {
     return device_calls::guarded(error, [&] {
       sensor &it = device_calls::begun<sensor>(handle);
       const uint64_t length = uint64_t{it.width} * it.height * (it.format == TACEVA_RGB16 ? 6 : it.format);
-      device_calls::expect(frame && frame->size >= sizeof *frame, "a frame of another size");
+      device_calls::expect(frame && frame->size >= sizeof *frame, "`frame` is NULL or too short");
       device_calls::expect(device_calls::is_started(it), "it is not started");
-      device_calls::expect(frame->buffer && frame->buffer_length >= length, "a buffer that is too short for a frame");
+      device_calls::expect(frame->buffer && frame->buffer_length >= length, "the buffer is too short for a frame");
       frame->format = it.format, frame->width = it.width, frame->height = it.height, frame->flags = 0;
       frame->data = frame->buffer, frame->length = length, frame->sequence = it.frames_ + 1;
       it.next_frame(*frame, device_calls::after(timeout_ns));

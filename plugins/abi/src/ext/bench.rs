@@ -1,4 +1,4 @@
-//! An extension that may still change: a rig that is a simulated bench.
+//! Draft extension, which may change: a rig that is a simulated bench.
 
 use core::ffi::c_void;
 
@@ -12,7 +12,7 @@ pub const BENCH: &str = "taceva.rig.bench/draft-1";
 
 /// `taceva_specimen`: the object that a robot carries.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::ext::Specimen;
@@ -22,11 +22,11 @@ pub const BENCH: &str = "taceva.rig.bench/draft-1";
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]
 pub struct Specimen {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
     /// [`Specimen::SPHERE`], [`Specimen::LINE`] or [`Specimen::DOT`].
     pub kind: u32,
-    /// The radius of a sphere or the spacing of a grating, in nm.
+    /// Radius of a sphere or spacing of a grating, nm.
     pub size_nm: i64,
 }
 
@@ -39,9 +39,9 @@ impl Specimen {
     pub const DOT: u32 = 3;
 }
 
-/// `taceva_bench_calls`; `bench` is the name that the devices were opened with as `rig=`.
+/// `taceva_bench_calls`. `bench` is the value of `rig=` with which the devices were opened.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::ext::BenchCalls;
@@ -60,25 +60,25 @@ impl Specimen {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct BenchCalls {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[any]` The time of the bench's clock, in ns.
+    /// `[any]` Returns the time of the bench's clock, ns.
     pub now_ns: Option<unsafe extern "C" fn(*mut Rig, bench: Text) -> u64>,
-    /// `[any]` Advances the bench's clock, by so many ns.
+    /// `[any]` Advances the bench's clock by `rest_ns`.
     pub rest:
         Option<unsafe extern "C" fn(*mut Rig, bench: Text, rest_ns: u64, *mut Error) -> Status>,
-    /// `[any]` Mounts a specimen; refused while the tip touches the gel.
+    /// `[any]` Mounts a specimen. Fails while the tip touches the gel.
     pub mount:
         Option<unsafe extern "C" fn(*mut Rig, bench: Text, *const Specimen, *mut Error) -> Status>,
-    /// `[any]` Sets the name of the next press, of which its random numbers are a function.
+    /// `[any]` Sets the name of the next press. Its random numbers depend only on this name.
     pub name_press:
         Option<unsafe extern "C" fn(*mut Rig, bench: Text, name: u64, *mut Error) -> Status>,
     /// `[any]` Delays the next tare until `at_ns`.
     pub schedule:
         Option<unsafe extern "C" fn(*mut Rig, bench: Text, at_ns: u64, *mut Error) -> Status>,
-    /// `[any]` The provenance of the simulation.
+    /// `[any]` Writes the provenance of the simulation.
     pub provenance: Option<
         unsafe extern "C" fn(*mut Rig, bench: Text, TakeText, *mut c_void, *mut Error) -> Status,
     >,

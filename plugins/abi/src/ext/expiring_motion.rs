@@ -1,4 +1,4 @@
-//! A robot that stops by itself if nothing renews its motion.
+//! A robot that stops by itself if its motion is not renewed.
 
 use core::ffi::c_void;
 
@@ -12,7 +12,7 @@ pub const EXPIRING_MOTION: &str = "taceva.robot.expiring-motion/1";
 
 /// `taceva_expiring_motion_calls`, since minor 2.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::ext::ExpiringMotionCalls;
@@ -22,11 +22,11 @@ pub const EXPIRING_MOTION: &str = "taceva.robot.expiring-motion/1";
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ExpiringMotionCalls {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` Moves; if its process ends, the robot begins to brake within 200 ms.
+    /// `[owner & open]` Moves. If the plugin's process ends, the robot begins to brake within 200 ms.
     pub move_expiring: Option<
         unsafe extern "C" fn(
             *mut c_void,

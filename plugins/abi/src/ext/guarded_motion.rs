@@ -12,7 +12,7 @@ pub const GUARDED_MOTION: &str = "taceva.robot.guarded-motion/1";
 
 /// `taceva_guarded_stop`: end of a guarded motion.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::ext::GuardedStop;
@@ -24,19 +24,19 @@ pub const GUARDED_MOTION: &str = "taceva.robot.guarded-motion/1";
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct GuardedStop {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
-    /// 0: it arrived; 1: it stopped at the guard.
+    /// 0: arrived at the target; 1: stopped at the guard.
     pub is_guarded: u32,
     /// Pose of the tip at rest.
     pub pose: Pose,
-    /// Time at which it came to rest.
+    /// Time at which the tip came to rest.
     pub stamp: Stamp,
 }
 
 /// `taceva_guarded_motion_calls`.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::ext::GuardedMotionCalls;
@@ -46,11 +46,11 @@ pub struct GuardedStop {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct GuardedMotionCalls {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` Moves until the target, or until the magnitude of the force reaches the guard.
+    /// `[owner & open]` Moves to the target, or until the magnitude of the force reaches the guard.
     pub move_guarded: Option<
         unsafe extern "C" fn(
             *mut c_void,

@@ -10,7 +10,7 @@ pub const NUMBERED: &str = "taceva.force.numbered/1";
 
 /// `taceva_numbered_calls`.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::ext::NumberedCalls;
@@ -20,10 +20,10 @@ pub const NUMBERED: &str = "taceva.force.numbered/1";
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct NumberedCalls {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` The number that the device itself gave the last reading; `NOT_FOUND` before the first.
+    /// `[owner & open]` Number of the last reading, assigned by the device; `NOT_FOUND` before the first reading.
     pub sequence: Option<unsafe extern "C" fn(*mut c_void, *mut u64, *mut Error) -> Status>,
 }

@@ -1,4 +1,4 @@
-//! A sensor that sets the light around itself.
+//! A sensor that controls its own lighting.
 
 use core::ffi::c_void;
 
@@ -11,7 +11,7 @@ pub const SENSOR_LIGHTING: &str = "taceva.sensor.lighting/1";
 
 /// `taceva_sensor_lighting_calls`.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::ext::SensorLightingCalls;
@@ -21,11 +21,11 @@ pub const SENSOR_LIGHTING: &str = "taceva.sensor.lighting/1";
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct SensorLightingCalls {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` Sets a scene of the manifest; returns once it is steady.
+    /// `[owner & open]` Sets a scene of the manifest. Returns once the light is steady.
     pub set: Option<
         unsafe extern "C" fn(*mut c_void, scene: Text, timeout_ns: u64, *mut Error) -> Status,
     >,

@@ -1,4 +1,4 @@
-//! A force transducer that can take the present load as zero.
+//! A force transducer that can set the present load as zero.
 
 use core::ffi::c_void;
 
@@ -10,7 +10,7 @@ pub const TARE: &str = "taceva.force.tare/1";
 
 /// `taceva_tare_calls`.
 ///
-/// A struct with a size in front grows at its end: a side reads no further than the other's `size` says.
+/// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// ```
 /// use taceva_abi::ext::TareCalls;
@@ -20,10 +20,10 @@ pub const TARE: &str = "taceva.force.tare/1";
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct TareCalls {
-    /// The size of this struct, in bytes.
+    /// Size of this struct, bytes.
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & started]` Sets the present load as zero; returns once this takes effect.
+    /// `[owner & started]` Sets the present load as zero. Returns once this takes effect.
     pub zero: Option<unsafe extern "C" fn(*mut c_void, timeout_ns: u64, *mut Error) -> Status>,
 }

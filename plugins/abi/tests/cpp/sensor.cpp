@@ -1,4 +1,4 @@
-// A sensor in C++ that throws whatever can be thrown, and a host that calls it through the C tables. Prints a line a call.
+// A C++ sensor that throws all kinds of exceptions, and a host that calls it through the C tables. Prints one line per call.
 #include <taceva/sensor.hpp>
 
 #include <cstdio>
@@ -8,8 +8,8 @@
 using namespace std::chrono_literals;
 
 namespace {
-int alive = 0; // sensors that were made and not destroyed
-std::vector<std::string> told; // which of its functions ran
+int alive = 0; // number of existing sensors
+std::vector<std::string> told; // names of the functions that ran
 
 class wild : public taceva::sensor {
  public:
@@ -36,7 +36,7 @@ class wild : public taceva::sensor {
     if (way_ == "whatever") throw 7;
     if (way_ == "long") {
       std::string why(502, 'x');
-      throw std::runtime_error(why + "\xc3\xa9\xc3\xa9"); // é at the very end of the room
+      throw std::runtime_error(why + "\xc3\xa9\xc3\xa9"); // é at the end of the message buffer
     }
     if (way_ == "wait") rest_until(std::chrono::steady_clock::now() + 1h, until);
     std::memset(into.buffer, 9, into.length);
@@ -73,7 +73,7 @@ taceva_error empty() {
   return error;
 }
 
-/* Opens it, takes a picture, closes it. */
+/* Opens the sensor, captures a frame and closes the sensor. */
 void try_way(const char *way, uint64_t timeout_ns = 1'000'000, bool is_started = true, uint64_t room = 12) {
   taceva_arg item{text("way"), text(way), 0, 0, TACEVA_ARG_TEXT, 0};
   taceva_args args{&item, 1};
@@ -85,7 +85,7 @@ void try_way(const char *way, uint64_t timeout_ns = 1'000'000, bool is_started =
   uint8_t bytes[12] = {};
   taceva_frame frame{};
   frame.size = sizeof frame, frame.buffer = bytes, frame.buffer_length = room;
-  calls->device.interrupt(device.handle);  // of nothing
+  calls->device.interrupt(device.handle);  // without a pending call
   print(way, calls->capture(device.handle, &frame, timeout_ns, &error), error);
   if (!std::strcmp(way, "well") && is_started && room == 12)
     std::printf("%ux%u of %u, %u bytes to %u, picture %u at %u\n", frame.width, frame.height, frame.format,

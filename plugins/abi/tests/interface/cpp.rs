@@ -1,11 +1,11 @@
-//! The helper for C++: whatever a sensor throws, the tables answer with a status and a message, and nothing is left behind.
+//! C++ helpers: for every exception of a sensor, the tables return a status and a message, and no memory leaks.
 
 use std::path::Path;
 use std::process::Command;
 
 use taceva_needs::{Need, skip};
 
-/// What the host in `cpp/sensor.cpp` prints: a line a call, with the status, the length of the message and how it begins.
+/// Expected output of the host in `cpp/sensor.cpp`: one line per call, with the status, the length of the message and its beginning.
 const EXPECTED: &str = "\
 well: 0 0 
 2x1 of 4, 12 bytes to 9, picture 1 at 5
@@ -15,7 +15,7 @@ failure: -5 16 the cable is out
 success: -15 29 a failure that claims success
 exception: -15 10 row 7 of 3
 memory: -15 14 std::bad_alloc
-whatever: -15 36 what was thrown is no std::exception
+whatever: -15 37 the exception is not a std::exception
 long: -15 502 xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx
 stop throws: 0 0 
 wait: -4 20 nothing came in time

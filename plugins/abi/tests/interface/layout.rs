@@ -1,7 +1,6 @@
-//! The mirror is the header: every size, offset and constant of the C declarations, compiled as C11 and as C++17, equals what Rust says,
-//! and both equal what is frozen in `layout.txt`.
+//! The Rust mirror equals the C headers: every size, offset and constant, compiled as C11 and C++17. Both equal the frozen values in `layout.txt`.
 
-// The frozen numbers are those of machines whose pointers have 64 bits.
+// The frozen values are for 64-bit pointers.
 #![cfg(target_pointer_width = "64")]
 
 use std::fmt::Write as _;
@@ -25,7 +24,7 @@ use taceva_abi::{
     RobotCalls, SENSOR_FACTORY, SensorCalls, Stamp, Status, Text, TrainingSet, Wrench,
 };
 
-/// An expression of C, and the number that Rust says it is.
+/// A C expression, and its value in Rust.
 type Line = (String, i64);
 
 fn line(c: String, rust: impl TryInto<i64>) -> Line {
@@ -33,7 +32,7 @@ fn line(c: String, rust: impl TryInto<i64>) -> Line {
     (c, rust)
 }
 
-/// The size of each struct, then the offsets of all its fields.
+/// Size of each struct, then the offsets of all its fields.
 macro_rules! structs {
     ($($c:ident = $rust:ident { $($field:ident),* $(,)? })*) => {{
         let mut lines = Vec::new();
@@ -43,7 +42,7 @@ macro_rules! structs {
                 let c = format!("offsetof({}, {})", stringify!($c), stringify!($field));
                 lines.push(line(c, offset_of!($rust, $field)));
             )*
-            // A field that the list lacks does not compile.
+            // Does not compile if the list lacks a field.
             let _ = |it: $rust| { let $rust { $($field: _),* } = it; };
         )*
         lines
@@ -162,7 +161,7 @@ fn constants() -> Vec<Line> {
     lines
 }
 
-/// What stands in strings: ids, compared by the compiler that worked the numbers out.
+/// String constants: ids, compared by the compiler that computed the numbers.
 fn texts() -> Vec<(&'static str, &'static str)> {
     vec![
         ("TACEVA_SENSOR_FACTORY", SENSOR_FACTORY),
@@ -180,7 +179,7 @@ fn texts() -> Vec<(&'static str, &'static str)> {
     ]
 }
 
-/// What Rust says, a line each.
+/// Values in Rust, one per line.
 fn mirrored() -> String {
     let mut out = String::new();
     for (c, rust) in sizes_and_offsets().into_iter().chain(constants()) {
@@ -192,7 +191,7 @@ fn mirrored() -> String {
     out
 }
 
-/// A program that prints the same lines from the headers.
+/// C program that prints the same lines from the headers.
 fn program() -> String {
     let mut out = String::from("#include <stdio.h>\n");
     for header in headers() {
@@ -213,7 +212,7 @@ fn include() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("include")
 }
 
-/// Every header of C, as it is included; what is for C++ alone declares nothing that crosses.
+/// Every C header, as it is included. Headers for C++ only declare no types of the interface.
 fn headers() -> Vec<String> {
     let root = include().join("taceva");
     let mut folders = vec![root.clone()];
@@ -234,7 +233,7 @@ fn headers() -> Vec<String> {
     found
 }
 
-/// A compiler, and its arguments.
+/// A compiler and its arguments.
 struct Compiler {
     program: String,
     need: Need,
@@ -262,7 +261,7 @@ fn compilers() -> [Compiler; 2] {
 
 const STRICT: [&str; 4] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"];
 
-/// Runs a compiler on `source`; `None`, with the reason printed, where there is none.
+/// Compiles `source`. Prints the reason and returns `None` without a compiler.
 fn compile(compiler: &Compiler, source: &str, folder: &Path, extra: &[&str]) -> Option<PathBuf> {
     let file = folder.join(compiler.file);
     let built = folder.join(format!("{}.out", compiler.file));

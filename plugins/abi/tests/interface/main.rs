@@ -1,4 +1,4 @@
-//! The interface, held against what compilers of C and C++ make of its headers.
+//! The interface, compared with its headers as C and C++ compilers see them.
 
 mod cpp;
 mod layout;

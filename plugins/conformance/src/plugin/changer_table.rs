@@ -1,8 +1,8 @@
-//! Promises of a changer's table, for names that no host passes on.
+//! Promises of a changer's table, tested with names that a host would reject itself.
 
 #![expect(
     unsafe_code,
-    reason = "the functions of the device are called as no host does"
+    reason = "the test calls functions of the device with arguments that no host passes"
 )]
 
 use taceva_abi as abi;
@@ -27,19 +27,19 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Ch
     }
 }
 
-/// Names of the changer's items; skipped without any item.
+/// Names of the changer's items. Skips the promise without any item.
 fn holds(subject: &Subject) -> Result<Vec<String>, Unmet> {
     let session = &subject.session;
     let changer = subject.opened(session.changer(subject.key()?, &subject.args()?))?;
     match changer.holds().to_vec() {
-        holds if holds.is_empty() => Err(skipped("the changer holds nothing with these arguments")),
+        holds if holds.is_empty() => Err(skipped("with these arguments, the changer has no items")),
         holds => Ok(holds),
     }
 }
 
 type Bare = taceva_host::bare::Opened<abi::ChangerCalls>;
 
-/// Calls `bring` without the host, which would reject unknown names itself.
+/// Calls `bring` without the host, because the host would reject unknown names itself.
 fn bare_bring(changer: &Bare, name: abi::Text, take: abi::TakeText) -> Result<(), DriverError> {
     let bring = changer.handle.needs(changer.calls.bring, "bring")?;
     let mut taken = Taken::default();

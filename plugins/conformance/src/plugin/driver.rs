@@ -2,7 +2,7 @@
 
 #![expect(
     unsafe_code,
-    reason = "the functions of the factory are called as no host does"
+    reason = "the test calls functions of the factory with arguments that no host passes"
 )]
 
 use std::mem::offset_of;
@@ -44,7 +44,7 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Ch
     }
 }
 
-/// An open device of any kind, to be dropped.
+/// An open device of any kind, which is only dropped.
 enum Device {
     Sensor(Opened<abi::SensorCalls>),
     Robot(Opened<abi::RobotCalls>),
@@ -73,7 +73,7 @@ fn opened(subject: &Subject) -> Result<Device, Unmet> {
         DriverKind::Lighting => Ok(Device::Lighting(subject.open()?)),
         DriverKind::Changer => Ok(Device::Changer(subject.open()?)),
         kind => Err(Unmet::Skipped(format!(
-            "this program does not know devices of the kind {kind}"
+            "this program does not know the kind of device {kind}"
         ))),
     }
 }
@@ -90,7 +90,7 @@ fn describes_twice(subject: &Subject) -> Result<(), Unmet> {
     })
 }
 
-/// With every argument at its limits the driver describes itself, or reports a contradiction.
+/// With every argument at its limits, the driver describes itself or reports contradictory arguments.
 fn describes_every_argument(subject: &Subject) -> Result<(), Unmet> {
     let key = subject.key()?;
     for spec in subject.entry()?.arguments() {
@@ -177,7 +177,7 @@ fn raw_open(
         )
     };
     if status.is_ok() && !device.calls.is_null() {
-        // SAFETY: after a success the interface promises the table, which outlives the device.
+        // SAFETY: after a success, the interface specifies the table, which outlives the device.
         if let Some(close) = unsafe { (*device.calls).close } {
             // SAFETY: [owner & open], the last call; the rig is still open.
             unsafe { close(device.handle) };
@@ -206,7 +206,7 @@ fn opens_again(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// A second device with the same arguments opens too, or gives `BUSY`.
+/// A second device with the same arguments opens too, or returns `BUSY`.
 fn opens_beside(subject: &Subject) -> Result<(), Unmet> {
     let first = opened(subject)?;
     let list = subject.list()?;
@@ -251,13 +251,13 @@ fn rubbish_arguments(subject: &Subject) -> Result<(), Unmet> {
             count: 1,
         };
         let mut error = abi::Error::new();
-        // Any answer passes, but the call must return.
+        // Any result passes, but the call must return.
         raw_open(subject, subject.entry()?.number, &args, &raw mut error)?;
     }
     Ok(())
 }
 
-/// A shorter `taceva_error` is written only within its stated size.
+/// A `taceva_error` is written only within its stated size.
 fn keeps_to_error(subject: &Subject) -> Result<(), Unmet> {
     const ROOM: usize = 24;
     const CANARY: i8 = 0x5a;
@@ -269,13 +269,13 @@ fn keeps_to_error(subject: &Subject) -> Result<(), Unmet> {
     let drivers = factory(subject)?.drivers;
     let (status, _) = raw_open(subject, drivers, &list.args(), &raw mut error)?;
     expect(!status.is_ok(), || {
-        "a driver opened that the plugin does not have".to_owned()
+        "a driver opened whose number the plugin does not have".to_owned()
     })?;
     let written = error.message[ROOM..].iter().any(|byte| *byte != CANARY);
     expect(!written, || {
         format!("a message exceeded the {ROOM} bytes of its `taceva_error`")
     })?;
-    // A host of minor 0 has no room for a fault.
+    // A host of minor version 0 has no space for a fault.
     const NONE: abi::FaultNumber = abi::FaultNumber(0x5a5a);
     let mut error = abi::Error::new();
     error.size = u32::try_from(offset_of!(abi::Error, fault)).expect("small");
@@ -329,7 +329,7 @@ fn interrupts(subject: &Subject) -> Result<(), Unmet> {
     opened(subject).map(drop)
 }
 
-/// A handle belongs to no thread: it is opened in one, and used and closed in another.
+/// A handle is not bound to a thread: it is opened in one thread, and used and closed in another.
 fn other_thread(subject: &Subject) -> Result<(), Unmet> {
     let device = opened(subject)?;
     let closed = thread::scope(|scope| scope.spawn(move || drop(device)).join());
@@ -352,7 +352,7 @@ fn discovers(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// After the first 100, another 9,900 openings add less than 1 MiB to the writable memory.
+/// After the first 100 openings, another 9,900 add less than 1 MiB to the writable memory.
 fn memory(subject: &Subject) -> Result<(), Unmet> {
     if subject.is_real() {
         let why = "a real device is not opened 10000 times";

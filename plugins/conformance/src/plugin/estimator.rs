@@ -32,7 +32,7 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Ch
 }
 
 const SAMPLES: usize = 12;
-/// Pictures of 32×32, as large as the default features of a study: layers of a network need some room.
+/// Pictures of 32×32, the default size of features in a study. The layers of a network need this size.
 const SHAPE: FeatureShape = FeatureShape {
     height: 32,
     width: 32,
@@ -45,7 +45,7 @@ struct Samples {
     values: Vec<f64>,
 }
 
-/// Samples with sums of their features as targets.
+/// Training samples. The targets are sums of features.
 fn samples(seed: u64) -> Result<Samples, Unmet> {
     let mut draw = Draw::new(seed);
     let mut values = Vec::new();
@@ -76,7 +76,7 @@ fn fit(
     let settings = subject.args().map_err(|_| {
         ModelError::new(
             ErrorKind::InvalidArgument,
-            "it needs settings that were not given",
+            "it requires settings without defaults",
         )
     })?;
     let training = TrainingSet::new(
@@ -141,7 +141,7 @@ fn keeps(subject: &Subject) -> Result<(), Unmet> {
     })
 }
 
-/// Garbage bytes and truncated models are rejected. A model with a flipped bit is rejected or predicts something.
+/// Garbage bytes and truncated models are rejected. A model with a flipped bit is rejected, or still predicts.
 fn hostile(subject: &Subject) -> Result<(), Unmet> {
     let samples = samples(subject.probe.seed)?;
     let bytes = fit(subject, &samples, &SilentProgress)?.save()?;

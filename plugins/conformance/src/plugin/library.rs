@@ -2,7 +2,7 @@
 
 #![expect(
     unsafe_code,
-    reason = "the functions of the library are called as no host does"
+    reason = "the test calls functions of the library with arguments that no host passes"
 )]
 
 use taceva_abi as abi;
@@ -45,7 +45,7 @@ fn load(subject: &Subject) -> Result<std::sync::Arc<Library>, Unmet> {
     loaded.map_err(|error| Unmet::Broken(error.problem().to_string()))
 }
 
-/// A second copy of the library has its own statics, and works as the first does.
+/// A second copy of the library has its own static variables, and works like the first.
 fn loads_twice(subject: &Subject) -> Result<(), Unmet> {
     let second = load(subject)?;
     expect(second.id() == subject.library.id(), || {
@@ -53,14 +53,14 @@ fn loads_twice(subject: &Subject) -> Result<(), Unmet> {
     })
 }
 
-/// `deinit` may be called once everything is closed, and the library may be initialised again.
+/// `deinit` may be called once everything is closed. The library may then be initialised again.
 fn ends(subject: &Subject) -> Result<(), Unmet> {
     drop(load(subject)?);
     drop(load(subject)?);
     Ok(())
 }
 
-/// The needs that the library states are in its manifest, which alone counts.
+/// The manifest contains all needs that the library states. Only the manifest counts.
 fn needs(subject: &Subject) -> Result<(), Unmet> {
     let offer = subject.library.offer();
     let offer = offer.map_err(|problem| Unmet::Broken(problem.to_string()))?;
@@ -73,7 +73,7 @@ fn needs(subject: &Subject) -> Result<(), Unmet> {
     match offer.needs.iter().find(is_missing) {
         None => Ok(()),
         Some(need) => Err(Unmet::Broken(format!(
-            "it needs {need:?}, but its manifest does not say so; add it with `taceva plugin manifest --write`"
+            "it states the need {need:?}, but its manifest does not; add it with `taceva plugin manifest --write`"
         ))),
     }
 }
@@ -96,7 +96,10 @@ fn unknown_factory(subject: &Subject) -> Result<(), Unmet> {
     ] {
         let found = factory(subject, abi::Text::from(id))?;
         expect(found == 0, || {
-            format!("a factory for the unknown id {:?}", &id[..id.len().min(40)])
+            format!(
+                "it returned a factory for the unknown id {:?}",
+                &id[..id.len().min(40)]
+            )
         })?;
     }
     let nothing = abi::Text {
@@ -104,7 +107,7 @@ fn unknown_factory(subject: &Subject) -> Result<(), Unmet> {
         length: 0,
     };
     expect(factory(subject, nothing)? == 0, || {
-        "a factory for an empty text".to_owned()
+        "it returned a factory for an empty id".to_owned()
     })
 }
 
@@ -143,11 +146,11 @@ fn unknown_rig_extension(subject: &Subject) -> Result<(), Unmet> {
     // SAFETY: [owner] of an open rig, with a text that outlives the call.
     let found = unsafe { extension(rig.raw(), abi::Text::from("taceva.nothing/1")) };
     expect(found.is_null(), || {
-        "a table for an unknown extension".to_owned()
+        "it returned a table for an unknown extension".to_owned()
     })
 }
 
-/// Loading and opening change neither the folder that the process works in nor its environment.
+/// Loading and opening change neither the working directory nor the environment.
 fn keeps_surroundings(subject: &Subject) -> Result<(), Unmet> {
     drop(RigHandle::open(&subject.library)?);
     let (before, now) = (&subject.before, Surroundings::now());
@@ -170,7 +173,7 @@ fn keeps_signals(subject: &Subject) -> Result<(), Unmet> {
     }
 }
 
-/// Loading prints nothing, as output would corrupt a result. The host examines the output of the process.
+/// Loading prints nothing, because output would corrupt a result. The host examines the output of the process.
 fn quiet(subject: &Subject) -> Result<(), Unmet> {
     drop(load(subject)?);
     drop(RigHandle::open(&subject.library)?);

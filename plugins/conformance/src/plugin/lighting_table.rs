@@ -2,7 +2,7 @@
 
 #![expect(
     unsafe_code,
-    reason = "the functions of the device are called as no host does"
+    reason = "the test calls functions of the device with arguments that no host passes"
 )]
 
 use taceva_abi as abi;
@@ -36,7 +36,7 @@ fn set(lamp: &Lamp, scene: abi::Text, within: u64) -> Result<(), taceva_core::Dr
 fn scenes(subject: &Subject) -> Result<Vec<String>, Unmet> {
     match subject.said()?.facts() {
         Facts::Lighting(facts) => Ok(facts.scenes.clone()),
-        _ => Err(broken("it does not describe itself as lighting")),
+        _ => Err(broken("it does not describe itself as a lighting")),
     }
 }
 

@@ -5,11 +5,11 @@ use taceva_core::DriverKey;
 
 use super::CheckRequest;
 
-/// One check on one driver, or several by names with commas between them.
+/// One check on one driver, or several checks with their names separated by commas.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Probe {
     pub(crate) check: String,
-    /// The key of the driver or estimator; empty for the plugin as a whole.
+    /// Key of the driver or estimator; empty for the plugin as a whole.
     pub(crate) driver: String,
     pub(crate) arguments: String,
     pub(crate) seed: u64,
@@ -17,7 +17,7 @@ pub(crate) struct Probe {
 }
 
 impl Probe {
-    /// The probe of `check` on the driver or estimator `key`, as `request` says.
+    /// Probe of `check` on the driver or estimator `key`, with the settings of `request`.
     pub(crate) fn of(request: &CheckRequest, check: &str, key: Option<&DriverKey>) -> Probe {
         let arguments = key.and_then(|key| request.arguments.get(key));
         Probe {

@@ -1,8 +1,8 @@
-//! Promises of a robot's table, for motions that no host requests.
+//! Promises of a robot's table, tested with motions that no host requests.
 
 #![expect(
     unsafe_code,
-    reason = "the functions of the device are called as no host does"
+    reason = "the test calls functions of the device with arguments that no host passes"
 )]
 
 use taceva_abi as abi;

@@ -1,4 +1,4 @@
-//! Checks in a child, one or some that run together: it serves if the promises hold, and refuses to if not.
+//! Runs one or several checks in a child. The child serves if the promises hold, and otherwise refuses to serve.
 
 use std::fs::File;
 use std::io::{Read, Seek};
@@ -19,10 +19,10 @@ use taceva_host::bare::pending_call;
 /// Prefix of the answer of a skipped check.
 pub(super) const SKIPPED: &str = "skipped: ";
 
-/// Runs the checks of `file` on the plugin of `source`, in this process. An intact session means that the promise held.
+/// Runs the checks of `file` on the plugin of `source`, in this process. Returns a session if the promises hold.
 ///
 /// # Errors
-/// Kind and reason of the unmet promise, in the words of the check.
+/// Kind and reason of the unmet promise.
 pub(crate) fn run(
     mut file: File,
     source: Source,

@@ -2,7 +2,7 @@
 
 #![expect(
     unsafe_code,
-    reason = "the functions of the device are called as no host does"
+    reason = "the test calls functions of the device with arguments that no host passes"
 )]
 
 use std::thread;
@@ -35,19 +35,19 @@ const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Ch
     }
 }
 
-/// A sensor behind its bare table, started.
+/// A started sensor behind its bare table.
 struct Bare {
     opened: Opened<abi::SensorCalls>,
     length: usize,
 }
 
-/// A frame as received; released when it is dropped.
+/// A received frame. It is released on drop.
 struct Lent(abi::Frame);
 
 impl Drop for Lent {
     fn drop(&mut self) {
         if let Some(release) = self.0.release {
-            // SAFETY: [any], once: set by the lender, and the pixels are not read any more.
+            // SAFETY: [any], once: the lender set `release`, and the pixels are no longer read.
             unsafe { release(&raw mut self.0) };
         }
     }
@@ -103,7 +103,7 @@ impl Bare {
     /// A frame in the plugin's own memory.
     fn lend(&self) -> Result<Lent, Unmet> {
         if self.opened.calls.max_lent == 0 {
-            return Err(skipped("it never lends"));
+            return Err(skipped("it never lends frames"));
         }
         let lent = self.capture(&mut [], PATIENT)?;
         expect(lent.0.release.is_some() && !lent.0.data.is_null(), || {
@@ -130,7 +130,7 @@ fn counts(subject: &Subject) -> Result<(), Unmet> {
 
 const CANARY: u8 = 0x5a;
 
-/// With a short buffer the call is rejected or the frame is lent; nothing beyond the buffer is written.
+/// For a short buffer, the call is rejected or the frame is lent. Nothing beyond the buffer is written.
 fn keeps_to_buffer(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     for room in [1, sensor.length / 2, sensor.length - 1] {
@@ -185,13 +185,13 @@ fn no_buffer(subject: &Subject) -> Result<(), Unmet> {
     }
 }
 
-/// `release` sets itself to NULL, so that no frame is released twice.
+/// `release` sets itself to NULL, so no frame is released twice.
 fn releases(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     for _ in 0..100 {
         let mut lent = sensor.lend()?;
         if let Some(release) = lent.0.release {
-            // SAFETY: [any], once: `release` counts as called, whatever its result.
+            // SAFETY: [any], once: `release` counts as called, regardless of its effect.
             unsafe { release(&raw mut lent.0) };
         }
         let is_done = lent.0.release.take().is_none();
@@ -202,7 +202,7 @@ fn releases(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// A frame that goes to another thread.
+/// A frame that moves to another thread.
 struct Elsewhere(Lent);
 
 // SAFETY: the interface allows `release` from any thread, and a lent frame belongs to its holder.
@@ -226,7 +226,7 @@ fn releases_elsewhere(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// The declared number of frames can be lent at once. One more is rejected or waits, and capture works again after their release.
+/// The declared number of frames can be lent at once. One more is rejected or waits. Capture works again after their release.
 fn lends_many(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     let most = usize::try_from(sensor.opened.calls.max_lent)
@@ -237,7 +237,7 @@ fn lends_many(subject: &Subject) -> Result<(), Unmet> {
         out.push(sensor.lend()?);
     }
     if out.is_empty() {
-        return Err(skipped("it never lends"));
+        return Err(skipped("it never lends frames"));
     }
     let within = Deadline::after(Duration::from_millis(100));
     drop(sensor.capture(&mut [], within));

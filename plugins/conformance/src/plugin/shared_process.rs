@@ -1,4 +1,4 @@
-//! Checks that one process runs together: they leave it as they found it, and open no device.
+//! Checks that run together in one process. They leave the process unchanged and open no device.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -10,7 +10,7 @@ use super::probe::Probe;
 use super::{Check, CheckRequest, made, subjects};
 use crate::report::Outcome;
 
-/// Names of such checks, of the library and of estimators.
+/// Names of these checks, for the library and for estimators.
 const NAMES: [&str; 11] = [
     "library/loads",
     "library/needs-what-its-manifest-says",
@@ -25,14 +25,14 @@ const NAMES: [&str; 11] = [
     "estimator/predicts-in-threads",
 ];
 
-/// Between the names of the checks of one process.
+/// Separator between the names of the checks of one process.
 pub(super) const BETWEEN: &str = ",";
 
-/// Time of each check that held together with others, in seconds, by subject and name. A check that is missing here runs alone: a
-/// single failure does not say what else would hold.
+/// Time of each check that passed together with others, in seconds, by subject and name. A check that is missing here runs separately, because a
+/// single failure does not tell which other checks would pass.
 pub(super) type HeldTogether<'a> = BTreeMap<(Option<&'a DriverKey>, &'static str), f64>;
 
-/// Runs such checks of `wanted` in one process for each subject.
+/// Runs these checks of `wanted` in one process per subject.
 pub(super) fn held_together<'a>(
     examination: &Examination<'_>,
     request: &CheckRequest,

@@ -20,7 +20,7 @@ use crate::trial::{NO_DEVICE, Trial, Tried, unopened};
 pub(super) const PATIENT: Deadline = Deadline::after(Duration::from_secs(5));
 /// Time limit of an interrupt and a halt.
 pub(super) const AT_ONCE: Duration = Duration::from_millis(50);
-/// Time limit of calls that should return at once, on a busy machine.
+/// Time limit of calls that should return at once, also on a busy machine.
 pub(super) const SOON: Duration = Duration::from_millis(500);
 
 /// Most openings of a real device in one check.
@@ -33,7 +33,7 @@ pub(crate) struct Subject {
     pub(super) source: Source,
     pub(super) manifest: Manifest,
     pub(super) session: InProcess,
-    /// State of the process before the plugin was loaded.
+    /// State of the process before loading the plugin.
     pub(super) before: Surroundings,
     key: Option<DriverKey>,
 }
@@ -61,7 +61,7 @@ impl Subject {
         })
     }
 
-    /// The key of the driver or estimator.
+    /// Key of the driver or estimator.
     pub(super) fn key(&self) -> Result<&DriverKey, Unmet> {
         let none = || broken("this check needs a driver");
         self.key.as_ref().ok_or_else(none)
@@ -81,7 +81,7 @@ impl Subject {
         }
     }
 
-    /// Arguments of opening: the given ones, or the declared defaults.
+    /// Arguments for opening: the given ones, and declared defaults.
     pub(super) fn args(&self) -> Result<Args, Unmet> {
         let args = Args::parse(self.entry()?.arguments(), &self.probe.arguments);
         args.map_err(|error| {
@@ -98,23 +98,23 @@ impl Subject {
         Ok(ArgList::new(&self.args()?, self.entry()?.arguments()))
     }
 
-    /// Description of the driver by the library, with its arguments.
+    /// Description of the driver by the library, for its arguments.
     pub(super) fn said(&self) -> Result<Descriptor, Unmet> {
         Ok(self.session.describe(self.key()?, &self.args()?)?)
     }
 
-    /// The device with its bare table, in a rig of its own.
+    /// Opens the device with its bare table, in its own rig.
     pub(super) fn open<T: Table>(&self) -> Result<Opened<T>, Unmet> {
         let rig = RigHandle::open(&self.library)?;
         self.opened(open(&rig, self.entry()?, &self.list()?))
     }
 
-    /// The opened device, or the reason for the failure.
+    /// Opened device, or the reason for the failure.
     pub(super) fn opened<T>(&self, opened: Result<T, DriverError>) -> Result<T, Unmet> {
         opened.map_err(|error| self.not_opened(error))
     }
 
-    /// Reason that a device did not open. If a real device is absent, promises are skipped.
+    /// Reason why a device did not open. If a real device is missing, promises are skipped.
     fn not_opened(&self, error: DriverError) -> Unmet {
         match unopened(error, self.is_real()) {
             Unmet::Skipped(why) => Unmet::Skipped(self.with_place(&why)),
@@ -122,13 +122,13 @@ impl Subject {
         }
     }
 
-    /// True for real devices, which wear.
+    /// True for real devices, which wear out.
     pub(super) fn is_real(&self) -> bool {
         let descriptor = self.descriptor();
         descriptor.is_ok_and(|descriptor| descriptor.source() == DriverSource::Real)
     }
 
-    /// Number of openings of a device, at most `simulated`. A real device takes seconds and wears, so it is opened less often.
+    /// Number of openings of a device, at most `simulated`. A real device takes seconds and wears out, so it is opened less often.
     pub(super) fn openings(&self, simulated: usize) -> usize {
         if self.is_real() {
             simulated.min(REAL_OPENINGS)
@@ -137,13 +137,13 @@ impl Subject {
         }
     }
 
-    /// Tries a promise of the devices `D`, each opened by `open` in a rig of its own.
+    /// Tests a promise on the devices `D`. `open` opens each in its own rig.
     pub(super) fn tries<D: Device + ?Sized>(
         &self,
         open: OpenIn<D>,
         test: fn(&Tried<'_, D>) -> Result<(), Unmet>,
     ) -> Result<(), Unmet> {
-        // A missing argument is reported in words of the command.
+        // A missing argument is reported with the option of the command.
         self.args()?;
         let driver = InLibrary {
             library: &self.library,
@@ -167,7 +167,7 @@ impl Subject {
         }
     }
 
-    /// Skips a promise that moves a device, unless it is a simulation or the user allowed it.
+    /// Skips a promise that moves a device, unless the device is simulated or the user allows it.
     pub(super) fn may_move(&self) -> Result<(), Unmet> {
         if self.probe.moves || self.descriptor()?.source() == DriverSource::Simulated {
             return Ok(());
@@ -175,7 +175,7 @@ impl Subject {
         Err(skipped("it would move a real device; `--move` allows it"))
     }
 
-    /// `why`, with the argument of the command that names a device.
+    /// Appends to `why` the command option that names a device.
     fn with_place(&self, why: &str) -> String {
         let key = &self.probe.driver;
         format!("{why}; name a device with `--with {key}:…`")
@@ -199,7 +199,7 @@ impl<D: Device + ?Sized> Factory<D> for InLibrary<'_, D> {
     }
 
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
-        // The description by the library is for another check; without it the manifest is used.
+        // Another check tests the description by the library. Without it, this check uses the manifest.
         let said = self.session.describe(self.descriptor.key(), args);
         Ok(said.unwrap_or_else(|_| self.descriptor.clone()))
     }
@@ -210,19 +210,19 @@ impl<D: Device + ?Sized> Factory<D> for InLibrary<'_, D> {
     }
 }
 
-/// Calls a function of a bare table; the error is the failure that the plugin reports.
+/// Calls a function of a bare table. The error is the failure that the plugin reports.
 pub(super) fn bare(run: impl FnOnce(*mut abi::Error) -> abi::Status) -> Result<(), Failure> {
     call(|error| run(std::ptr::from_mut(error)))
 }
 
-/// Result of `run`, and its duration.
+/// Runs `run`; returns its result and duration.
 pub(super) fn timed<T>(run: impl FnOnce() -> T) -> (T, Duration) {
     let begun = Instant::now();
     let result = run();
     (result, begun.elapsed())
 }
 
-/// Random numbers from a seed: xorshift64*, enough for garbage data.
+/// Random numbers from a seed by xorshift64*, sufficient for garbage data.
 pub(super) struct Draw(u64);
 
 impl Draw {
@@ -244,7 +244,7 @@ impl Draw {
     }
 }
 
-/// Writable memory of this process, bytes; a leak increases it.
+/// Writable memory of this process, bytes. A leak increases it.
 pub(super) fn writable_memory() -> Result<u64, Unmet> {
     let maps = std::fs::read_to_string("/proc/self/maps")
         .map_err(|error| Unmet::Skipped(format!("/proc/self/maps: {error}")))?;

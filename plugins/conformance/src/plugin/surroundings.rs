@@ -15,9 +15,9 @@ impl Surroundings {
     /// Present state of this process.
     pub(super) fn now() -> Surroundings {
         let handler = |signal| {
-            // SAFETY: all bytes 0 is a value of this C struct.
+            // SAFETY: zero bytes are a valid value of this C struct.
             let mut action: libc::sigaction = unsafe { std::mem::zeroed() };
-            // SAFETY: nothing is set; the present action is written into ours.
+            // SAFETY: no handler is set; the present action is written into `action`.
             let asked = unsafe { libc::sigaction(signal, std::ptr::null(), &raw mut action) };
             if asked == 0 { action.sa_sigaction } else { 0 }
         };

@@ -1,4 +1,4 @@
-//! Checks of plugins, in children of this program: its `main` begins as that of every host does.
+//! Checks of plugins, in children of this program. Its `main` begins like that of every host.
 
 #[cfg(target_os = "linux")]
 #[path = "../../../host/tests/plugins/fixture.rs"]

@@ -1,4 +1,4 @@
-//! The checks of a plugin: all hold for a good one, and each kind of mistake is found by the check that is about it.
+//! Checks of a plugin. All pass for a valid plugin, and each kind of mistake fails the check for it.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -77,7 +77,7 @@ pub(crate) const TESTS: &[Test] = &[
     ),
 ];
 
-/// Expects that `check` fails on the plugin built with `macros`, for a reason in these words.
+/// Asserts that `check` fails on the plugin built with `macros`, with `words` in the reason.
 fn finds(macros: &[&str], check: &str, words: &str) {
     let Some(fixture) = Fixture::built(macros) else {
         return;
@@ -191,7 +191,7 @@ fn a_device_of_each_kind_in_cpp_keeps_every_promise() {
     let (mut made, mut failed) = (0, Vec::new());
     check(&host, plugin, &CheckRequest::default(), &mut |result| {
         made += 1;
-        // How long a wait takes that is ended within 50 ms depends on what else the machine does.
+        // A wait of at most 50 ms may take longer if other programs use the machine.
         let is_timed = result.check.ends_with("within-50-ms");
         if let Outcome::Failed(why) = result.outcome
             && !is_timed

@@ -1,5 +1,4 @@
-//! Child process that runs a plugin, for host programs whose own `main` cannot begin with [`main_if_child`](taceva_host::main_if_child).
-//! They name this program instead.
+//! Child process that runs a plugin. Host programs start it if their own `main` cannot begin with [`main_if_child`](taceva_host::main_if_child).
 
 use std::process::ExitCode;
 
@@ -7,8 +6,6 @@ use std::process::ExitCode;
 fn main() -> ExitCode {
     #[cfg(target_os = "linux")]
     taceva_host::main_if_child();
-    eprintln!(
-        "taceva-host-child is started by a program that hosts plugins, and does nothing by itself"
-    );
+    eprintln!("taceva-host-child is started by programs that host plugins; do not run it directly");
     ExitCode::from(64)
 }

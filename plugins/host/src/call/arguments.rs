@@ -25,7 +25,7 @@ impl ArgList {
                 ArgValue::Whole(whole) => (abi::Arg::WHOLE, whole, 0.0),
                 ArgValue::Number(number) => (abi::Arg::NUMBER, 0, number),
                 ArgValue::Flag(flag) => (abi::Arg::FLAG, i64::from(flag), 0.0),
-                // An unknown kind of value is passed as text.
+                // A value of an unknown kind is passed as text.
                 _ => (abi::Arg::TEXT, 0, 0.0),
             };
             items.push(abi::Arg {

@@ -1,4 +1,4 @@
-//! Pending plugin calls, so that an aborted check can name the call in which it hung.
+//! Pending plugin calls, so an aborted check can name the hanging call.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,7 +14,7 @@ static CALLS: Mutex<Calls> = Mutex::new(Calls {
 
 struct Calls {
     next: u64,
-    /// By call number: the operation, in words that follow "did not", and its start time.
+    /// Operation and start time, by call number. The operation is a verb phrase that follows "did not".
     under_way: BTreeMap<u64, (&'static str, Instant)>,
 }
 
@@ -52,8 +52,7 @@ const LONG: Duration = Duration::from_millis(400);
 /// Polling interval.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// Starts a thread that reports the newest call pending for longer than [`LONG`]. Calls `tell` whenever that call changes, with "" if there
-/// is none.
+/// Starts a thread that reports the newest call pending for longer than [`LONG`]. Calls `tell` at each change of that call, with "" if there is none.
 pub(crate) fn watch(tell: impl Fn(&'static str) + Send + 'static) {
     IS_WATCHED.store(true, Ordering::Relaxed);
     let look = move || {
@@ -67,7 +66,7 @@ pub(crate) fn watch(tell: impl Fn(&'static str) + Send + 'static) {
             }
         }
     };
-    // If the thread cannot start, a hanging check is still aborted, but without the name of the call.
+    // If the thread cannot start, a hanging check is still aborted, but its error does not name the call.
     let _ = std::thread::Builder::new()
         .name("taceva-calls".to_owned())
         .spawn(look);

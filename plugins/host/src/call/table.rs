@@ -24,7 +24,7 @@ pub unsafe trait Table: Copy {
 
 macro_rules! tables {
     ($($table:ty => $name:literal),* $(,)?) => {$(
-        // SAFETY: it is `repr(C)`, begins with `size: u32`, and holds numbers and optional functions alone.
+        // SAFETY: it is `repr(C)`, begins with `size: u32`, and holds only numbers and optional functions.
         unsafe impl Table for $table {
             const NAME: &'static str = $name;
         }
@@ -51,7 +51,7 @@ tables! {
 /// Copies the function table at `table`. Fields beyond the plugin's own size are NULL.
 ///
 /// # Safety
-/// `table` points to a table as the interface has it: at least its size field can be read, and as many bytes as that says.
+/// `table` points to a table of the interface: its size field can be read, and so can the number of bytes in that field.
 pub(crate) unsafe fn table<T: Table>(table: *const c_void) -> Result<T, Failure> {
     let refused = |problem: &str| Failure::new(ErrorKind::Abi, format!("{}: {problem}", T::NAME));
     if table.is_null() {
@@ -60,19 +60,19 @@ pub(crate) unsafe fn table<T: Table>(table: *const c_void) -> Result<T, Failure>
     if !table.addr().is_multiple_of(align_of::<T>()) {
         return Err(refused("the table is misaligned"));
     }
-    // SAFETY: not NULL, aligned, and begins with its size by the caller's promise.
+    // SAFETY: not NULL, aligned, and begins with its size, as the caller guarantees.
     let size = unsafe { table.cast::<u32>().read() };
     let size = usize::try_from(size).unwrap_or(usize::MAX);
     if size < size_of::<u64>() {
-        return Err(refused("a size that does not even cover the size"));
+        return Err(refused("the size is below 8 bytes"));
     }
     let mut copy = MaybeUninit::<T>::zeroed();
     let known = size.min(size_of::<T>());
-    // SAFETY: `known` bytes can be read, since the plugin's table has as many, and written, since ours has as many.
+    // SAFETY: `known` bytes can be read from the plugin's table and written to ours, because both have at least as many.
     unsafe {
         std::ptr::copy_nonoverlapping(table.cast::<u8>(), copy.as_mut_ptr().cast::<u8>(), known);
     }
-    // SAFETY: whatever was not copied is 0, which is a value of every `Table`.
+    // SAFETY: the bytes that were not copied are 0, which is valid for every `Table`.
     Ok(unsafe { copy.assume_init() })
 }
 
@@ -90,7 +90,7 @@ mod tests {
         calls.device.close = Some(close);
         let copy = |size: u32, calls: &mut abi::ForceCalls| {
             calls.device.size = size;
-            // SAFETY: it is a table, and never says more than it has.
+            // SAFETY: it is a table whose stated size does not exceed its real size.
             unsafe { table::<abi::ForceCalls>(std::ptr::from_ref(calls).cast()) }
         };
         assert!(copy(16, &mut calls).expect("read").device.close.is_some());

@@ -28,7 +28,7 @@ impl Taken {
         std::ptr::from_mut(self).cast()
     }
 
-    /// Collected texts, or an error if a text was invalid or a limit was exceeded.
+    /// Collected texts, or the error of an invalid text or an exceeded limit.
     pub fn texts(self) -> Result<Vec<String>, Failure> {
         match self.fault {
             None => Ok(self.texts),
@@ -44,15 +44,15 @@ impl Taken {
     fn add(&mut self, text: abi::Text) {
         self.bytes = self.bytes.saturating_add(text.length);
         if text.data.is_null() && text.length > 0 {
-            self.fault = Some("a text without bytes that has a length");
+            self.fault = Some("a text that is NULL but has a length");
         } else if self.bytes > BYTES_MAX || self.texts.len() >= TEXTS_MAX {
-            self.fault = Some("more text than is accepted");
+            self.fault = Some("more than 4096 texts or 1 MiB of text");
         }
         if self.fault.is_some() {
             return;
         }
-        // SAFETY: not NULL above a length of 0, and borrowed for this call by the rule of `taceva_take_text`; a length beyond what is
-        // mapped is a breach of the plugin's promise, and no length above 1 MiB is believed.
+        // SAFETY: not NULL above a length of 0, and borrowed for this call by the rule of `taceva_take_text`. A length beyond mapped memory breaks
+        // the plugin's guarantee, and lengths above 1 MiB were rejected.
         match unsafe { text.to_str() } {
             Ok(text) => self.texts.push(text.to_owned()),
             Err(_) => self.fault = Some("a text that is not UTF-8"),
@@ -63,9 +63,9 @@ impl Taken {
 /// Appends one text to the [`Taken`] at `context`.
 ///
 /// # Safety
-/// `context` is the pointer that `Taken::context` gave for the call under way, and nothing else reads it during the call.
+/// `context` is the pointer that `Taken::context` returned for the pending call, and nothing else accesses it during the call.
 pub unsafe extern "C" fn take(context: *mut c_void, text: abi::Text) {
-    // SAFETY: `context` is the pointer that `Taken::context` gave for the pending call, and nothing else accesses it during the call.
+    // SAFETY: guaranteed by the caller.
     let taken = unsafe { &mut *context.cast::<Taken>() };
     taken.add(text);
 }
@@ -79,7 +79,7 @@ mod tests {
         let taken = |texts: &[abi::Text]| {
             let mut taken = Taken::default();
             for text in texts {
-                // SAFETY: the context is that of `taken`, and each text is as long as it says or refused by its length.
+                // SAFETY: the context belongs to `taken`, and each text has its stated length or is rejected by it.
                 unsafe { take(taken.context(), *text) };
             }
             taken.whole()

@@ -48,10 +48,10 @@ pub(crate) fn get<T: Number>(count: usize, from: &[u8]) -> Option<(Vec<T>, &[u8]
     Some((place.chunks_exact(T::LENGTH).map(T::get).collect(), rest))
 }
 
-/// Allocates shared memory of `bytes` bytes, at least one. `None` stands for an overflowed size and fails.
+/// Allocates shared memory of `bytes` bytes, at least one. Fails for `None`, which stands for an overflowed size.
 pub(crate) fn memory(bytes: Option<usize>) -> Result<SharedMemory, Failure> {
     let refused = |why: &str| Failure::new(ErrorKind::OutOfRange, "share memory", why);
-    let bytes = bytes.ok_or_else(|| refused("more numbers than fit into memory"))?;
+    let bytes = bytes.ok_or_else(|| refused("the size exceeds the address space"))?;
     SharedMemory::new(bytes.max(1)).map_err(|error| refused(&error.to_string()))
 }
 
@@ -88,7 +88,7 @@ impl OwnedSet {
     /// Reads the set of `shape` from `memory`.
     pub(crate) fn take(shape: SetShape, memory: &mut SharedMemory) -> Result<OwnedSet, Failure> {
         let refused = || {
-            let why = "memory that is smaller than its samples";
+            let why = "the shared memory is smaller than its samples";
             Failure::new(ErrorKind::Protocol, "read samples", why)
         };
         let samples = usize::try_from(shape.samples).map_err(|_| refused())?;

@@ -11,36 +11,36 @@ use super::wire::Failure;
 /// Maximum length of a plugin's message, characters. Longer messages are cut.
 const MESSAGE_MAX: usize = 2000;
 
-/// Failure of a child to start or to answer.
+/// Failure of a child that did not start or did not answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ChildError {
     /// The child could not be started.
     Start {
-        /// The name of the plugin.
+        /// Name of the plugin.
         plugin: String,
         /// Cause.
         why: String,
     },
     /// The child started but refused to serve: it could not confine itself or load its plugin.
     Refused {
-        /// The name of the plugin.
+        /// Name of the plugin.
         plugin: String,
         /// Kind of the failure.
         kind: ErrorKind,
-        /// Cause, in the child's words.
+        /// Cause, as the child reported it.
         why: String,
     },
-    /// The library has crashed before and its user has not released it since.
+    /// The library has crashed before, and the user has not released it since.
     Quarantined {
-        /// The name of the plugin.
+        /// Name of the plugin.
         plugin: String,
         /// Description of the crash.
         reason: String,
     },
     /// The child has ended.
     Gone {
-        /// The name of the plugin.
+        /// Name of the plugin.
         plugin: String,
         /// The child's fate.
         fate: Fate,
@@ -134,7 +134,7 @@ impl Failure {
         }
     }
 
-    /// Rebuilds the error of `driver` as it would read without a child. Control characters are escaped.
+    /// Rebuilds the error of `driver` as it would read without a child process. Control characters are escaped.
     pub(crate) fn to_error(&self, driver: &DriverKey) -> DriverError {
         let mut error = DriverError::new(self.kind, driver, plain(&cut(&self.doing)));
         if let Some(fault) = self.fault {

@@ -16,7 +16,7 @@ pub(super) const ENDING: &str = "end";
 pub enum Fate {
     /// The child was asked to end after its last device was closed.
     Closed,
-    /// The child called `exit`, which no plugin may.
+    /// The child called `exit`, which is forbidden to plugins.
     Exited {
         /// Exit code; -1 if the system reports none.
         code: i32,
@@ -51,7 +51,7 @@ impl Fate {
         }
     }
 
-    /// True if the child missed the timeout of a close or an end, which no caller's error reports.
+    /// True if the child missed the timeout of a close or an end. No caller receives an error for these.
     pub(crate) fn is_unheard(&self) -> bool {
         matches!(self, Fate::Late { doing, .. } if doing == CLOSING || doing == ENDING)
     }

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-/// Counter of the output of a child, restarted after each [`Flood::WITHIN`].
+/// Counter of a child's output. It restarts after each [`Flood::WITHIN`].
 #[derive(Debug)]
 pub(super) struct Flood {
     most: u64,

@@ -21,7 +21,7 @@ use super::printed_lines::PrintedLines;
 use super::usage::{Usage, processor_time};
 use super::watch::{PRINTED_MAX, Watch};
 
-/// Limit of output within the time of a flood, bytes.
+/// Limit of output within [`Flood::WITHIN`], bytes.
 const PRINTED_IN_ALL: u64 = 64 << 20;
 /// Capacity of a pipe, bytes.
 const PIPE_MAX: usize = 64 * 1024;
@@ -34,8 +34,8 @@ pub(crate) struct Kept {
     pub(crate) keeper: JoinHandle<()>,
 }
 
-/// Starts a process and its keeper thread. `output` is the read end of the pipe that `command` prints to, and `lines` gets what is printed.
-/// The keeper calls `ended` with the child's fate.
+/// Starts a process and its keeper thread. `output` is the read end of the pipe that `command` prints to; `lines` receives the printed lines. The
+/// keeper calls `ended` with the child's fate.
 pub(super) fn keep(
     command: Command,
     output: OwnedFd,
@@ -65,7 +65,7 @@ pub(super) fn keep(
                 };
                 ended(&fate, usage);
             }
-            // Waits until the last line is told, after everybody knows of the end.
+            // Waits until the last line is logged, after all waiting callers were woken.
             drop(lines);
         })?;
     match start.recv() {
@@ -87,10 +87,10 @@ fn start_process(
 ) -> Option<(Process, OwnedFd)> {
     let process = command.spawn().and_then(|process| {
         let number = i32::try_from(process.id()).ok().and_then(Pid::from_raw);
-        let number = number.ok_or_else(|| io::Error::other("a process without an id"))?;
+        let number = number.ok_or_else(|| io::Error::other("the started process has no id"))?;
         Ok((process, pidfd_open(number, PidfdFlags::empty())?))
     });
-    // Close the child's pipe ends here, or their closing by the child would go unnoticed.
+    // Closes the child's pipe ends here. Otherwise the host would not notice that the child closes them.
     drop(command);
     match process {
         Ok((process, handle)) => {
@@ -159,9 +159,9 @@ fn watch_over(
         if has_ended && has_printed && left_to_read > 0 {
             left_to_read -= 1;
         } else if has_ended {
-            // Until it is waited for it has a number, by which its time is found.
+            // The process number stays valid until the wait, so its processor time is read first.
             let processor = processor_time(process.id());
-            // The process is a child of this one that nobody else waits for.
+            // The process is a child of this one, and no other code waits for it.
             return (process.wait().unwrap_or_default(), processor);
         }
     }

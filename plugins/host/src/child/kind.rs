@@ -1,4 +1,4 @@
-//! Device kinds, one file each: the host's proxy, and the server in the child that answers it.
+//! Device kinds, one file each, with the host's proxy and the child's server.
 //!
 //! An operation is a row of [`Call`], a method of the proxy and an arm of the server. Its result is a [`Reply`], which is converted to and
 //! from an [`Answer`] and checked in one place.
@@ -26,7 +26,7 @@ pub(super) trait Kind: 'static {
     /// Wraps an open device in the server that answers calls in the child.
     fn server(self: Box<Self>) -> Box<dyn Server>;
 
-    /// Creates the host's proxy of the device behind `link`. An error if another kind of device was opened.
+    /// Creates the host's proxy of the device behind `link`. Fails if another kind of device was opened.
     fn proxy(link: Link, opened: OpenedDevice) -> Result<Box<Self>, DriverError>;
 }
 

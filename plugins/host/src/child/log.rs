@@ -42,7 +42,8 @@ pub(super) fn to_host(host: OwnedFd) {
     let _ = HOST.set(host);
 }
 
-/// In the child: sends a line; false if no host listens. A line that does not fit is dropped and counted, so that logging never blocks.
+/// In the child: sends a line. Returns false if no host listens. A line that does not fit into the socket is dropped and counted, so logging never
+/// blocks.
 pub(super) fn send(level: Level, target: &str, message: &str) -> bool {
     let Some(host) = HOST.get() else {
         return false;
@@ -79,7 +80,7 @@ fn tell_how_many(host: &OwnedFd) -> Result<(), LinkError> {
     sent
 }
 
-/// In the child: sends the outstanding count of dropped lines at the end, retrying while the host exists.
+/// In the child: sends the remaining count of dropped lines at the end. Retries while the host exists.
 pub(super) fn end() {
     let Some(host) = HOST.get() else {
         return;
@@ -92,10 +93,10 @@ pub(super) fn end() {
 /// Delay between retries of a child that ends.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// Lines that a child may log in the time of a flood.
+/// Most lines that a child may log within [`Flood::WITHIN`].
 const LINES_MAX: u64 = 1_000_000;
 
-/// Ends a child that logs without end.
+/// Kills a child that exceeds the limit of log lines.
 fn flooded(flood: &mut Flood, lines: u64, watch: &Watch) {
     if flood.add(lines) {
         watch.condemn(Fate::Breach {
@@ -107,7 +108,7 @@ fn flooded(flood: &mut Flood, lines: u64, watch: &Watch) {
     }
 }
 
-/// In the host: passes messages of the child to `log`, within its limit, until the child is gone. Other messages end the child.
+/// In the host: passes messages of the child to `log`, within its limit, until the child is gone. A malformed message ends the child.
 pub(super) fn listen(
     socket: Socket,
     log: Log,

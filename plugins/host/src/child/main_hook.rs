@@ -1,7 +1,7 @@
-//! First action of `main`: detect whether this process is a host child.
+//! First action of `main`: detects whether this process is a host child.
 #![expect(
     unsafe_code,
-    reason = "a process that begins owns the files it inherited, and one that ends must not run what a plugin left to be run at its end"
+    reason = "a new process owns its inherited files, and an ending process must not run exit handlers of plugins"
 )]
 
 use std::ffi::OsStr;
@@ -39,7 +39,7 @@ pub fn main_if_child_with(
         return;
     }
     let code = serve_host(|files, _| load(files));
-    // SAFETY: ends the process without running what plugins registered to be run at its end.
+    // SAFETY: ends the process without exit handlers, which plugins may have registered.
     unsafe { libc::_exit(code) }
 }
 
@@ -70,7 +70,7 @@ fn orders() -> Option<Socket> {
     let nothing = File::open("/dev/null").ok()?;
     rustix::stdio::dup2_stdin(&nothing).ok()?;
     drop(nothing);
-    // SAFETY: this process has just begun, so that nothing in it owns a file but what this function opened.
+    // SAFETY: this process has just started, so no other code owns a file except the one opened by this function.
     unsafe { close_all_but(&orders) };
     Some(Socket::from(orders))
 }
@@ -84,14 +84,14 @@ unsafe fn close_all_but(kept: &OwnedFd) {
     let Ok(entries) = std::fs::read_dir("/proc/self/fd") else {
         return;
     };
-    // List the files first: the folder being read is open too, and is closed when the listing ends.
+    // Lists the files first: the folder being read is open too, and is closed when the listing ends.
     let open: Vec<RawFd> = entries
         .flatten()
         .filter_map(|entry| entry.file_name().to_str()?.parse().ok())
         .collect();
     for file in open {
         if file > 2 && file != kept.as_raw_fd() && is_open(file) {
-            // SAFETY: open and without an owner, as the caller promises.
+            // SAFETY: open and without an owner, as the caller guarantees.
             drop(unsafe { OwnedFd::from_raw_fd(file) });
         }
     }
@@ -113,7 +113,7 @@ fn run(
         FirstWord::Known(hello) => hello,
         FirstWord::OfOtherWire(wire) => {
             let failure = Failure::new(ErrorKind::Abi, "serve", &FirstWord::refusal(wire));
-            // Ignored if the host is gone.
+            // A send error means that the host is gone, and is ignored.
             let _ = orders.send(&(sequence, Greeting::Refused { failure }), &[]);
             return NOT_A_CHILD;
         }
@@ -140,7 +140,7 @@ fn run(
     0
 }
 
-/// The enforced isolation, and the loaded session; `None` if nothing was to be loaded.
+/// Enforced isolation, and the loaded session; `None` if no plugin was requested.
 type Prepared = (Isolation, Option<Arc<dyn Session>>);
 
 fn prepare(

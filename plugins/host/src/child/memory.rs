@@ -51,7 +51,7 @@ impl SharedMemory {
     }
 
     fn map(file: OwnedFd, length: usize) -> Result<SharedMemory, Errno> {
-        // SAFETY: a new mapping at a place that the kernel chooses overlaps nothing. Its size is sealed, so no access can fault.
+        // SAFETY: the kernel chooses an address for the new mapping, so it overlaps nothing. Its size is sealed, so no access can fault.
         let start = unsafe {
             mmap(
                 std::ptr::null_mut(),
@@ -84,14 +84,17 @@ impl SharedMemory {
     /// # Panics
     /// If `into` is longer than the memory.
     pub(crate) fn copy_to(&self, into: &mut [u8]) {
-        assert!(into.len() <= self.length, "a copy from within the memory");
+        assert!(
+            into.len() <= self.length,
+            "a copy of at most the memory's length"
+        );
         // SAFETY: both places are valid for `into.len()` bytes, and a borrowed slice cannot overlap a mapping without borrows.
         unsafe { std::ptr::copy_nonoverlapping(self.start.as_ptr(), into.as_mut_ptr(), into.len()) }
     }
 
     /// Bytes of the memory, for the writing process. The other process reads after the answer reports them complete.
     pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
-        // SAFETY: the mapping is valid for `length` bytes while `self` lives, and `&mut self` is the only way to it in this process.
+        // SAFETY: the mapping is valid for `length` bytes while `self` lives. `&mut self` gives exclusive access within this process.
         unsafe { std::slice::from_raw_parts_mut(self.start.as_ptr(), self.length) }
     }
 }

@@ -2,7 +2,7 @@
 
 use taceva_core::is_obeyed;
 
-/// Escapes the control characters of `text`, so that no terminal interprets them. Line feeds stay.
+/// Escapes the control characters of `text` except line feeds, so no terminal interprets them.
 pub(crate) fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     for character in text.chars() {

@@ -45,7 +45,7 @@ variants!(Label, "what is to be served" {
     1 => Module { folder, name, preload, manifest },
 });
 
-/// Function that examines the plugin of a source as the order in the file says, instead of serving it.
+/// Function that examines the plugin of a source as the file orders, instead of serving it.
 ///
 /// Success is a session; failure is an error kind and a message.
 pub type Examiner = fn(File, Source, &Manifest) -> Result<Arc<dyn Session>, (ErrorKind, String)>;
@@ -57,12 +57,12 @@ pub struct ModuleToImport {
     pub folder: PathBuf,
     /// Name of the module.
     pub name: String,
-    /// Modules that are imported before it.
+    /// Names of modules to import before it.
     pub preload: Vec<String>,
 }
 
 impl ChildSpec {
-    /// Specifies a child that loads `image`, the library of the plugin whose manifest is `text`. The child reaches nothing outside until
+    /// Specifies a child that loads `image`, the library of the plugin with `manifest`. The child has no access to the outside until
     /// [`confinement`](ChildSpec::confinement) is set. It does not start if `quarantine` contains the library.
     ///
     /// # Errors
@@ -84,8 +84,7 @@ impl ChildSpec {
         Ok(spec)
     }
 
-    /// Specifies a child that imports `module` for the plugin `id` whose manifest is `text`. The caller sets the program and the readable
-    /// files.
+    /// Specifies a child that imports `module` for the plugin `id` with the manifest `text`. The caller sets the program and the readable files.
     ///
     /// # Errors
     /// As [`of_plugin`](ChildSpec::of_plugin).
@@ -106,7 +105,7 @@ impl ChildSpec {
 }
 
 impl ChildSpec {
-    /// Specifies a child that loads `image` without a manifest and reaches nothing outside.
+    /// Specifies a child that loads `image` without a manifest and has no access to the outside.
     ///
     /// # Errors
     /// As [`of_plugin`](ChildSpec::of_plugin).
@@ -164,18 +163,16 @@ fn serve_libraries(examiner: Option<Examiner>) {
                 module.name
             ))
         };
-        // Not sealed here: everything but a library is rejected.
+        // The process is not sealed here, because everything except a library is rejected.
         load(files, &Isolation::default(), import, examiner)
     });
 }
 
 /// Serves as the child of the host on standard input, and returns the exit code. The process confines itself, calls `import` for the
 /// requested module and serves it until the host is gone. A requested library is loaded instead.
-///
-/// For runtimes of other languages, whose `main` is not ours. Call it first, while there is one thread and before any import that starts
-/// threads, which would not be confined. It closes every open file except the standard ones. `import` returns the table that it made of the
-/// module, or the reason for the failure. `examiner` carries out orders to examine the module. The process must then end without running
-/// exit handlers.
+/// For runtimes of other languages, which have their own `main`. Call it first, while there is one thread, and before any import that starts threads:
+/// such threads would not be confined. It closes every open file except the standard ones. `import` returns the function table of the module, or the
+/// reason for the failure. `examiner` carries out orders to examine the module. The process must then end without running exit handlers.
 pub fn serve_as_child(
     import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>,
     examiner: Option<Examiner>,
@@ -190,7 +187,7 @@ fn load(
     import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>,
     examiner: Option<Examiner>,
 ) -> Result<Arc<dyn Session>, (ErrorKind, String)> {
-    let broken = |why: &str| (ErrorKind::Abi, format!("its host gave it {why}"));
+    let broken = |why: &str| (ErrorKind::Abi, format!("invalid data from the host: {why}"));
     let mut files = files.into_iter();
     let label = files.next().ok_or_else(|| broken("no file"))?;
     let label = read(label).map_err(|error| broken(&error.to_string()))?;
@@ -219,13 +216,13 @@ fn load(
                 name,
                 preload,
             };
-            // A further file is an order to examine the module.
+            // A further file is an order to examine the module instead.
             if files.len() > 0 {
                 pending_call::watch(super::log::tell_call);
             }
             let importing = pending_call::begin("import its module");
             let linked = import(&module).map_err(|why| (ErrorKind::InvalidArgument, why))?;
-            // Examine the module sealed, as it is used. Some checks load a library again.
+            // Seals the process before the examination, as in normal use. Some checks load a library again.
             drop(importing);
             seal(isolation).map_err(|why| (ErrorKind::PermissionDenied, why))?;
             (Source::Linked(linked), Some(manifest))
@@ -235,7 +232,7 @@ fn load(
     let manifest = manifest.map_err(|error| (ErrorKind::Protocol, error.to_string()))?;
     if let Some((manifest, order)) = manifest.as_ref().zip(files.next()) {
         let examiner = examiner.ok_or_else(|| {
-            let why = "the program of this child cannot examine plugins";
+            let why = "this program cannot examine plugins: its `main` calls `main_if_child` instead of `main_if_child_examining`";
             (ErrorKind::Unsupported, why.to_owned())
         })?;
         return examiner(order, source, manifest);
@@ -255,10 +252,10 @@ fn read(file: File) -> io::Result<Label> {
     decode(&bytes).map_err(io::Error::other)
 }
 
-/// Sends a log line to the host. If the host does not listen, warnings and errors go to standard error, whose end the host keeps.
+/// Sends a log line to the host. If the host does not listen, warnings and errors go to standard error; the host keeps its last part.
 fn log(level: Level, target: &str, message: &str) {
     if !super::log::send(level, target, message) && level <= Level::Warn {
-        // A failure cannot be reported anywhere.
+        // A write error is ignored: it cannot be reported.
         let _ = writeln!(io::stderr(), "{target}: {message}");
     }
 }

@@ -1,4 +1,4 @@
-//! Quarantine of crashed plugins, which do not start again until their user releases them.
+//! Quarantine of crashed plugins. They do not start again until the user releases them.
 
 use std::fs;
 use std::io;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::plain::plain;
 use crate::manifest::Sha256Digest;
 
-/// Folder of a user's quarantine: one file per library, named by its digest, so that a new build is not affected.
+/// Folder of a user's quarantine. It has one file per library, named by its digest, so a new build is not affected.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Quarantine {
     folder: PathBuf,
@@ -96,7 +96,7 @@ impl Quarantine {
     pub fn put(&self, entry: &Quarantined) -> io::Result<()> {
         fs::create_dir_all(&self.folder)?;
         let text = toml::to_string(entry).map_err(io::Error::other)?;
-        // Staged below a random name, so that an entry is never partial and no link is followed.
+        // Written under a random name, then renamed: an entry is never partial, and no link is followed.
         taceva_files::replace(&self.file(entry.sha256), |staged| fs::write(staged, text))
     }
 
@@ -165,7 +165,7 @@ mod tests {
         fs::create_dir(quarantine.folder()).expect("made");
         let entry = Quarantined::new(Sha256Digest([7; 32]), "org.example.x", "signal 11");
         let digest = entry.sha256;
-        // The second name is the one that earlier versions wrote to.
+        // Earlier versions wrote to the second name.
         let foretold = format!(".{digest}-{}", std::process::id());
         for name in [format!("{digest}.toml"), foretold] {
             let link = quarantine.folder().join(name);

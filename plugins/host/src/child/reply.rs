@@ -80,7 +80,7 @@ fn is_load(reading: &Reading) -> Result<(), String> {
 
 fn is_name(InPlace(name): &InPlace) -> Result<(), String> {
     match name.is_empty() {
-        true => Err("no name of the item in place".to_owned()),
+        true => Err("the item in place has no name".to_owned()),
         false => Ok(()),
     }
 }

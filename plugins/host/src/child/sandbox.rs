@@ -1,4 +1,4 @@
-//! Sandbox of a child: ordered by the host, enforced by the child on itself before it loads anything, and reported back.
+//! Sandbox of a child. The host orders it, the child applies it before it loads anything, and reports it back.
 
 mod confinement;
 mod devices;

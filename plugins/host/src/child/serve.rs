@@ -15,7 +15,7 @@ use super::wire::{Failure, OpenedDevice, Order, OrderAnswer};
 use super::{bench, model};
 use crate::session::Session;
 
-/// Answers orders until the host is gone or orders the end. Without a session, returns on the first order.
+/// Answers orders until the host is gone or orders the end. Without a session, it returns on the first order.
 pub(super) fn serve(mut orders: Socket, session: Option<&Arc<dyn Session>>) {
     // Any failure to receive means that the host is gone.
     while let Ok(((sequence, order), files)) = orders.receive_with_files::<(u32, Order)>() {
@@ -54,7 +54,7 @@ fn obey(
     match order {
         Order::Open { kind, driver, args } => {
             let [calls, urgent] = <[OwnedFd; 2]>::try_from(files)
-                .map_err(|_| broken("two sockets with an order to open"))?;
+                .map_err(|_| broken("an open order needs two sockets"))?;
             let opening = Opening { calls, urgent };
             let device = open(&**session, kind, &driver, &arguments(&args)?, opening)?;
             Ok(OrderAnswer::Opened { device })
@@ -84,7 +84,7 @@ fn obey(
             model::serve(Arc::clone(session), order, files)?;
             Ok(OrderAnswer::Making {})
         }
-        Order::Shutdown {} => Err(broken("an order with an answer")),
+        Order::Shutdown {} => Err(broken("a shutdown order that expects an answer")),
     }
 }
 

@@ -26,7 +26,7 @@ use crate::manifest::Manifest;
 use crate::offer::Offer;
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
-/// Devices of one plugin in one rig, all in one child.
+/// Connection to all devices of one plugin in one rig, in one child.
 #[derive(Debug)]
 pub struct ChildSession {
     child: Arc<Child>,
@@ -35,7 +35,7 @@ pub struct ChildSession {
 }
 
 impl ChildSession {
-    /// Starts a child for `plugin`. `arguments` are the manifest's declarations for its drivers and estimators.
+    /// Starts a child for `plugin`. `arguments` holds the manifest's declarations for its drivers and estimators.
     ///
     /// # Errors
     /// As [`Child::start`].
@@ -51,7 +51,7 @@ impl ChildSession {
         })
     }
 
-    /// Starts the child that [`ChildSpec::of_plugin`] specified for the plugin of `manifest`.
+    /// Starts the child that [`ChildSpec::of_plugin`] specified, for the plugin with `manifest`.
     ///
     /// # Errors
     /// As [`Child::start`].
@@ -93,7 +93,7 @@ impl ChildSession {
         }
     }
 
-    /// Arguments by name, limited to those the driver declares.
+    /// Arguments by name, restricted to those that the driver declares.
     fn pairs(&self, driver: &DriverKey, args: &Args) -> Vec<(String, ArgValue)> {
         let specs = self.arguments.get(driver).into_iter().flatten();
         specs

@@ -112,7 +112,7 @@ impl AsFd for Socket {
     }
 }
 
-/// Requesting end. Each request has a number that its answer repeats, so that an answer sent in advance is detected.
+/// Requesting end of a socket. Each answer repeats the number of its request, so an answer sent too early is detected.
 #[derive(Debug)]
 pub(crate) struct Caller {
     socket: Socket,
@@ -133,7 +133,9 @@ impl Caller {
         if sequence == self.sequence {
             Ok(answer)
         } else {
-            Err(LinkError::Breach("an answer to no call".to_owned()))
+            Err(LinkError::Breach(
+                "an answer without a pending call".to_owned(),
+            ))
         }
     }
 }
@@ -153,7 +155,7 @@ impl AsFd for Caller {
     }
 }
 
-/// A borrowed message preceded by its number; reads back as a pair.
+/// A borrowed message after its number. It is read back as a pair.
 struct Numbered<'a, T>(u32, &'a T);
 
 impl<T: Wire> Wire for Numbered<'_, T> {
@@ -216,7 +218,7 @@ fn send_packet(
 
 fn message<T: Wire>(packet: &[u8], received: usize) -> Result<T, LinkError> {
     match received {
-        // No message is empty, so length 0 means that the socket is closed.
+        // No message is empty, so length 0 means a closed socket.
         0 => Err(LinkError::Closed),
         _ => {
             let packet = packet.get(..received).ok_or_else(too_long)?;

@@ -24,7 +24,7 @@ pub struct ChildSpec {
     pub program: Option<PathBuf>,
     /// Arguments before the host-child argument, such as the file that an interpreter runs.
     pub arguments: Vec<OsString>,
-    /// Files passed to the child, at most three. The child determines their meaning.
+    /// Files passed to the child, at most three. The child defines their meaning.
     pub files: Vec<OwnedFd>,
     /// Limits that the child imposes on itself.
     pub confinement: Confinement,
@@ -36,7 +36,7 @@ pub struct ChildSpec {
     pub loads: bool,
     /// Receives the plugin's log lines on a separate thread. Without it, errors and warnings appear in the child's printed output.
     pub log: Option<Log>,
-    /// Quarantine that must not contain the library and receives it if it crashes, and the library's digest.
+    /// Quarantine, and the library's digest. A quarantined library does not start; a crashed one is added.
     pub quarantine: Option<(Quarantine, Sha256Digest)>,
 }
 

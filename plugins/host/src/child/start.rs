@@ -29,10 +29,10 @@ use crate::manifest::Sha256Digest;
 use crate::python::{arguments as python_arguments, own};
 use crate::wire_version::WIRE;
 
-/// The running executable, even if another file has taken its path since.
+/// The running executable, even if its path now names another file.
 const THIS_PROGRAM: &str = "/proc/self/exe";
 
-/// A running child. It is ordered to end when its last device and the last owner of this value are gone.
+/// A running child. It is ordered to end after its last device and the last owner of this value are gone.
 pub struct Child {
     process: u32,
     isolation: Isolation,
@@ -73,14 +73,14 @@ impl Child {
             None => (program, arguments),
         };
         if program.is_none() && !can_be_child() {
-            let why = "the `main` of this program does not begin with `main_if_child`, and no other program is given";
+            let why = "the `main` of this program does not begin with `main_if_child`, and `ChildSpec::program` is not set";
             return Err(failed(&why));
         }
         let (orders, theirs) = Socket::pair().map_err(|error| failed(&error))?;
         let (printed, output) = pipe_with(PipeFlags::CLOEXEC).map_err(|error| failed(&error))?;
         let also_output = output.try_clone().map_err(|error| failed(&error))?;
         let mut command = Command::new(program.unwrap_or_else(|| PathBuf::from(THIS_PROGRAM)));
-        // An interpreter locates its environment by its program name.
+        // An interpreter finds its environment by its program name.
         if arguments.is_empty() {
             command.arg0("taceva-plugin");
         }
@@ -90,7 +90,7 @@ impl Child {
             .arg(&plugin)
             .env_clear()
             .current_dir("/")
-            // The host handles signals of the terminal, such as SIGINT.
+            // Terminal signals such as SIGINT go to the host only.
             .process_group(0)
             .stdin(Stdio::from(theirs))
             .stdout(Stdio::from(output))
@@ -242,7 +242,7 @@ fn when_ended(
     move |fate, usage| {
         if let Some((quarantine, digest)) = quarantine.filter(|_| fate.is_its_own_fault()) {
             let entry = Quarantined::new(digest, &plugin, &fate.to_string());
-            // The devices have already failed with a reason. An unwritten quarantine entry only allows another start.
+            // A failed write is ignored: it only allows another start, and the devices have already reported the cause.
             let _ = quarantine.put(&entry);
         }
         if let Some(on_end) = on_end {
@@ -258,14 +258,14 @@ impl Drop for Child {
         } = &*self.life;
         watch.expect_end();
         let call = watch.begin(ENDING, patience.end);
-        // The child answers by ending. If it is gone, the order fails.
+        // The child answers by ending. If the child is gone, the order fails.
         let _ = self.orders().ask::<OrderAnswer>(&Order::Shutdown {}, &[]);
         if let Some(keeper) = self.keeper.take() {
             // A panic of the keeper is ignored.
             let _ = keeper.join();
         }
         if let Some(listener) = self.listener.take() {
-            // Ignored too; joining ensures that the last log lines are read.
+            // A panic is ignored. Joining ensures that the last log lines are read.
             let _ = listener.join();
         }
         watch.end(call);

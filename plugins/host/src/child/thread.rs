@@ -1,10 +1,10 @@
-//! Threads of a child for driver code; a panic becomes a failure.
+//! Threads of a child that run driver code. A panic becomes a failure.
 
 use taceva_core::{ErrorKind, caught};
 
 use super::wire::Failure;
 
-/// Stack size of a thread, bytes, as in C programs. Linear-algebra libraries exceed the 2 MiB of Rust.
+/// Stack size of a thread, bytes, as in C programs. Linear-algebra libraries need more than Rust's default of 2 MiB.
 const STACK: usize = 8 << 20;
 
 /// Starts a named thread with a stack of [`STACK`] bytes.

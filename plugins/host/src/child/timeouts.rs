@@ -13,7 +13,7 @@ pub struct Patience {
     pub open: Duration,
     /// For closing a device.
     pub close: Duration,
-    /// Beyond the deadline of a call, since simulated devices count deadlines on their own clock.
+    /// Time added to the deadline of a call, because simulated devices count deadlines on their own clock.
     pub grace: Duration,
     /// For acknowledging a halt, and for ending a call after an interrupt.
     pub urgent: Duration,
@@ -22,7 +22,7 @@ pub struct Patience {
 }
 
 impl Default for Patience {
-    /// Generous timeouts that tell a hanging child from a slow one on a busy machine.
+    /// Long timeouts that distinguish a hanging child from a slow one on a busy machine.
     fn default() -> Patience {
         Patience {
             start: Duration::from_secs(20),

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
-/// Run time up to which a child is never reported.
+/// Run time up to which usage is never reported.
 const SHORT: Duration = Duration::from_secs(2);
 /// Ticks per second of the times in `/proc`, a fixed interface of the kernel.
 const TICKS_PER_SECOND: u64 = 100;
@@ -15,7 +15,7 @@ pub struct Usage {
     pub whole: Duration,
     /// Processor time of all its threads.
     pub processor: Duration,
-    /// Time in which callers waited for replies.
+    /// Total time in which callers waited for replies.
     pub calls: Duration,
 }
 
@@ -41,7 +41,7 @@ impl fmt::Display for Usage {
 /// Processor time of a process and its threads, readable until it is reaped; zero if unknown.
 pub(super) fn processor_time(process: u32) -> Duration {
     let text = std::fs::read_to_string(format!("/proc/{process}/stat")).unwrap_or_default();
-    // The name may contain anything and ends with the last bracket. User and system time are words 12 and 13 after it.
+    // The name may contain any character and ends with the last bracket. User and system time are words 12 and 13 after it.
     let words = text.rsplit_once(')').map_or("", |(_, rest)| rest);
     let ticks = words.split_whitespace().skip(11).take(2);
     let ticks: u64 = ticks.filter_map(|word| word.parse::<u64>().ok()).sum();

@@ -11,7 +11,7 @@ use rustix::event::{EventfdFlags, eventfd};
 use super::exit_status::Fate;
 use super::plain::plain;
 
-/// Length of the kept end of the child's output, bytes.
+/// Maximum length of the stored output of the child, bytes. Only its last part is kept.
 pub(super) const PRINTED_MAX: usize = 4096;
 
 /// State shared by the keeper and the callers.
@@ -35,7 +35,7 @@ struct State {
     is_ending: bool,
     fate: Option<Fate>,
     printed: VecDeque<u8>,
-    /// Time in which a call was waited for.
+    /// Total time in which callers waited for calls.
     called: Duration,
 }
 
@@ -65,7 +65,7 @@ impl Watch {
         let mut state = self.state();
         let id = state.next_call;
         state.next_call += 1;
-        // A deadline that overflows the clock becomes a century.
+        // A deadline that overflows the clock is replaced by one in a hundred years.
         let now = Instant::now();
         let at = now
             .checked_add(after)
@@ -90,7 +90,7 @@ impl Watch {
         }
     }
 
-    /// The time in which calls were waited for.
+    /// Total time in which callers waited for calls.
     pub(super) fn called(&self) -> Duration {
         self.state().called
     }
@@ -114,7 +114,7 @@ impl Watch {
         self.look_at(&mut state, Instant::now());
     }
 
-    /// Records that the child is ordered to end, so that its exit is no failure.
+    /// Records that the child was ordered to end, so its exit is not a failure.
     pub(crate) fn expect_end(&self) {
         self.state().is_ending = true;
     }
@@ -146,7 +146,7 @@ impl Watch {
         state.fate.clone().unwrap_or(Fate::Closed)
     }
 
-    /// End of the child's output, with control characters escaped.
+    /// Last output of the child, with control characters escaped.
     pub(crate) fn printed(&self) -> String {
         let bytes: Vec<u8> = self.state().printed.iter().copied().collect();
         plain(&String::from_utf8_lossy(&bytes))
@@ -160,7 +160,7 @@ impl Watch {
         }
     }
 
-    /// Locks the state. Every change completes before a panic is possible, so a poisoned lock is consistent.
+    /// Locks the state. Every change completes before any panic is possible, so the state behind a poisoned lock is consistent.
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -180,13 +180,13 @@ impl Watch {
         if let Some(reason) = state.sentence.clone() {
             return Err(reason);
         }
-        // Without pending calls it keeps the next check, so that a stream of short calls does not wake it each time.
+        // Without pending calls, the next check stays, so a stream of short calls does not wake the keeper each time.
         let next = state.calls.values().map(|call| call.at).min();
         state.looks_at = next.or(state.looks_at.filter(|at| *at > now));
         Ok(state.looks_at.map(|at| at.saturating_duration_since(now)))
     }
 
-    /// Appends output of the child and drops the surplus beyond [`PRINTED_MAX`].
+    /// Appends output of the child and drops the oldest bytes beyond [`PRINTED_MAX`].
     pub(super) fn printed_more(&self, bytes: &[u8]) {
         let mut state = self.state();
         state.printed.extend(bytes);

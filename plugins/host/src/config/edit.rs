@@ -39,7 +39,7 @@ impl PluginConfig {
     /// ```
     ///
     /// # Errors
-    /// [`ManifestError`] if the settings have a mistake or cannot be edited. In the latter case the message contains the line to write by
+    /// [`ManifestError`] if the settings have a mistake or cannot be edited. If they cannot be edited, the message contains the line to write by
     /// hand.
     pub fn edited(
         text: &str,
@@ -55,13 +55,13 @@ impl PluginConfig {
             None => with_line(text, id, needs, allow),
         };
         expected.allow.insert(id.clone(), needs.clone());
-        // Return the edited text only if it parses to the intended settings.
+        // Returns the edited text only if it parses to the intended settings.
         if PluginConfig::parse(&edited).ok().as_ref() == Some(&expected) {
             return Ok(edited);
         }
         let line = line(id, needs);
         Err(ManifestError::whole(format!(
-            "the permissions are not written as a table `{HEADER}` and cannot be edited; write there by hand: {}",
+            "the permissions are not a table `{HEADER}`, so they cannot be edited; add this line by hand: {}",
             line.trim_end()
         )))
     }
@@ -140,7 +140,7 @@ fn with_list(text: &str, list: &Spanned<Vec<Spanned<String>>>, needs: &BTreeSet<
             continue;
         }
         edits.push((item.span(), String::new()));
-        // Remove one comma too: the one after the item, or for the last item the one before it.
+        // Removes one comma too: the comma after the item, or for the last item the comma before it.
         let behind = comma(text, item.span().end);
         let before = || {
             let kept = items[..number].iter().rfind(is_kept)?;

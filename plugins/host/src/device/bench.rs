@@ -24,19 +24,19 @@ pub(crate) struct PluginBench {
 }
 
 impl PluginBench {
-    /// Creates the bench; `None` if the plugin has no benches. Does not check that a bench of that name is open.
+    /// Creates the bench; `None` if the plugin has no benches. Does not check that a bench with this name is open.
     pub(crate) fn of(rig: &Arc<RigHandle>, name: &str) -> Option<PluginBench> {
         let library = rig.library();
         let extension = library.plugin().rig_extension?;
         if rig.raw().is_null() {
             return None;
         }
-        // SAFETY: [owner] of an open rig: this is only asked while a device of it is being opened, one at a time.
+        // SAFETY: [owner] of an open rig: called only while a device of the rig is being opened, one at a time.
         let found = unsafe { extension(rig.raw(), abi::Text::from(BENCH)) };
         if found.is_null() {
             return None;
         }
-        // SAFETY: for this id the interface promises this table.
+        // SAFETY: the interface specifies this table for this id.
         let calls = unsafe { table::<BenchCalls>(found) }.ok()?;
         calls.now_ns?;
         Some(PluginBench {
@@ -59,7 +59,7 @@ impl PluginBench {
     ) -> Result<(), DriverError> {
         let failed = |failure: Failure| failure.of(&self.plugin, doing);
         let function = function.ok_or_else(|| {
-            let why = format!("`{BENCH}` has no such function");
+            let why = format!("`{BENCH}` lacks this function");
             failed(Failure::new(ErrorKind::Unsupported, why))
         })?;
         call(|error| run(function, error)).map_err(failed)

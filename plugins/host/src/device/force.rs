@@ -4,23 +4,22 @@
 
 use std::ffi::c_void;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use taceva_abi as abi;
 use taceva_abi::ext::{NUMBERED, NumberedCalls, TARE, TareCalls};
 use taceva_core::{
     Axes, Axis, Deadline, DriverError, DriverKind, ErrorKind, Facts, ForceFacts, ForceTransducer,
-    Interrupt, Newton, NewtonMillimetre, Stamp, Tare, Wrench, check_wrench,
+    Interrupt, Newton, NewtonMillimetre, SampleTiming, Stamp, Tare, Wrench, check_wrench,
 };
 
 use super::handle::{Handle, Opened, Owned, PluginDevice};
-use super::pace::Pace;
 use super::sensor::stamp;
 use crate::call::timeout;
 
 /// Force transducer of a plugin in this process.
 pub(crate) struct PluginForce {
-    pace: Pace,
+    timing: SampleTiming,
     handle: Owned,
     calls: abi::ForceCalls,
     read: Read,
@@ -76,14 +75,14 @@ impl PluginDevice for PluginForce {
         } else {
             None
         };
-        let pace = Pace::new(facts.rate, handle.is_simulated());
+        let timing = handle.timing(facts.rate);
         Ok(PluginForce {
             numbers,
             sequence: None,
             handle,
             calls,
             read,
-            pace,
+            timing,
             axes: facts.axes,
             tare,
         })
@@ -111,13 +110,18 @@ impl ForceTransducer for PluginForce {
         let mut wrench = abi::Wrench::default();
         let mut when = abi::Stamp::default();
         let asked = Instant::now();
-        self.handle.call(DOING, |raw, error| {
+        let read = self.handle.call(DOING, |raw, error| {
             let (wrench, when) = (&raw mut wrench, &raw mut when);
             // SAFETY: [owner & started] by `&mut self`, with places for the reading and an error that outlive the call.
             unsafe { (self.read)(raw, wrench, when, timeout(deadline), error) }
+        });
+        self.timing.wait(asked.elapsed());
+        read?;
+        let kept = self.timing.sample(Instant::now(), stamp(when));
+        kept.map_err(|error| {
+            let why = error.to_string();
+            self.handle.failed(ErrorKind::DeviceFault, DOING, why)
         })?;
-        let kept = (self.pace).take(asked, Instant::now(), Duration::from_nanos(when.valid_ns));
-        kept.map_err(|why| self.handle.failed(ErrorKind::DeviceFault, DOING, why))?;
         let wrench = Wrench {
             force: wrench.force_n.map(Newton),
             torque: wrench.torque_n_mm.map(NewtonMillimetre),
@@ -162,7 +166,7 @@ impl ForceTransducer for PluginForce {
     }
 }
 
-/// Sets the components of axes that are not measured to 0.
+/// Sets the components of unmeasured axes to 0.
 fn measured(mut wrench: Wrench, axes: Axes) -> Wrench {
     for (place, axis) in [Axis::Fx, Axis::Fy, Axis::Fz].into_iter().enumerate() {
         if !axes.contains(axis) {

@@ -10,7 +10,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
 
 use taceva_abi as abi;
-use taceva_core::{DriverError, DriverKey, DriverKind, ErrorKind, Facts, Interrupt};
+use taceva_core::{
+    DriverError, DriverKey, DriverKind, ErrorKind, Facts, Hertz, Interrupt, SampleTiming,
+};
 
 use super::bench::PluginBench;
 use super::rig::RigHandle;
@@ -22,16 +24,16 @@ pub struct Handle {
     raw: *mut c_void,
     calls: abi::DeviceCalls,
     driver: DriverKey,
-    /// Locked for reading by interrupts, for writing by the close.
+    /// Locked for reading by interrupts, for writing by the close call.
     is_open: RwLock<bool>,
     /// True after a panic of the plugin. Only closing is safe then.
     is_dead: AtomicBool,
-    /// Dropped last: the rig, and through it the library, outlives the handle.
+    /// Dropped last, so the rig and its library outlive the handle.
     _rig: Arc<RigHandle>,
 }
 
-// SAFETY: the interface allows calls from whichever thread, one at a time: the owner makes them through `&mut` of its device, and only
-// `interrupt` and `halt` ([any]) go past it, kept from `close` by the lock.
+// SAFETY: the interface allows calls from any thread, one at a time. The owner makes them through `&mut` of its device. Only `interrupt` and `halt`
+// ([any]) bypass it, and the lock keeps them from running during `close`.
 unsafe impl Send for Handle {}
 // SAFETY: as above.
 unsafe impl Sync for Handle {}
@@ -95,7 +97,7 @@ pub fn open<T: Table>(
         )
     })
     .map_err(refused)?;
-    // SAFETY: after a success the interface promises the table of the kind that was opened, which begins with that of every device.
+    // SAFETY: after a success, the interface specifies the table of the opened kind, which begins with the table of every device.
     let calls = unsafe { table::<DeviceTable>(device.calls.cast()) }.map_err(refused)?;
     if device.handle.is_null() {
         let why = "it was opened, but its handle is NULL";
@@ -113,7 +115,7 @@ pub fn open<T: Table>(
         is_dead: AtomicBool::new(false),
         _rig: Arc::clone(rig),
     }));
-    // SAFETY: as above; from here on a failure drops `handle`, which closes the device.
+    // SAFETY: as above. From here on, a failure drops `handle`, which closes the device.
     let calls = unsafe { table::<T>(device.calls.cast()) }.map_err(refused)?;
     Ok(Opened { handle, calls })
 }
@@ -123,7 +125,7 @@ pub fn open<T: Table>(
 #[repr(transparent)]
 struct DeviceTable(abi::DeviceCalls);
 
-// SAFETY: it is `repr(C)` inside, begins with `size: u32`, and holds numbers and optional functions alone.
+// SAFETY: it is `repr(C)` inside, begins with `size: u32`, and holds only numbers and optional functions.
 unsafe impl Table for DeviceTable {
     const NAME: &'static str = "taceva_device_calls";
 }
@@ -133,12 +135,15 @@ impl Handle {
         &self.driver
     }
 
-    /// True for a device of a simulated bench, which has its own clock. Called while the device is opened.
-    pub(crate) fn is_simulated(&self) -> bool {
-        PluginBench::of(&self._rig, "").is_some()
+    /// Timing of samples at a declared `rate`; unchecked on a simulated bench, which has its own clock. Called while the device is opened.
+    pub(crate) fn timing(&self, rate: Option<Hertz>) -> SampleTiming {
+        match PluginBench::of(&self._rig, "") {
+            Some(_) => SampleTiming::unchecked(),
+            None => SampleTiming::of(rate),
+        }
     }
 
-    /// Makes a call on the device, unless the plugin has panicked in it before; a panic now is remembered.
+    /// Calls the device, unless the plugin has panicked in it before. Records a panic of this call.
     pub fn call(
         &self,
         doing: &'static str,
@@ -168,7 +173,7 @@ impl Handle {
     /// True if the device has an extension table `id`.
     pub fn extension_is_there(&self, id: &str) -> bool {
         self.calls.extension.is_some_and(|extension| {
-            // SAFETY: [owner & open]: only the owner asks.
+            // SAFETY: [owner & open]: only the owner calls this.
             let found = unsafe { extension(self.raw, abi::Text::from(id)) };
             !found.is_null()
         })
@@ -183,12 +188,12 @@ impl Handle {
         let Some(extension) = self.calls.extension else {
             return Ok(None);
         };
-        // SAFETY: [owner & open]: only the owner asks, while it opens the device.
+        // SAFETY: [owner & open]: only the owner calls this, while it opens the device.
         let found = unsafe { extension(self.raw, abi::Text::from(id)) };
         if found.is_null() {
             return Ok(None);
         }
-        // SAFETY: for this id the interface promises this table.
+        // SAFETY: the interface specifies this table for this id.
         let read = unsafe { table::<T>(found) };
         read.map(Some)
             .map_err(|failure| failure.of(&self.driver, doing))
@@ -220,7 +225,7 @@ impl Owned {
         Failure::new(kind, why).of(&self.0.driver, doing)
     }
 
-    /// Function of the extension table `id`, which the device claims to have. `says` quotes the claim in the error.
+    /// Function of the extension table `id`, which the device declares. `says` quotes the declaration in the error.
     pub(crate) fn ability<T: Table, F>(
         &self,
         id: &'static str,
@@ -259,7 +264,7 @@ impl Drop for Owned {
             .unwrap_or_else(PoisonError::into_inner);
         if let Some(close) = self.0.calls.close.filter(|_| *is_open) {
             let _under_way = pending_call::begin("close the device");
-            // SAFETY: [owner & open], the last call: `is_open` is true once, and the lock keeps interrupts out.
+            // SAFETY: [owner & open], the last call: `is_open` is true only once, and the lock excludes interrupts.
             unsafe { close(self.0.raw) };
         }
         *is_open = false;

@@ -13,14 +13,14 @@ use taceva_core::DriverError;
 use crate::call::call;
 use crate::library::Library;
 
-/// An open rig of a plugin, or NULL if the plugin has none. Closed after its last device.
+/// An open rig of a plugin, closed after its last device. NULL if the plugin has no rigs.
 pub struct RigHandle {
     rig: *mut abi::Rig,
-    /// Dropped after the rig, whose functions are in the library.
+    /// Dropped after the rig, because the library contains its functions.
     library: Arc<Library>,
 }
 
-// SAFETY: the pointer is only handed to functions that the interface allows from any thread, and closed once, by its last owner.
+// SAFETY: the pointer is passed only to functions that the interface allows from any thread, and its last owner closes it once.
 unsafe impl Send for RigHandle {}
 // SAFETY: as above.
 unsafe impl Sync for RigHandle {}
@@ -61,7 +61,7 @@ impl Drop for RigHandle {
             .close_rig
             .filter(|_| !self.rig.is_null())
         {
-            // SAFETY: [owner], once: every device of the rig holds it, so none is open any more.
+            // SAFETY: [owner], once: every device of the rig holds this value, so all are closed.
             unsafe { close(self.rig) };
         }
     }

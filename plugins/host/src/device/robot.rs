@@ -170,7 +170,7 @@ impl Robot for PluginRobot {
     }
 }
 
-/// Pose of NaNs, to detect a plugin that reports success without writing a pose.
+/// Pose of NaNs. It detects a plugin that reports success without writing a pose.
 const NOWHERE: abi::Pose = abi::Pose {
     x: f64::NAN,
     y: f64::NAN,
@@ -195,7 +195,7 @@ fn from_si(pose: abi::Pose, driver: &DriverKey, doing: &'static str) -> Result<P
     })
 }
 
-/// Halts a robot from any thread. Remembers the halt even if the stop could not be sent.
+/// Halts a robot from any thread. Records the halt even if the stop could not be sent.
 struct Halter {
     handle: Arc<Handle>,
     halt: unsafe extern "C" fn(*mut c_void, *mut abi::Error) -> abi::Status,

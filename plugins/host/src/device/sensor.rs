@@ -2,7 +2,7 @@
 
 #![expect(
     unsafe_code,
-    reason = "frames are taken and given back through the plugin's functions"
+    reason = "frames are captured and released through the plugin's functions"
 )]
 
 use std::sync::Arc;
@@ -12,12 +12,11 @@ use taceva_abi as abi;
 use taceva_abi::ext::{SENSOR_LIGHTING, SensorLightingCalls};
 use taceva_core::{
     Deadline, DriverError, DriverKind, ErrorKind, Facts, FrameInfo, FrameMut, Interrupt, Lighting,
-    PixelFormat, Sensor, SensorFacts, Stamp,
+    PixelFormat, SampleTiming, Sensor, SensorFacts, Stamp,
 };
 
 use super::handle::{Opened, Owned, PluginDevice};
 use super::lighting::LightingAbility;
-use super::pace::Pace;
 use crate::call::timeout;
 
 /// Sensor of a plugin in this process.
@@ -28,7 +27,7 @@ pub struct PluginSensor {
     info: FrameInfo,
     length: usize,
     lighting: Option<LightingAbility>,
-    pace: Pace,
+    timing: SampleTiming,
 }
 
 type Capture = unsafe extern "C" fn(
@@ -79,7 +78,7 @@ impl PluginDevice for PluginSensor {
             handle.failed(ErrorKind::Abi, OPENING, why)
         })?;
         let length = info.byte_len().ok_or_else(|| {
-            let why = format!("frames of {info} fit no buffer");
+            let why = format!("frames of {info} exceed the address space");
             handle.failed(ErrorKind::Abi, OPENING, why)
         })?;
         let lighting = if facts.scenes.is_empty() {
@@ -93,9 +92,9 @@ impl PluginDevice for PluginSensor {
                 facts.scenes.clone(),
             ))
         };
-        let pace = Pace::new(facts.rate, handle.is_simulated());
+        let timing = handle.timing(facts.rate);
         Ok(PluginSensor {
-            pace,
+            timing,
             handle,
             calls,
             capture,
@@ -110,7 +109,7 @@ impl PluginSensor {
     /// Waits for the next frame and passes it to `look` without a copy.
     ///
     /// # Errors
-    /// As [`Sensor::capture`]; `Unsupported` if the plugin never lends.
+    /// As [`Sensor::capture`]; `Unsupported` if the plugin never lends its frames.
     pub fn lend<R>(
         &mut self,
         deadline: Deadline,
@@ -131,7 +130,7 @@ impl PluginSensor {
         }))
     }
 
-    /// Asks for the next frame, in `buffer` of the length of a frame unless it is NULL.
+    /// Captures the next frame into `buffer`, which has the length of a frame or is NULL.
     fn take(&mut self, buffer: *mut u8, deadline: Deadline) -> Result<Taken, DriverError> {
         let mut taken = Taken {
             frame: abi::Frame {
@@ -156,13 +155,17 @@ impl PluginSensor {
             },
         };
         let asked = Instant::now();
-        self.handle.call(CAPTURING, |raw, error| {
+        let captured = self.handle.call(CAPTURING, |raw, error| {
             // SAFETY: [owner & started] by `&mut self` of the caller, with a frame, its buffer and an error that outlive the call.
             unsafe { (self.capture)(raw, &raw mut taken.frame, timeout(deadline), error) }
+        });
+        self.timing.wait(asked.elapsed());
+        captured?;
+        let kept = (self.timing).sample(Instant::now(), stamp(taken.frame.stamp));
+        kept.map_err(|error| {
+            let why = error.to_string();
+            self.handle.failed(ErrorKind::DeviceFault, CAPTURING, why)
         })?;
-        let stamped = Duration::from_nanos(taken.frame.stamp.valid_ns);
-        let kept = self.pace.take(asked, Instant::now(), stamped);
-        kept.map_err(|why| self.handle.failed(ErrorKind::DeviceFault, CAPTURING, why))?;
         Ok(taken)
     }
 
@@ -195,14 +198,17 @@ impl PluginSensor {
             return refused(ErrorKind::Protocol, why);
         }
         if frame.data.is_null() {
-            return refused(ErrorKind::Protocol, "a frame without pixels".to_owned());
+            return refused(
+                ErrorKind::Protocol,
+                "the frame's data pointer is NULL".to_owned(),
+            );
         }
         let is_in_buffer = buffer.is_some_and(|buffer| std::ptr::eq(buffer, frame.data));
         if !is_in_buffer && frame.release.is_none() {
             let why = "a frame outside the buffer must be lent, but it has no `release`";
             return refused(ErrorKind::Abi, why.to_owned());
         }
-        // SAFETY: not NULL, of the length that was promised, and lent until `release`, which `taken` calls when it is dropped.
+        // SAFETY: not NULL, of the declared length, and lent until `release`, which `taken` calls on drop.
         Ok(unsafe { std::slice::from_raw_parts(frame.data, self.length) })
     }
 }
@@ -251,8 +257,8 @@ impl Sensor for PluginSensor {
         let stamp = stamp(taken.frame.stamp);
         let pixels = self.checked(&taken, Some(buffer))?.as_ptr();
         if !std::ptr::eq(pixels, buffer) {
-            // SAFETY: `length` bytes can be read there and written here; `copy` and not `copy_nonoverlapping`, since a plugin may have
-            // lent a part of the very buffer that it was given.
+            // SAFETY: `length` bytes can be read there and written here. `copy` instead of `copy_nonoverlapping`: a plugin may lend a part of the
+            // buffer that it was given.
             unsafe { std::ptr::copy(pixels, buffer, self.length) };
         }
         Ok(stamp)

@@ -16,7 +16,7 @@ pub(super) struct Listener<'a> {
 
 /// Reports the fraction `done` of a fit. Returns 1 if the fit is cancelled.
 pub(super) unsafe extern "C" fn progress(context: *mut c_void, done: f64) -> i32 {
-    // SAFETY: `context` is the listener that `fit` handed over for the call that is under way.
+    // SAFETY: `context` is the listener that `fit` passed for the pending call.
     let listener = unsafe { &mut *context.cast::<Listener<'_>>() };
     #[expect(
         clippy::cast_possible_truncation,
@@ -28,7 +28,7 @@ pub(super) unsafe extern "C" fn progress(context: *mut c_void, done: f64) -> i32
     let reported = listener.reported;
     listener.reported = reported.max(reached);
     let progress = listener.progress;
-    // A panic of the listener must not unwind into the library; it cancels the fit.
+    // A panic of the listener must not unwind into the library. It cancels the fit instead.
     let cancelled = caught(|| {
         if reached > reported {
             progress.advance(reached - reported);

@@ -2,7 +2,7 @@
 
 #![expect(
     unsafe_code,
-    reason = "models are asked through the plugin's functions"
+    reason = "models are called through the plugin's functions"
 )]
 
 use std::ffi::c_void;
@@ -26,11 +26,11 @@ pub(super) struct Model {
     key: DriverKey,
     channels: Channels,
     shape: FeatureShape,
-    /// Dropped after the handle, whose functions are in the library.
+    /// Dropped after the handle, because the library contains its functions.
     _library: Arc<Library>,
 }
 
-// SAFETY: the interface allows `predict` and `save` from any thread ([any & open]), and `close` is called once, by the owner.
+// SAFETY: the interface allows `predict` and `save` from any thread ([any & open]), and the owner calls `close` once.
 unsafe impl Send for Model {}
 // SAFETY: as above.
 unsafe impl Sync for Model {}
@@ -43,7 +43,7 @@ impl Model {
         channels: Channels,
         shape: FeatureShape,
     ) -> Result<Model, Failure> {
-        // SAFETY: after a success the interface promises this table.
+        // SAFETY: after a success, the interface specifies this table.
         let calls = unsafe { table::<abi::RegressorCalls>(regressor.calls.cast()) }?;
         if regressor.handle.is_null() {
             let why = "the fit succeeded, but its handle is NULL";
@@ -108,7 +108,7 @@ impl Regressor for Model {
         let _under_way = pending_call::begin(DOING);
         call(|error| {
             let values = features.values();
-            // SAFETY: [any & open], with features and a place of the lengths that are said, and an error that outlive the call.
+            // SAFETY: [any & open], with features and a buffer of the stated lengths, and an error that outlive the call.
             unsafe {
                 predict(
                     self.handle,
@@ -141,7 +141,7 @@ impl SavedRegressor for Model {
         let save = save.ok_or_else(|| self.failed(DOING, lacks("save")))?;
         let mut length = 0_u64;
         let _under_way = pending_call::begin(DOING);
-        // SAFETY: [any & open]; without a place nothing is written but the length.
+        // SAFETY: [any & open]; without a buffer, only the length is written.
         let asked = call(|error| unsafe {
             save(self.handle, std::ptr::null_mut(), &raw mut length, error)
         });
@@ -163,7 +163,7 @@ impl SavedRegressor for Model {
             })?;
         let mut bytes = vec![0; room];
         call(|error| {
-            // SAFETY: [any & open], with a place for `length` bytes and an error that outlive the call.
+            // SAFETY: [any & open], with a buffer of `length` bytes and an error that outlive the call.
             unsafe { save(self.handle, bytes.as_mut_ptr(), &raw mut length, error) }
         })
         .map_err(|failure| self.failed(DOING, failure))?;

@@ -56,7 +56,7 @@ impl Plugin {
     /// Specifies a child that runs `code`, unconfined if `is_trusted`.
     ///
     /// # Errors
-    /// [`DriverError`] of `driver` if there is no interpreter to run it, or the user of a confined child may not read it.
+    /// [`DriverError`] of `driver` if no interpreter can run it, or the user of a confined child may not read it.
     #[cfg(target_os = "linux")]
     pub(crate) fn child(
         &self,

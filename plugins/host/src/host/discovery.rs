@@ -9,7 +9,7 @@ use super::PluginHost;
 use crate::search::Plugin;
 use crate::session::Session;
 
-/// Timeout for loading a plugin, and for listing a driver's devices.
+/// Timeout for loading a plugin, and for listing the devices of a driver.
 const LOOKING: Duration = Duration::from_secs(10);
 
 /// Session for device discovery, or the reason for its failure.
@@ -38,7 +38,7 @@ impl PluginHost {
         }
     }
 
-    /// Discovery session of `plugin`. Started once, so that a hanging plugin costs one timeout.
+    /// Discovery session of `plugin`. It is started only once, so a hanging plugin costs one timeout.
     fn looker(&self, plugin: &Plugin, driver: &DriverKey) -> Looker {
         let mut lookers = self.lock_lookers();
         if let Some(looker) = lookers.get(plugin.id()) {

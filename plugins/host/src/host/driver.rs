@@ -39,7 +39,7 @@ impl PluginDriver {
         let plugin = self.plugin("load the plugin")?;
         let (grant, args) = self.granted(plugin, args)?;
         let args = &args;
-        // A child's needs are fixed at its start, so devices with other needs get another child.
+        // A child's needs are fixed at its start, so devices with different needs get separate children.
         let name = match grant.is_bound {
             true => format!("plugin {} {:?}", self.plugin, grant.reached),
             false => format!("plugin {}", self.plugin),
@@ -64,7 +64,7 @@ impl PluginDriver {
         if config.delivery(plugin) == Delivery::InProcess || !grant.is_bound {
             return Ok((grant, args.clone()));
         }
-        // Do not resolve the name of a host that may not be reached.
+        // A host name without permission is not resolved.
         if plugin.manifest.needs.iter().any(|need| {
             let bound = need
                 .fixed()
@@ -83,8 +83,7 @@ impl PluginDriver {
         Ok((grant, args))
     }
 
-    /// Description of the driver: the manifest's, unless `args` can change its facts. Then the library describes it; if that fails, the
-    /// manifest's description is returned.
+    /// Description of the driver. The library describes it if `args` can change its facts; otherwise, or if that fails, the manifest does.
     fn described(&self, args: &Args) -> Descriptor {
         let manifest = &*self.descriptor;
         if !changes_facts(manifest, args) {
@@ -94,7 +93,9 @@ impl PluginDriver {
         let session = self.host.session(&self.plugin, key);
         let said = session.and_then(|session| session.describe(key, args));
         said.unwrap_or_else(|error| {
-            let line = format!("described only by its manifest: {error}");
+            let line = format!(
+                "used the description in the manifest, because the library gave none: {error}"
+            );
             (self.host.log)(&self.plugin, Level::Warn, key.as_str(), &line);
             manifest.clone()
         })
@@ -107,7 +108,7 @@ impl PluginDriver {
         Ok(format!("sha256:{}", plugin.read(key)?.digest()))
     }
 
-    /// Devices that the library finds. If it finds none, USB devices that the manifest names and the kernel lists.
+    /// Devices that the library finds. If it finds none: USB devices that the manifest names and the kernel lists.
     fn present(&self) -> Result<Vec<Found>, DriverError> {
         let key = self.descriptor.key();
         let found = self.host.look(self.plugin("look for devices")?, key)?;

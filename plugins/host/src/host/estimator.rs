@@ -14,12 +14,12 @@ use crate::manifest::{EstimatorInfo, Sha256Digest};
 use crate::search::Plugin;
 use crate::session::Session;
 
-/// Estimator of a plugin. A saved model has the plugin's own format, with the library's digest beside it.
+/// Estimator of a plugin. A saved model has the plugin's own format, and stores the library's digest beside it.
 struct PluginEstimator {
     host: Arc<PluginHost>,
     plugin: Plugin,
     info: EstimatorInfo,
-    /// Digest of the first library that answered; it stays the same.
+    /// Digest of the first library that was read. Later builds must have the same digest.
     built: OnceLock<Sha256Digest>,
 }
 
@@ -82,7 +82,7 @@ impl EstimatorFactory for PluginEstimator {
         Ok(Some(format!("sha256:{}", self.digest()?)))
     }
 
-    /// If the manifest pins a build, models of another build are rejected; otherwise the difference is logged.
+    /// Checks the build that fitted a model. A manifest that pins a build rejects models of other builds; otherwise the difference is logged.
     fn admit(&self, fitted_by: Option<&str>) -> Result<(), ModelError> {
         let build = format!("sha256:{}", self.digest()?);
         if fitted_by == Some(build.as_str()) {

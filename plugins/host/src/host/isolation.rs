@@ -1,4 +1,4 @@
-//! Isolation of a plugin, found by trial: a child that loads nothing confines itself and reports the result.
+//! Isolation of a plugin, found by a trial: a child without a plugin confines itself and reports the result.
 
 use std::fmt;
 
@@ -19,7 +19,7 @@ pub enum Keeping {
     Apart(Trust),
     /// In a separate process with these restrictions, in words.
     Confined(String),
-    /// None: this machine cannot confine the plugin, for this reason.
+    /// The plugin does not run: this machine cannot confine it, for this reason.
     Refused(String),
 }
 
@@ -51,7 +51,7 @@ impl PluginHost {
         }
     }
 
-    /// Isolation of a child with the needs of `plugin`. Tried once for equal needs.
+    /// Isolation of a child with the needs of `plugin`. The trial runs once for equal needs.
     #[cfg(target_os = "linux")]
     fn confined(&self, plugin: &Plugin) -> Keeping {
         let needs = self.config.allowed(plugin);

@@ -10,8 +10,8 @@ use crate::python::{Interpreter, PythonError, arguments, closed_by};
 use crate::search::Plugin;
 
 impl Interpreter {
-    /// Specifies a child that runs this interpreter with the confinement of `module` of `plugin`. A trusted child keeps its user, who may
-    /// read everything.
+    /// Specifies a child that runs this interpreter with the confinement of `module` of `plugin`. A trusted child keeps its user, who may read every
+    /// file.
     pub(crate) fn spec(
         &self,
         plugin: &Plugin,
@@ -22,7 +22,7 @@ impl Interpreter {
             program: self.program().to_owned(),
             source,
         };
-        // Checked first, since the error of a failed start is less specific.
+        // These files are checked first, because the error of a failed start is less specific.
         std::fs::metadata(self.program()).map_err(start)?;
         std::fs::metadata(self.child()).map_err(|source| PythonError::File {
             path: self.child(),
@@ -52,7 +52,7 @@ impl Interpreter {
         spec.confinement.seals = module.profile.seals();
     }
 
-    /// Fails if a required file is unreadable for the user `nobody`, as which a child of root runs.
+    /// Fails if the user `nobody` cannot read a required file. A child of root runs as this user.
     pub(crate) fn refuse_closed(&self, package: &Path) -> Result<(), PythonError> {
         if !geteuid().is_root() {
             return Ok(());

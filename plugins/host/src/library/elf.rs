@@ -14,7 +14,7 @@ const SEGMENTS_MAX: u16 = 512;
 /// Type of a mapped segment, `PT_LOAD`.
 const LOADED: u32 = 1;
 
-/// Rejects `file` unless it is a shared library for this machine and as long as its headers say.
+/// Rejects `file` unless it is a shared library for this machine and not shorter than its headers state.
 pub(super) fn check(file: &File) -> Result<(), LoadProblem> {
     let length = file.metadata().map_err(LoadProblem::File)?.len();
     let mut header = [0; HEADER];
@@ -54,7 +54,7 @@ pub(super) fn check(file: &File) -> Result<(), LoadProblem> {
     }
 }
 
-/// Run path of `file`, as written; `None` if it has none.
+/// Run path of `file`, unexpanded; `None` if it has none.
 pub(super) fn run_path(file: &File) -> Option<String> {
     let mut header = [0; HEADER];
     file.read_exact_at(&mut header, 0).ok()?;
@@ -111,7 +111,7 @@ const MACHINE: u16 = if cfg!(target_arch = "x86_64") {
 } else if cfg!(target_arch = "aarch64") {
     183
 } else {
-    // RISC-V, the only other 64-bit little-endian platform of a manifest.
+    // RISC-V, the only other 64-bit little-endian platform that a manifest may name.
     243
 };
 

@@ -55,7 +55,7 @@ impl Entry {
         }
     }
 
-    /// Library's description of the driver with `args`, checked against the one without arguments.
+    /// Library's description of the driver with `args`, checked against its description without arguments.
     pub(crate) fn describe(&self, id: &PluginId, args: &Args) -> Result<Descriptor, Failure> {
         let list = ArgList::new(args, self.arguments());
         let said = self.said(id, &list.args())?;
@@ -86,11 +86,11 @@ impl Entry {
         match Provided::parse(&taken.whole()?, id) {
             Ok(Provided::Driver { descriptor, .. }) => Ok(*descriptor),
             Ok(Provided::Estimator(_)) => Err(abi_fault("it describes an estimator".to_owned())),
-            Err(error) => Err(abi_fault(format!("its description, {error}"))),
+            Err(error) => Err(abi_fault(format!("its description is invalid, {error}"))),
         }
     }
 
-    /// Arguments that select each device found; `None` if the plugin cannot search.
+    /// Arguments that select each connected device; `None` if the plugin cannot search.
     pub(crate) fn discover(&self) -> Result<Option<Vec<String>>, Failure> {
         let Some(discover) = self.factory.and_then(|factory| factory.discover) else {
             return Ok(None);
@@ -114,7 +114,7 @@ const FACTORIES: [(DriverKind, &str); 5] = [
 /// Maximum number of drivers in a factory.
 const DRIVERS_MAX: u32 = 256;
 
-/// All entries of `library`. Fails if they differ from `manifest`, if given.
+/// All entries of `library`. Fails if they differ from `manifest`.
 pub(super) fn entries(
     library: &Library,
     manifest: Option<&Manifest>,
@@ -130,7 +130,7 @@ pub(super) fn entries(
         };
         for number in 0..count(factory.drivers)? {
             let place = Place::Driver(kind);
-            // NULL: the description that holds for any arguments.
+            // NULL requests the description without arguments.
             let args: *const abi::Args = std::ptr::null();
             let (provided, text) = described(library, place, number, |taken, error| {
                 // SAFETY: [any], without arguments, with a context and an error that outlive the call.
@@ -220,7 +220,7 @@ fn place_of(provided: &Provided) -> Place {
 fn insert(said: &mut BTreeMap<DriverKey, Entry>, entry: Entry) -> Result<(), LoadProblem> {
     let key = entry.provided.key().clone();
     if said.contains_key(&key) {
-        let problem = format!("two of its drivers are called `{key}`");
+        let problem = format!("two of its drivers have the key `{key}`");
         return Err(LoadProblem::Table(problem));
     }
     said.insert(key, entry);
@@ -275,7 +275,7 @@ fn agree(
     }
 }
 
-/// Word for a missing entry, with the remedy if an older interface may be the reason: minor 3 has another id of force transducers.
+/// Text for a missing entry, with the remedy if an old interface version may be the cause: minor version 3 has a new id for force transducers.
 fn absent(minor: u32) -> String {
     if minor >= abi::ABI_MINOR {
         return "absent".to_owned();

@@ -79,11 +79,11 @@ pub enum LoadProblem {
     NotALibrary,
     /// The file is a shared library for another machine.
     OtherMachine,
-    /// The file is a truncated shared library.
+    /// The file is a shared library that is truncated.
     CutOff,
     /// The system's loader rejected the library.
     Loader(String),
-    /// The system's loader did not find a dependency that it looks for beside the library.
+    /// The system's loader did not find a dependency in the library's own folder (`$ORIGIN`).
     BesideItself {
         /// Message of the loader.
         message: String,
@@ -191,10 +191,10 @@ impl fmt::Display for LoadProblem {
             LoadProblem::NotALibrary => f.write_str("not a shared library"),
             LoadProblem::OtherMachine => f.write_str("a shared library for another machine"),
             LoadProblem::CutOff => f.write_str("a truncated shared library"),
-            LoadProblem::Loader(message) => write!(f, "the loader refused it: {message}"),
+            LoadProblem::Loader(message) => write!(f, "the system's loader rejected it: {message}"),
             LoadProblem::BesideItself { message, run_path } => write!(
                 f,
-                "the loader refused it: {message}; it searches `{run_path}`, but a library is loaded from a sealed copy without a folder: link its dependencies into it, or install them as system libraries"
+                "the system's loader rejected it: {message}; its run path is `{run_path}`, but it is loaded from a sealed copy outside its folder: link its dependencies statically, or install them as system libraries"
             ),
             LoadProblem::Symbol(message) => {
                 write!(f, "it exports no `taceva_plugin_v1`: {message}")
@@ -209,7 +209,7 @@ impl fmt::Display for LoadProblem {
             ),
             LoadProblem::Major { found } => write!(
                 f,
-                "written for version {found} of the interface, this TacEva has {}",
+                "written for version {found} of the interface, but this TacEva has {}",
                 taceva_abi::ABI_MAJOR
             ),
             LoadProblem::Size { found, least } => write!(
@@ -230,7 +230,7 @@ impl fmt::Display for LoadProblem {
             LoadProblem::Table(problem) => f.write_str(problem),
             LoadProblem::Describe(failure) => write!(f, "its `describe` failed: {failure}"),
             LoadProblem::Describes { driver, source } => {
-                write!(f, "its description of {driver}, {source}")
+                write!(f, "its description of {driver} is invalid, {source}")
             }
         }
     }

@@ -26,7 +26,7 @@ pub enum Level {
 /// Callback for a plugin's log lines: level, target and message.
 pub type Log = Box<dyn Fn(Level, &str, &str) + Send + Sync>;
 
-/// Host table for a plugin's `init`. Leaked, since the library is never unloaded.
+/// Host table for a plugin's `init`. It is leaked, because the library is never unloaded.
 pub(super) fn table(log: Log) -> *const abi::Host {
     let log: &'static Log = Box::leak(Box::new(log));
     let host = abi::Host {
@@ -39,7 +39,7 @@ pub(super) fn table(log: Log) -> *const abi::Host {
     std::ptr::from_ref(Box::leak(Box::new(host)))
 }
 
-/// Maximum length of a message or target, bytes. A longer text is not read.
+/// Maximum length of a message or target, bytes. Longer texts are not read.
 const LENGTH_MAX: usize = 1 << 16;
 
 unsafe extern "C" fn write(
@@ -50,7 +50,7 @@ unsafe extern "C" fn write(
 ) {
     let read = |text: abi::Text| {
         let is_text = text.length <= LENGTH_MAX;
-        // SAFETY: borrowed for this call by the rule of the interface, and its length is bounded.
+        // SAFETY: the interface lends the text for this call, and its length is bounded.
         let text = is_text.then(|| unsafe { text.to_str() });
         match text {
             Some(Ok(text)) => shown(text),
@@ -66,9 +66,9 @@ unsafe extern "C" fn write(
     if context.is_null() {
         return;
     }
-    // SAFETY: `context` is the log that `table` leaked, as this function and it are only handed over together.
+    // SAFETY: `context` is the log that `table` leaked; this function and that pointer are always passed together.
     let log = unsafe { &*context.cast::<Log>() };
-    // A panic must not unwind into the library; the log line is lost.
+    // A panic must not unwind into the library. The log line is then lost.
     let _ = caught(|| log(level, &read(target), &read(message)));
 }
 

@@ -1,4 +1,4 @@
-//! Private, sealed copy of a library, so that the hashed file is the loaded file.
+//! Private, sealed copy of a library. The hashed file is therefore the loaded file.
 
 use std::fs::File;
 use std::io::{Read, Write};
@@ -18,7 +18,7 @@ pub(crate) const LENGTH_MAX: u64 = 1 << 30;
 /// Block size for copying, bytes.
 const BLOCK: usize = 1 << 16;
 
-/// A hashed library in sealed memory. Later changes of its file have no effect.
+/// A hashed library in sealed memory. Later changes of its file do not affect it.
 #[derive(Debug)]
 pub struct Image {
     memory: OwnedFd,
@@ -30,12 +30,12 @@ impl Image {
     /// Copies and hashes the library that a manifest in `folder` names.
     ///
     /// # Errors
-    /// [`LoadError`] if it is not a regular file, not a library for this machine, truncated, or has another digest than the manifest.
+    /// [`LoadError`] if it is not a regular file, not a library for this machine, truncated, or does not have the digest of the manifest.
     pub fn read(folder: &Path, library: &LibraryFile) -> Result<Image, LoadError> {
         let path = folder.join(&library.path);
         let failed = |problem: LoadProblem| problem.of(&path);
         let io = |error: std::io::Error| failed(LoadProblem::File(error));
-        // Checked before opening, since opening a pipe would block.
+        // Checked before opening, because opening a pipe would block.
         if !std::fs::metadata(&path).map_err(io)?.is_file() {
             return Err(failed(LoadProblem::NotAFile));
         }
@@ -54,7 +54,7 @@ impl Image {
             }));
         }
         seal_all(&copy).map_err(|error| io(error.into()))?;
-        // After sealing, so that the checked bytes cannot change.
+        // Checked after sealing, so the checked bytes cannot change.
         elf::check(&copy).map_err(failed)?;
         Ok(Image {
             memory: copy.into(),
@@ -125,7 +125,7 @@ mod tests {
         }
     }
 
-    /// A library that exists wherever tests run: one that this program itself uses.
+    /// A library that exists on every test machine: the C library of this program.
     fn some_library() -> PathBuf {
         let maps = std::fs::read_to_string("/proc/self/maps").expect("readable");
         let library = maps

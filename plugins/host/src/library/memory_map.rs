@@ -1,4 +1,4 @@
-//! Memory map of this process, to check a library's pointers before reading.
+//! Memory map of this process. It serves to check a library's pointers before they are read.
 
 use std::io;
 use std::ops::Range;

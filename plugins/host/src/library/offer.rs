@@ -9,7 +9,7 @@ impl Library {
         let said = self.plugin();
         let needs = text("`needs`", said.needs, None)?;
         let needs = needs.lines().map(str::trim).filter(|need| !need.is_empty());
-        // In the order in which the library lists them.
+        // Entries in the order of the library.
         let mut entries: Vec<_> = self.entries.values().collect();
         entries.sort_by_key(|entry| (entry.place, entry.number));
         Ok(Offer {

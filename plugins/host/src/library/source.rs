@@ -9,7 +9,7 @@ use super::{Image, Library, LoadError, Log};
 use crate::manifest::Manifest;
 use crate::offer::Offer;
 
-/// A table built by the program. A runtime of another language uses it to offer its objects as devices.
+/// A table built by this program. A runtime of another language uses it to offer its objects as devices.
 #[derive(Clone, Debug)]
 pub struct Linked {
     table: &'static abi::Plugin,
@@ -25,7 +25,7 @@ impl Linked {
     /// Offers and needs, as in a manifest.
     ///
     /// # Errors
-    /// [`LoadError`] if the tables contain values that no manifest can express.
+    /// [`LoadError`] if the tables contain values that a manifest cannot express.
     pub fn offer(&self) -> Result<Offer, LoadError> {
         let library = self.load(None, Box::new(|_, _, _| {}))?;
         library.offer().map_err(|problem| problem.of(&self.path))

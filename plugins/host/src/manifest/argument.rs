@@ -36,7 +36,7 @@ enum Type {
 }
 
 impl WrittenArgument {
-    /// Converts the declaration. Fails if it contradicts itself.
+    /// Converts the declaration. Fails if its keys contradict each other.
     pub(super) fn spec(self) -> Result<ArgSpec, Refused> {
         let key = self.key.get_ref().as_str();
         let of_type = *self.r#type.get_ref();
@@ -125,7 +125,7 @@ fn float(value: &Value) -> Option<f64> {
         Value::Float(value) => Some(*value),
         #[expect(
             clippy::cast_precision_loss,
-            reason = "whoever writes a whole number for a number means the nearest"
+            reason = "a whole number in the place of a number stands for the nearest f64"
         )]
         Value::Integer(value) => Some(*value as f64),
         _ => None,

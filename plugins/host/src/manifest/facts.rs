@@ -24,7 +24,7 @@ impl WrittenProvides {
                 ChangerFacts::default().with_holds(value(&self.holds).unwrap_or_default()),
             )),
             Kind::Estimator => {
-                let problem = "an estimator is not a device";
+                let problem = "an estimator has no facts of a device";
                 Err(Refused::at(&self.key, problem))
             }
         }

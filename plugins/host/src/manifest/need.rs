@@ -1,4 +1,4 @@
-//! Resources that a plugin needs besides computing. A child process gets only those that the manifest declares and the user allows.
+//! Outside resources that a plugin needs. A child process gets only those that the manifest declares and the user allows.
 
 mod coverage;
 mod declaration;
@@ -16,12 +16,12 @@ use taceva_core::suggestion;
 
 use crate::text::shown;
 
-/// Words before the first `:` of needs.
+/// First words of needs.
 const WORDS: [&str; 9] = [
     "camera", "device", "hid", "listen", "read", "serial", "tcp", "udp", "usb",
 ];
 
-/// Resource outside the plugin that it must reach.
+/// Resource outside the plugin that it must access.
 ///
 /// ```
 /// use taceva_host::Need;
@@ -43,17 +43,17 @@ pub enum Need {
     Camera,
     /// Human interface devices, such as scales and pedals: `/dev/hidraw*`.
     Hid,
-    /// Serial ports only: a path below `/dev`, in which `*` stands for any characters but `/`.
+    /// Serial ports only: a path below `/dev`. `*` stands for any characters except `/`.
     Serial {
         /// Path of the device.
         path: String,
     },
-    /// Character devices: a path below `/dev`, in which `*` stands for any characters but `/`.
+    /// Character devices: a path below `/dev`. `*` stands for any characters except `/`.
     Device {
         /// Path of the device.
         path: String,
     },
-    /// TCP servers: an address in which `*` stands for any characters but `.`.
+    /// TCP servers: an address. `*` stands for any characters except `.`.
     Tcp {
         /// Address or host name.
         address: String,
@@ -74,7 +74,7 @@ pub enum Need {
     },
     /// Read access to a file, or to a folder and everything in it.
     Read {
-        /// Absolute path, in which `*` stands for any characters but `/`.
+        /// Absolute path. `*` stands for any characters except `/`.
         path: String,
     },
 }
@@ -151,7 +151,7 @@ fn names_something(path: &str) -> bool {
     parts.all(|part| part.chars().any(|letter| letter != '*'))
 }
 
-/// True for an absolute path outside `/dev`, `/proc` and `/sys`, which would reveal other processes.
+/// True for an absolute path outside `/dev`, `/proc` and `/sys`, which would reveal devices or other processes.
 fn is_readable(path: &str) -> bool {
     let first = path.split('/').nth(1).unwrap_or_default();
     let shows_system = ["dev", "proc", "sys"]

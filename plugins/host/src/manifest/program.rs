@@ -14,17 +14,17 @@ const PRELOAD_MAX: usize = 64;
 /// Python module of a plugin, and its process settings.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct PythonModule {
-    /// Name of the package that contains the manifest, as `import` takes it.
+    /// Name of the package that contains the manifest, as in `import`.
     pub name: String,
     /// Wire version for which the module was written.
     pub wire: u32,
-    /// Modules to import first, since the plugin would import their native code only later.
+    /// Modules to import first. The plugin would import their native code later, when no code may be mapped.
     pub preload: Vec<String>,
     /// Confinement profile of the process.
     pub profile: Profile,
 }
 
-/// Confinement profile of an interpreter's process, beyond that of every plugin.
+/// Confinement profile of an interpreter's process, in addition to the confinement of every plugin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Profile {
@@ -64,7 +64,7 @@ impl fmt::Display for Profile {
     }
 }
 
-/// Table `[program]` as written.
+/// Content of the table `[program]`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WrittenProgram {
@@ -82,7 +82,7 @@ impl WrittenProgram {
         let name = self.python.get_ref();
         if !is_word(name) {
             let problem = format!(
-                "`python`: {:?}, expected the name of a top-level package, as `import` takes it, without dots: finding a submodule would import its package",
+                "`python`: {:?}, expected the name of a top-level package without dots, because finding a submodule would import its package",
                 shown(name)
             );
             return Err(Refused::at(&self.python, problem));

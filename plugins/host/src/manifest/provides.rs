@@ -12,7 +12,7 @@ use super::usb_id::UsbId;
 use crate::id::PluginId;
 use crate::text::shown;
 
-/// Driver or estimator of a plugin, as described before any of its code runs.
+/// Driver or estimator of a plugin, as described before its code runs.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Provided {
@@ -30,7 +30,7 @@ pub enum Provided {
 /// Description of a plugin's estimator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EstimatorInfo {
-    /// Key by which users choose it: the plugin's id, `/`, and the key of the table.
+    /// Key by which users choose the estimator: the plugin's id, `/`, and the key of the table.
     pub key: taceva_core::DriverKey,
     /// Short title.
     pub title: String,

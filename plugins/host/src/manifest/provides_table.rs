@@ -1,4 +1,4 @@
-//! A `[[provides]]` table as written, with the keys of all kinds.
+//! Content of a `[[provides]]` table, with the keys of all kinds.
 
 use serde::Deserialize;
 use taceva_core::{DriverKind, PixelFormat};
@@ -7,7 +7,7 @@ use toml::Spanned;
 use super::argument::WrittenArgument;
 use super::usb_id::UsbId;
 
-/// Table as written, with the keys of all kinds.
+/// Content of a table, with the keys of all kinds.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WrittenProvides {

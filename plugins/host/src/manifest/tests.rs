@@ -210,7 +210,7 @@ fn a_path_that_leaves_the_folder_is_refused() {
 fn a_key_claimed_twice_is_refused() {
     let message = with("\"arm\"", "\"palm\"");
     assert!(
-        message.ends_with("`key`: two tables are called `palm`"),
+        message.ends_with("`key`: two tables have the key `palm`"),
         "{message}"
     );
 }
@@ -223,7 +223,7 @@ fn a_newer_manifest_says_which_version_is_read_whatever_else_it_says() {
     );
     assert_eq!(
         refused(&text),
-        "line 1, column 20: `manifest_version`: 2, this TacEva reads 1"
+        "line 1, column 20: `manifest_version`: 2, but this TacEva reads 1"
     );
 }
 

@@ -14,10 +14,10 @@ const OF_MANIFEST: [&str; 1] = ["usb"];
 impl Offer {
     /// Updates the manifest `text` to this offer of `library`. If `text` is empty, writes a new manifest with the licence `license`.
     ///
-    /// Comments and the key `usb`, which libraries do not state, are kept. `needs` are kept if the library states none.
+    /// Keeps comments and the key `usb`, which libraries do not state. Keeps `needs` if the library states none.
     ///
     /// # Errors
-    /// [`ManifestError`] if `text` is not TOML, if the offer does not fit a manifest, or if a new manifest lacks a licence.
+    /// [`ManifestError`] if `text` is not TOML, the offer does not fit a manifest, or a new manifest lacks a licence.
     pub fn manifest(
         &self,
         text: &str,
@@ -29,7 +29,7 @@ impl Offer {
         })
     }
 
-    /// Like [`manifest`](Offer::manifest), for the offer of a Python `module`. The preloaded modules and the profile are kept.
+    /// As [`manifest`](Offer::manifest), for the offer of a Python `module`. Keeps the preloaded modules and the profile.
     ///
     /// # Errors
     /// As [`manifest`](Offer::manifest).
@@ -126,7 +126,7 @@ impl Offer {
             if let Some([what, ..]) = differs {
                 let key = offered.key();
                 return Err(ManifestError::whole(format!(
-                    "`{key}`, {what}: cannot be edited as it is written; write there by hand:\n[[provides]]\n{}",
+                    "`{key}`, {what}: cannot be edited in its present form; write it by hand:\n[[provides]]\n{}",
                     table.replace("[[args]]", "[[provides.args]]")
                 )));
             }
@@ -135,7 +135,7 @@ impl Offer {
     }
 }
 
-/// Sets `key` unless it already has this value. Comments and spaces around the value are kept.
+/// Sets `key` unless it already has this value. Keeps comments and spaces around the value.
 fn put(table: &mut Table, key: &str, said: &Item) {
     match table.get_mut(key) {
         Some(item) if is_same(item, said) => {}
@@ -164,7 +164,7 @@ fn is_same(one: &Item, other: &Item) -> bool {
     fn same(one: &Plain, other: &Plain) -> bool {
         #[expect(
             clippy::cast_precision_loss,
-            reason = "whoever writes a whole number for a number means the nearest"
+            reason = "a whole number in the place of a number stands for the nearest f64"
         )]
         let number = |value: &Plain| match value {
             Plain::Integer(whole) => Some(*whole as f64),
@@ -193,7 +193,7 @@ fn is_same(one: &Item, other: &Item) -> bool {
         .is_some_and(|(one, other)| same(&one, &other))
 }
 
-/// Sets the needs of the library. Those already written keep their position and comments.
+/// Sets the needs of the library. Existing needs keep their position and comments.
 fn needs(manifest: &mut DocumentMut, said: &[String]) {
     match manifest.get_mut("needs").and_then(Item::as_array_mut) {
         Some(written) => {
@@ -317,7 +317,7 @@ fn updated(mut written: Table, said: &Table) -> Table {
             put(&mut written, key, item);
         }
     }
-    // Order of the library, so that a manifest it wrote stays unchanged.
+    // The library's key order, so a manifest that it wrote stays unchanged.
     let own = said.iter().map(|(key, _)| key.to_owned());
     let left = written.iter().map(|(key, _)| key.to_owned());
     let left = left.filter(|key| !said.contains_key(key));

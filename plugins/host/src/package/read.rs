@@ -15,8 +15,8 @@ use crate::search::MANIFEST;
 
 /// Unpacks the manifest, the library for this machine and the licences from `archive` into the empty `folder`.
 ///
-/// The manifest comes first and determines the other entries; `SHA256SUMS` comes second. Every file is compared with its digest. Only plain
-/// files below `folder` are written.
+/// The manifest comes first and determines the other entries. `SHA256SUMS` comes second. Every file is compared with its digest. Only plain files
+/// below `folder` are written.
 ///
 /// # Errors
 /// [`PackageError`] for the first invalid entry: a link, a folder, a path outside `folder`, a duplicate name, or a file that is too long or
@@ -25,7 +25,7 @@ pub fn unpack(archive: impl Read, folder: &Path) -> Result<(), PackageError> {
     let mut archive = Archive::new(archive);
     let mut promised: Option<Promised> = None;
     let mut seen = BTreeSet::new();
-    // Raw entries, so that entries that carry long names are rejected too.
+    // Reads raw entries, so entries that carry long names are rejected too.
     let entries = archive.entries().map_err(PackageError::Archive)?;
     for entry in entries.raw(true) {
         let mut entry = entry.map_err(PackageError::Archive)?;
@@ -127,7 +127,8 @@ impl Promised {
         } else if is_licence(name) && self.licences < LICENCES_MAX {
             Ok(LICENCE_MAX)
         } else {
-            let problem = "its manifest does not name it: expected only libraries of `[library]`, and licences";
+            let problem =
+                "not named in the manifest: expected only libraries of `[library]`, and licences";
             Err(PackageError::entry(name, problem))
         }
     }

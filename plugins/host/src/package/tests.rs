@@ -63,7 +63,7 @@ fn digests(files: &[(&str, &[u8])]) -> String {
     files.iter().map(line).collect()
 }
 
-/// Result of unpacking the manifest, the digest of the library alone, the library, and `parts`.
+/// Result of unpacking the manifest, the digest of the library, the library, and `parts`.
 fn with(parts: &[Part<'_>]) -> Result<(), String> {
     let (manifest, digests) = (manifest(), digests(&[("lib/lamp.so", b"code")]));
     let mut all = vec![
@@ -181,7 +181,7 @@ fn a_file_that_is_too_long_is_refused_before_it_is_read() {
         plain("plugin.toml", manifest.as_bytes()),
         plain("SHA256SUMS", digests.as_bytes()),
     ]);
-    // Without the end blocks, and with a header of 100 GiB.
+    // Removes the end blocks and adds a header that states 100 GiB.
     archive.truncate(archive.len() - 1024);
     let mut header = Header::new_gnu();
     header.as_old_mut().name[..11].copy_from_slice(b"lib/lamp.so");
@@ -207,14 +207,20 @@ fn a_second_manifest_is_refused_wherever_it_lies() {
     );
     refused(
         with(&[plain("lib/plugin.toml", manifest.as_bytes())]),
-        "does not name it",
+        "not named in the manifest",
     );
 }
 
 #[test]
 fn what_the_manifest_does_not_name_is_refused() {
-    refused(with(&[plain("lib/helper.so", b"code")]), "does not name it");
-    refused(with(&[plain("lib/LICENSE", b"text")]), "does not name it");
+    refused(
+        with(&[plain("lib/helper.so", b"code")]),
+        "not named in the manifest",
+    );
+    refused(
+        with(&[plain("lib/LICENSE", b"text")]),
+        "not named in the manifest",
+    );
 }
 
 #[test]
@@ -279,7 +285,7 @@ fn every_cut_and_every_damaged_byte_of_a_header_is_refused_or_whole_and_never_a_
         let is_there = Path::new(&into).join("lib/lamp.so").exists();
         assert!(taken.is_err() || is_there, "cut at {cut}");
     }
-    // Except the checksum itself, in which a digit may become a space that also means 0.
+    // Skips the checksum itself: one of its digits may become a space, which also means 0.
     for place in (0..148).chain(156..512) {
         let mut damaged = whole.clone();
         damaged[place] ^= 0x10;

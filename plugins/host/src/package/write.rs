@@ -11,8 +11,8 @@ use super::{DIGESTS, PackageError, libraries, licences};
 use crate::manifest::Sha256Digest;
 use crate::search::{MANIFEST, Plugin};
 
-/// Packs `plugin` into an archive: the manifest, the digests, every existing library of the manifest, and the licences. The same plugin
-/// gives the same bytes. Returns the names of the entries.
+/// Packs `plugin` into an archive: the manifest, the digests, every existing library of the manifest, and the licences. Equal plugins give equal
+/// bytes. Returns the names of the entries.
 ///
 /// # Errors
 /// [`PackageError`] if a file cannot be read, or its path does not fit a tar header (256 bytes).
@@ -30,7 +30,7 @@ pub fn pack(plugin: &Plugin, into: &mut dyn Write) -> Result<Vec<String>, Packag
     let licences =
         licences(&plugin.folder).map_err(|error| PackageError::file(&plugin.folder, error))?;
     names.extend(licences.iter().map(|name| name.display().to_string()));
-    // Read once, so that the hashed bytes are the packed bytes.
+    // Each file is read once, so the hashed bytes are the packed bytes.
     let mut files = Vec::with_capacity(names.len());
     let mut digests = String::new();
     for name in names {

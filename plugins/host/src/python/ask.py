@@ -1,6 +1,6 @@
-"""Says in TOML which environment this is, and which plugins lie in it: `taceva` runs it by the interpreter of the environment.
+"""Prints the environment and its plugins as TOML. `taceva` runs it with the interpreter of the environment.
 
-Nothing of a plugin is imported: a package at the top is found without running anything of it.
+No plugin is imported. A top-level package is found without running its code.
 """
 import importlib.metadata
 import importlib.util
@@ -14,7 +14,7 @@ def text(value):
 
 
 def package(name):
-    """The folder of a package, or why there is none."""
+    """Folder of a package, or the reason why there is none."""
     try:
         spec = importlib.util.find_spec(name)
     except Exception as error:

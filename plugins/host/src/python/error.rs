@@ -41,7 +41,7 @@ pub enum PythonError {
     },
     /// The interpreter did not answer the query.
     #[error(
-        "{}: it did not list its environment: {problem}; expected Python 3.11 or later",
+        "{}: cannot list its environment: {problem}; expected Python 3.11 or later",
         shown(program)
     )]
     Silent {
@@ -117,7 +117,7 @@ impl PythonError {
 /// Error message for a plugin that was written for wire version `found`.
 pub(crate) fn other_wire(found: u32) -> String {
     format!(
-        "written for version {found} of the wire, this TacEva speaks {WIRE}: install the package `taceva` of the version of the program ({}), then run `python -m taceva.plugin manifest MODULE --write`",
+        "written for wire version {found}, but this TacEva has {WIRE}: install the package `taceva` of the version of the program ({}), then run `python -m taceva.plugin manifest MODULE --write`",
         env!("CARGO_PKG_VERSION")
     )
 }

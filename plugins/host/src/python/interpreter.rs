@@ -13,7 +13,7 @@ const ASK: &str = include_str!("ask.py");
 const BEGIN: &str = "# taceva environment\n";
 /// File of the package `taceva` that runs a plugin's process.
 const CHILD: &str = "plugin_child.py";
-/// System files that list the processors, which numeric libraries read.
+/// System files that list the processors. Numeric libraries read them.
 const OF_PROCESSORS: [&str; 2] = ["/proc/cpuinfo", "/sys/devices/system/cpu"];
 
 /// Python interpreter whose environment has the package `taceva`.
@@ -26,7 +26,7 @@ pub struct Interpreter {
     lying: Vec<Lying>,
 }
 
-/// Plugin in an environment, found by its entry point.
+/// Plugin in an environment, found through its entry point.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 pub(crate) struct Lying {
     pub(crate) id: String,
@@ -45,8 +45,7 @@ struct Said {
 }
 
 impl Interpreter {
-    /// Queries the environment of the interpreter at `program`. Runs no code of plugins, but runs code that the environment itself executes
-    /// at start.
+    /// Queries the environment of the interpreter at `program`. Runs no code of plugins, but the startup code of the environment.
     ///
     /// # Errors
     /// [`PythonError`] if the interpreter cannot be started, does not answer, or has no package `taceva`.
@@ -89,7 +88,7 @@ impl Interpreter {
         })
     }
 
-    /// Path with which the interpreter is started.
+    /// Path that starts the interpreter.
     pub fn program(&self) -> &Path {
         &self.program
     }

@@ -1,4 +1,4 @@
-//! Access check for a user who owns nothing.
+//! Check of the access of a user who owns nothing.
 
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 const READ: u32 = 0o4;
 const GO_THROUGH: u32 = 0o1;
 
-/// Entry that denies other users access to `path`: `path` itself or a folder above it. `None` if access is allowed or `path` does not exist.
+/// First entry that denies other users access to `path`: `path` itself or a folder above it. `None` if access is allowed or `path` does not exist.
 pub(crate) fn closed_by(path: &Path) -> Option<PathBuf> {
     let real = std::fs::canonicalize(path).ok()?;
     let mode = |path: &Path| path.metadata().ok().map(|metadata| metadata.mode());

@@ -13,17 +13,17 @@ pub(crate) fn arguments(child: &Path) -> Vec<OsString> {
     alone.chain([child.as_os_str().to_owned()]).collect()
 }
 
-/// The interpreter, and its script for a plugin's process.
+/// The interpreter, and its script for plugin processes.
 static OWN: OnceLock<(PathBuf, PathBuf)> = OnceLock::new();
 
 /// Declares that this program runs in `interpreter`, whose package `taceva` is at `package`. Plugin processes, including those of
 /// libraries, use that interpreter from now on.
 pub fn run_within(interpreter: PathBuf, package: PathBuf) {
-    // A process has one interpreter, so further calls change nothing.
+    // A process has one interpreter, so further calls have no effect.
     let _ = OWN.set((interpreter, package.join("plugin_child.py")));
 }
 
-/// The interpreter in which this program runs, and its script for a plugin's process; `None` outside Python.
+/// The interpreter in which this program runs, and its script for plugin processes; `None` outside Python.
 pub(crate) fn own() -> Option<&'static (PathBuf, PathBuf)> {
     OWN.get()
 }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::error::PythonError;
 
-/// Timeout. Reading modules from a slow disk takes seconds.
+/// Timeout of a run. Reading modules from a slow disk takes seconds.
 const PATIENCE: Duration = Duration::from_secs(30);
 /// Polling interval.
 const PAUSE: Duration = Duration::from_millis(5);
@@ -43,7 +43,7 @@ pub(super) fn output(program: &Path, arguments: &[&str]) -> Result<String, Pytho
         match process.try_wait().map_err(start)? {
             Some(status) => break status,
             None if begun.elapsed() > PATIENCE => {
-                // Fails if the process has ended meanwhile.
+                // The kill fails if the process has already ended.
                 let _ = process.kill();
                 let _ = process.wait();
                 return Err(silent(format!("it took longer than {PATIENCE:?}")));
@@ -66,11 +66,11 @@ pub(super) fn output(program: &Path, arguments: &[&str]) -> Result<String, Pytho
     )))
 }
 
-/// Starts a thread that reads the pipe, so that the writer never blocks.
+/// Starts a thread that reads the pipe, so the writer never blocks.
 fn reader(mut pipe: impl Read + Send + 'static) -> thread::JoinHandle<Vec<u8>> {
     thread::spawn(move || {
         let mut bytes = Vec::new();
-        // After a read error the output is incomplete, which the caller reports.
+        // After a read error the output is incomplete, and the caller reports that.
         let _ = pipe.by_ref().take(PRINTED_MAX).read_to_end(&mut bytes);
         let _ = io::copy(&mut pipe, &mut io::sink());
         bytes

@@ -67,7 +67,7 @@ impl Searching {
         let manifest = folder.join(MANIFEST);
         if !manifest.exists() {
             let why = format!(
-                "it contains no {MANIFEST}; write it by `python -m taceva.plugin manifest {module} --write`, and list it in the project among the files of the package"
+                "it contains no {MANIFEST}; write it with `python -m taceva.plugin manifest {module} --write`, and add it to the package files of the project"
             );
             self.rejections.push(refused(why).of(folder, Place::Python));
             return;

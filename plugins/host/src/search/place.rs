@@ -54,7 +54,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Folders to search. The current folder is included only if it is named.
+/// Folders to search. The current folder is not included unless it is named.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SearchPath {
     pub(super) folders: Vec<(Place, PathBuf)>,

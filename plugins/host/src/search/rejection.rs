@@ -15,7 +15,7 @@ use crate::python::other_wire;
 /// A rejected folder or manifest.
 #[derive(Debug)]
 pub struct Rejection {
-    /// Path of the manifest, or of the folder if that is the cause.
+    /// Path of the manifest, or of the folder if the folder is the cause.
     pub path: PathBuf,
     /// Place where it was found.
     pub place: Place,
@@ -33,9 +33,9 @@ impl fmt::Display for Rejection {
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Reason {
-    /// The folder is relative, so it would depend on the working directory.
+    /// The folder path is relative, so it depends on the working directory.
     Relative,
-    /// Every user of the machine may write there.
+    /// Every user of the machine may write to it.
     WorldWritable {
         /// The writable file or folder.
         path: PathBuf,
@@ -190,7 +190,7 @@ impl fmt::Display for Reason {
             Reason::Relative => f.write_str("a relative folder, expected one that begins with `/`"),
             Reason::WorldWritable { path } => write!(
                 f,
-                "every user of this machine may write to {}, expected write access for its owner only",
+                "every user of this machine may write to {}, expected write access only for its owner",
                 shown(path)
             ),
             Reason::Unreadable(error) => write!(f, "{error}"),
@@ -201,7 +201,7 @@ impl fmt::Display for Reason {
             Reason::Manifest(error) => write!(f, "{error}"),
             Reason::Abi { found } => write!(
                 f,
-                "written for version {}.{} of the interface, this TacEva has {}.{}",
+                "written for version {}.{} of the interface, but this TacEva has {}.{}",
                 found.major,
                 found.minor,
                 taceva_abi::ABI_MAJOR,

@@ -119,7 +119,7 @@ fn of_duplicate_ids_the_one_whose_folder_is_given_is_used_and_the_other_says_so(
         panic!("one is left out: {:?}", plugins.rejections);
     };
     assert_eq!(rejection.reason.kind(), ReasonKind::Duplicate);
-    // The user's preference comes before a folder from the command line.
+    // The user's preference takes precedence over a folder from the command line.
     let plugins = Plugins::search(both.given([given]), std::slice::from_ref(&other));
     assert_eq!(
         plugins.get("org.example.lamp").expect("chosen").folder,
@@ -223,7 +223,7 @@ fn whoever_asks_for_a_plugin_that_is_not_there_hears_where_it_was_looked_for() {
         "did you mean `org.example.lamp`?",
         "looked in",
         "(given)",
-        "refused",
+        "rejected",
         "bad/plugin.toml",
         "unknown key",
     ] {

@@ -16,7 +16,7 @@ pub(super) struct Writable {
 }
 
 impl Writable {
-    /// Path that every user may write: `path` itself, or a folder above it in which they could replace it. `path` has no links.
+    /// Entry that every user may write: `path` itself, or a folder above it in which users could replace it. `path` has no links.
     pub(super) fn by_all(&mut self, path: &Path) -> io::Result<Option<PathBuf>> {
         if fs::metadata(path)?.permissions().mode() & OTHERS_WRITE != 0 {
             return Ok(Some(path.to_owned()));
@@ -27,8 +27,7 @@ impl Writable {
         }
     }
 
-    /// Like [`by_all`](Writable::by_all), for entries of `folder`. In a folder with the sticky bit, users cannot replace the entries of
-    /// others.
+    /// As [`by_all`](Writable::by_all), for entries of `folder`. The sticky bit of a folder keeps users from replacing entries of others.
     fn above(&mut self, folder: &Path) -> io::Result<Option<PathBuf>> {
         if let Some(known) = self.above.get(folder) {
             return Ok(known.clone());

@@ -185,7 +185,7 @@ fn a_thousand_devices_are_opened_and_closed_without_a_trace() {
     let open = || drop(session.sensor(&odd::SENSOR, &args).expect("a sensor"));
     let count = || {
         open();
-        // The urgent thread ends a moment after its device.
+        // The urgent thread ends shortly after its device.
         std::thread::sleep(std::time::Duration::from_millis(50));
         (files(std::process::id()), files(session.child().process()))
     };

@@ -132,7 +132,7 @@ fn a_child_that_is_killed_amid_frames_is_seen_within_50_ms() {
     let error = loop {
         match capture(&mut *counting) {
             Ok(_) => frames += 1,
-            // The counter of this sensor is one byte, and a panic would be another error.
+            // The counter of this sensor is one byte. An overflow would panic and give another error.
             Err(error) => break error,
         }
         if frames == 250 {

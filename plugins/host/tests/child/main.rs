@@ -1,4 +1,4 @@
-//! Devices through a child process: the same bytes as without one, and no harm when it fails.
+//! Devices through a child process give the same bytes as without one, and a failing child harms nothing.
 //!
 //! This program is its own child, so it has its own `main`.
 
@@ -31,7 +31,7 @@ fn main() -> ExitCode {
     runner::run(&tests)
 }
 
-/// Drivers of the simulated bench, and odd ones.
+/// Drivers of the simulated bench, and misbehaving ones.
 fn served() -> Result<BuiltIn, taceva_core::RegistryError> {
     let mut served = BuiltIn::new()?;
     served.sensors.add(Box::new(odd::OddSensorFactory::new()))?;

@@ -135,7 +135,7 @@ pub(crate) fn load(
     }))
 }
 
-/// Training set of 20,000 samples, which exceeds any message.
+/// Training set of 20,000 samples. It is larger than any message.
 struct Lesson {
     features: Features,
     channels: Channels,

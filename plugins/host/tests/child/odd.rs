@@ -1,4 +1,4 @@
-//! Drivers that block, panic, exit and lie.
+//! Drivers that block, panic, exit and report false values.
 
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::Duration;
@@ -12,14 +12,14 @@ use taceva_core::{
 pub(crate) const SENSOR: DriverKey = DriverKey::fixed("odd/sensor");
 pub(crate) const ROBOT: DriverKey = DriverKey::fixed("odd/robot");
 
-/// Frames of the odd sensor, in the format of a common camera.
+/// Frames of the misbehaving sensor, in the format of a common camera.
 pub(crate) const FRAME: FrameInfo = FrameInfo {
     width: 640,
     height: 480,
     format: PixelFormat::Rgb8,
 };
 
-/// Opens sensors that do at each capture what the argument `does` names.
+/// Opens sensors that misbehave at each capture as the argument `does` names.
 pub(crate) struct OddSensorFactory(Descriptor);
 
 impl OddSensorFactory {

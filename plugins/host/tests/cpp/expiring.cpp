@@ -1,4 +1,4 @@
-// An arm behind a line, whose controller drops a speed after 200 ms, and a way to a place never.
+// An arm whose controller drops a speed command after 200 ms, but never a motion to a position.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <taceva/robot.hpp>

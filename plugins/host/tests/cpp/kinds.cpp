@@ -1,4 +1,4 @@
-// One simulated device of each kind, by the helpers for C++: a sensor, a transducer, a robot, a lighting and a changer in one plugin.
+// One simulated device of each kind, with the C++ helpers: a sensor, a transducer, a robot, a lighting and a changer in one plugin.
 #include <taceva/changer.hpp>
 #include <taceva/force.hpp>
 #include <taceva/lighting.hpp>
@@ -52,7 +52,7 @@ class wrist : public taceva::force, public taceva::can_tare, public taceva::can_
   uint64_t readings_ = 0;
 };
 
-// Behind 12 mm along x stands a wall, which it strikes.
+// A wall at 12 mm along x, which the robot strikes.
 class arm : public taceva::robot, public taceva::can_expire {
  public:
   static constexpr const char *table =
@@ -82,7 +82,7 @@ class arm : public taceva::robot, public taceva::can_expire {
     stamp.valid_ns = now_ns();
   }
 
-  /* Simulated: what would be told again ten times a second is told once. */
+  /* The simulation needs one command; a real device would repeat it ten times per second. */
   void move_expiring(const taceva_motion &to, taceva_stamp &stamp, taceva::deadline until) override { move(to, stamp, until); }
 
  private:

@@ -1,4 +1,4 @@
-//! Ways out of the sandbox: open to a program, closed to a plugin of any user.
+//! Ways out of the sandbox. They are open to a program, and closed to a plugin of any user.
 
 use std::net::{TcpListener, UdpSocket};
 use std::os::unix::process::CommandExt;
@@ -103,7 +103,7 @@ fn every_way_out_is_open_to_a_program_and_closed_to_a_plugin() {
             "an attempt that cannot succeed proves nothing"
         );
     } else {
-        // A normal user may not mount, nor trace other processes than children where that is restricted.
+        // A normal user may not mount. Some systems also forbid it to trace processes other than its children.
         assert!(open.len() >= 12, "{open:?}");
     }
     std::fs::remove_file(targets.outside()).expect("it was written");
@@ -118,7 +118,7 @@ fn every_way_out_is_open_to_a_program_and_closed_to_a_plugin() {
     assert!(!targets.outside().exists());
 }
 
-/// Repeats the test above as a user who owns nothing, if this user may switch to that one.
+/// Repeats the test above as a user who owns nothing, if the present user may switch to that user.
 #[test]
 fn every_way_out_is_closed_to_a_plugin_of_a_normal_user_too() {
     if !rustix::process::geteuid().is_root() {

@@ -1,4 +1,4 @@
-/* Ways out of a sandbox, tried one after another: shared by the plugin and by a program without a sandbox, in which they must succeed. */
+/* Ways out of a sandbox, tried in sequence. The plugin and a program without a sandbox share them; they must succeed in the program. */
 #include <arpa/inet.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -84,8 +84,8 @@ static int forks(void) {
   return child > 0;
 }
 
-/* A program that starts cannot come back to tell, so its name lies where nothing can be read: a call that is allowed complains about
- * that, one that is denied does not look. */
+/* A started program could not report back, so its name is at an unreadable address. An allowed call fails with an error about the address,
+ * and a denied call does not read it. */
 static int starts_a_program(void) {
   long denied = syscall(SYS_execve, (const char *)8, NULL, NULL);
   return denied == -1 && errno == EFAULT;
@@ -110,7 +110,7 @@ static int opens_the_memory_of_the_parent(void) {
 static int reads_the_memory_of_the_parent(void) {
   char byte;
   struct iovec mine = {&byte, 1}, theirs = {(void *)starts_a_program, 1};
-  /* Nothing needs to be there: who may look is told that, who may not is told so. */
+  /* The address need not be valid: the error shows whether the call was allowed. */
   return syscall(SYS_process_vm_readv, getppid(), &mine, 1, &theirs, 1, 0) == 1 || errno == EFAULT;
 }
 
@@ -171,7 +171,7 @@ static int (*const ESCAPES[])(void) = {
 };
 #define ESCAPE_COUNT (sizeof ESCAPES / sizeof *ESCAPES)
 
-/* A byte an attempt: 1 where it succeeded, 0 where it did not; 255 ends the list. */
+/* One byte per attempt: 1 for success, 0 for failure. 255 ends the list. */
 static void escapes(uint8_t *into) {
   for (size_t at = 0; at < ESCAPE_COUNT; at++) into[at] = (uint8_t)ESCAPES[at]();
   into[ESCAPE_COUNT] = 255;

@@ -1,6 +1,6 @@
-/* A plugin that misbehaves in the one way that it is compiled for: `cc -shared -fPIC -DWAY='"capture_segv"'`.
+/* A plugin that misbehaves in the way that the macro WAY names: `cc -shared -fPIC -DWAY='"capture_segv"'`.
  *
- * Where a way says nothing else it is a good plugin: a sensor, a robot and a force transducer. */
+ * Otherwise it is a valid plugin with a sensor, a robot and a force transducer. */
 #define _GNU_SOURCE
 #include <fcntl.h>
 #include <locale.h>
@@ -31,7 +31,7 @@
 #define HEIGHT 48
 #define LENGTH (WIDTH * HEIGHT * 3)
 
-#include "tables.h" /* SENSOR_TABLE, ROBOT_TABLE, FORCE_TABLE: as in the manifest */
+#include "tables.h" /* SENSOR_TABLE, ROBOT_TABLE and FORCE_TABLE, as in the manifest */
 
 static int is(const char *way) { return strcmp(WAY, way) == 0; }
 
@@ -49,11 +49,11 @@ static void hang(void) {
   for (;;) pause();
 }
 
-/* Keeps the compiler from knowing what it does. */
+/* Hides the bad address from the compiler. */
 static void *volatile nowhere = (void *)8;
 static void segv(void) { *(volatile char *)nowhere = 1; }
 
-/* ---- what happens by itself ---- */
+/* ---- code that runs outside calls ---- */
 
 static void at_exit(void) {
   if (is("atexit_hang")) hang();
@@ -144,7 +144,7 @@ static taceva_status stop(void *handle, taceva_error *error) {
   return TACEVA_OK;
 }
 
-#include "escapes.h" /* int escapes(uint8_t *into): a byte an attempt, 1 where it succeeded */
+#include "escapes.h" /* void escapes(uint8_t *into): one byte per attempt, 1 for success */
 
 static taceva_status capture(void *handle, taceva_frame *frame, uint64_t timeout_ns, taceva_error *error) {
   (void)handle, (void)timeout_ns;
@@ -193,7 +193,7 @@ static taceva_status capture(void *handle, taceva_frame *frame, uint64_t timeout
     for (int file = 3; file < 64; file++) send(file, garbage, sizeof garbage, MSG_DONTWAIT | MSG_NOSIGNAL);
   }
   if (is("early_answers")) {
-    /* An answer that nobody asked for, with a likely number, on every socket. */
+    /* Unrequested answer with a likely call number, on every socket. */
     char answer[] = {3, 0, 0, 0, 0};
     for (int file = 3; file < 64; file++) send(file, answer, sizeof answer, MSG_DONTWAIT | MSG_NOSIGNAL);
   }
@@ -261,7 +261,7 @@ static taceva_status capture(void *handle, taceva_frame *frame, uint64_t timeout
     if (is("lent_changed")) pthread_create(&thread, NULL, scribble, lent);
   }
   if (is("changes_after") && frames == 1) {
-    /* A second mapping of what both processes share: the first one is gone once the sensor is closed. */
+    /* Second mapping of the shared memory, because the host unmaps the first one after the sensor is closed. */
     void *kept = mremap(frame->buffer, 0, LENGTH, MREMAP_MAYMOVE);
     if (kept == MAP_FAILED) return fail(error, TACEVA_INTERNAL, "the buffer is no shared memory");
     pthread_t thread;

@@ -1,4 +1,4 @@
-//! The loaded library is the hashed one, and a crashed library loads only after its user releases it.
+//! The loaded library is the hashed one. A crashed library loads again only after the user releases it.
 
 use std::sync::Arc;
 

@@ -30,7 +30,7 @@ enum Do {
 /// Expected result. Texts are parts of the message.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Then {
-    /// The plugin is rejected; its process lives until the host ends it.
+    /// The plugin is rejected. Its process lives until the host ends it.
     Refused(&'static str),
     /// The process ended, with this fate.
     Gone(&'static str),
@@ -67,14 +67,14 @@ macro_rules! ways {
 ways! {
     a_plugin_that_behaves: "good", Do::Capture => Nothing;
 
-    // Before any check.
+    // Before any check of the host.
     a_constructor_that_crashes: "constructor_segv", Do::Load => Gone("signal 11");
     a_constructor_that_exits: "constructor_exit", Do::Load => Gone("exited by itself with code 0");
     a_constructor_that_aborts: "constructor_abort", Do::Load => Gone("signal 6");
     a_constructor_that_hangs: "constructor_hang", Do::Load => Gone("did not start within 1.5s");
     a_constructor_that_closes_every_file: "constructor_closes_files", Do::Load => Gone("");
 
-    // The exported symbol.
+    // Faults of the exported symbol.
     no_symbol: "good" ["-DNO_SYMBOL"], Do::Load => Refused("taceva_plugin_v1");
     a_symbol_that_is_its_magic_alone: "good" ["-DMAGIC_ONLY"], Do::Load => Refused("");
     a_wrong_magic: "good" ["-DWRONG_MAGIC"], Do::Load => Refused("0x12345678");
@@ -92,10 +92,10 @@ ways! {
     a_factory_that_is_null: "factory_null", Do::Load => Refused("sensor");
     a_factory_that_lies_nowhere: "factory_nowhere", Do::Load => Gone("signal 11");
     a_description_that_lies: "describe_lies", Do::Load => Refused("the manifest says");
-    a_description_without_bytes: "describe_null", Do::Load => Refused("a text without bytes");
+    a_description_without_bytes: "describe_null", Do::Load => Refused("a text that is NULL");
     a_description_that_is_no_text: "describe_no_text", Do::Load => Refused("UTF-8");
     a_description_without_end: "describe_endless", Do::Load => Gone("did not start within");
-    a_description_whose_length_overflows: "describe_length_overflows", Do::Load => Refused("more text");
+    a_description_whose_length_overflows: "describe_length_overflows", Do::Load => Refused("1 MiB of text");
     a_description_that_hangs: "describe_hang", Do::Load => Gone("did not start within");
     a_description_that_crashes: "describe_segv", Do::Load => Gone("signal 11");
 
@@ -187,7 +187,7 @@ ways! {
     a_deinit_that_hangs: "deinit_hang", Do::Load => Nothing;
 }
 
-/// Lets a plugin misbehave, and checks the result and that other plugins are unharmed.
+/// Makes a plugin misbehave, and checks that the result is as expected and other plugins are unharmed.
 fn check(way: &str, defines: &[&str], action: Do, expected: Then) {
     let other = Plugin::build("good", &[]);
     let other = other.start(Patience::default(), None).expect("a good one");
@@ -197,7 +197,7 @@ fn check(way: &str, defines: &[&str], action: Do, expected: Then) {
     let plugin = Plugin::build(way, &defines);
     let is_late = matches!(expected, Gone(how) if how.contains("within") || how.contains("after"))
         || way.contains("hang")
-        // An interrupt waits until it has arrived.
+        // The interrupt is sent only after the call has begun.
         || action == Do::Interrupt;
     let patience = if is_late { SHORT } else { Patience::default() };
     let began = Instant::now();
@@ -264,7 +264,7 @@ fn of_call(
     }
 }
 
-/// Waits up to 5 s for the end of a process that is about to end, such as after its device was closed.
+/// Waits up to 5 s for the end of a process, such as after its device was closed.
 fn end_of(session: &ChildSession) -> Option<Fate> {
     let began = Instant::now();
     while began.elapsed() < Duration::from_secs(5) {
@@ -291,7 +291,7 @@ fn act(session: &ChildSession, action: Do) -> Result<(), DriverError> {
             let interrupt = sensor.interrupt_handle().expect("it has one");
             interrupt.interrupt();
             interrupt.interrupt();
-            // Long enough for it to arrive, on a busy machine too.
+            // Long enough for the call to begin, also on a busy machine.
             std::thread::sleep(Duration::from_millis(100));
             capture(&mut *sensor).map(drop)
         }
@@ -311,7 +311,7 @@ fn act(session: &ChildSession, action: Do) -> Result<(), DriverError> {
             let patience = taceva_core::Deadline::after(Duration::from_secs(20));
             std::thread::scope(|scope| {
                 let mover = scope.spawn(|| robot.move_to(Pose::default(), speed, patience));
-                // Long enough for it to move, on a busy machine too.
+                // Long enough for the motion to begin, also on a busy machine.
                 std::thread::sleep(Duration::from_millis(100));
                 let halted = halt.halt();
                 let moved = mover.join().expect("whole");

@@ -110,7 +110,7 @@ fn a_device_that_never_closes_is_told_of_and_waited_for_a_few_seconds() {
     assert!(begun.elapsed() < Duration::from_secs(10));
     let expected = "org.example.fixture Warn host: closed late: its process was ended because it did not close the device within 5s; \
                     recordings are not affected";
-    // The time that the host waited for it may be reported before.
+    // A line about the host's waiting time may come first.
     let said = told(&lines, 1);
     let said = if said.iter().any(|line| line == expected) {
         said
@@ -131,7 +131,7 @@ fn a_flood_of_lines_is_cut_and_counted_and_stops_nobody() {
     drop(open.unwrap_or_else(|error| panic!("{error}")));
     let seconds = usize::try_from(begun.elapsed().as_secs()).expect("short");
     let told = lines.lock().expect("whole").clone();
-    // Each passed line may be followed by one with the number of dropped lines.
+    // Each passed line may be followed by one that reports dropped lines.
     assert!(
         told.len() < 2 * (110 + 20 * seconds),
         "{} lines",

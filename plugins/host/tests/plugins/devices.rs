@@ -1,4 +1,4 @@
-//! Devices of a plugin in this process behave like any others.
+//! Devices of a plugin in this process behave like any other device.
 
 use std::sync::Arc;
 use std::thread;
@@ -338,7 +338,7 @@ fn listing_opens_no_library() {
     let drivers = plugins.iter().flat_map(|plugin| plugin.manifest.drivers());
     let kinds: Vec<DriverKind> = drivers.map(Descriptor::kind).collect();
     assert_eq!((plugins.len(), kinds.len()), (20, 80));
-    // Other tests open libraries of their own, but none in this folder.
+    // Other tests open their own libraries, but none in this folder.
     let maps = std::fs::read_to_string("/proc/self/maps").expect("readable");
     assert!(!maps.contains(&folder.path().display().to_string()));
 }

@@ -1,4 +1,4 @@
-//! A plugin's robot stops an expiring motion once the plugin's process is killed. An ordinary motion to a target continues.
+//! A plugin's robot stops an expiring motion after the plugin's process is killed. An ordinary motion to a target continues.
 
 use std::io::{BufRead, BufReader, ErrorKind as IoErrorKind};
 use std::net::{TcpListener, TcpStream};
@@ -15,7 +15,7 @@ use crate::cpp::{built, children};
 const SLACK: Duration = Duration::from_millis(60);
 const LOOKING: Duration = Duration::from_millis(2);
 
-/// Controller of an arm along one axis. It accepts a speed, which lasts 200 ms, or a target position.
+/// Controller of an arm with one axis. It accepts a speed, which lasts 200 ms, or a target position.
 #[derive(Clone, Default)]
 struct Controller(Arc<Mutex<State>>);
 
@@ -56,7 +56,7 @@ impl Controller {
                     line.clear();
                 }
                 Err(error) if error.kind() == IoErrorKind::WouldBlock => {}
-                // Killed with unread data.
+                // A killed plugin leaves unread data, which gives an error.
                 Err(_) => thread::sleep(LOOKING),
             }
             let mut state = self.state();
@@ -87,7 +87,7 @@ impl State {
     }
 }
 
-/// Time that the arm keeps moving after its plugin is killed; `None` without a C++ compiler.
+/// Time for which the arm keeps moving after its plugin is killed; `None` without a C++ compiler.
 fn goes_on_without_its_plugin(is_expiring: bool) -> Option<Duration> {
     const PATIENCE: Deadline = Deadline::after(Duration::from_secs(20));
     let folder = built("expiring")?;

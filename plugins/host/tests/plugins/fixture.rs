@@ -125,7 +125,7 @@ pub(crate) struct Fixture {
 }
 
 impl Fixture {
-    /// Builds the plugin with `macros`; `None`, with a note, without a C compiler.
+    /// Builds the plugin with `macros`. Prints a note and returns `None` without a C compiler.
     pub(crate) fn built(macros: &[&str]) -> Option<Fixture> {
         let folder = tempfile::tempdir().expect("a folder");
         let plugins = Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -1,4 +1,4 @@
-//! A C plugin, built in many variants: valid ones give devices, invalid ones an error that names the fault.
+//! A C plugin, built in many variants. Valid ones give devices; invalid ones give an error that names the fault.
 
 #[cfg(target_os = "linux")]
 mod children;

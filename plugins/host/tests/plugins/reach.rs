@@ -1,5 +1,5 @@
-//! Each need, tested by a plugin that uses it. Without permission it is denied with the command that allows it; with permission it
-//! succeeds. All other needs are allowed meanwhile, so that none grants the access of another.
+//! Each need, tested by a plugin that uses it. Without permission, it is denied with the command that allows it. With permission, it succeeds. All
+//! other needs are allowed meanwhile, so a test also shows that none of them grants this access.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -117,7 +117,7 @@ optional = true
         others.map(|need| need.parse().expect("a need")).collect()
     }
 
-    /// Checks that `arguments` are denied without `need`, and that the suggested command makes the next try succeed.
+    /// Checks that `arguments` are denied without `need`, and that the suggested command allows them.
     fn proves(&self, need: &str, arguments: &str) {
         let mut allowed = self.all_but(need);
         let why = self.opened(arguments, &allowed);
@@ -194,7 +194,7 @@ fn connections_messages_and_waiting_are_given_word_by_word() {
     reach.proves(&words[1], &format!("way=udp;port={message}"));
     reach.proves(&words[2], &format!("way=listen;port={wait}"));
     reach.proves("usb", "way=usb");
-    // With all needs another port stays closed, and no permission is suggested for undeclared needs.
+    // With all needs, another port stays closed. No permission is suggested for undeclared needs.
     let other = TcpListener::bind("127.0.0.1:0").expect("a port");
     let other = other.local_addr().expect("bound").port();
     let all = reach.all_but("");
@@ -294,7 +294,7 @@ fn a_serial_port_is_given_and_by_that_word_nothing_that_is_none() {
     reach
         .opened(&format!("way=device;path={port}"), &BTreeSet::from([one]))
         .unwrap_or_else(|why| panic!("{why}"));
-    // The file is a device but not a port.
+    // The file is a device but not a serial port.
     let path = format!("/dev/taceva-serial-{}", std::process::id());
     let Some(_device) = device(&path) else {
         return;
@@ -306,7 +306,7 @@ fn a_serial_port_is_given_and_by_that_word_nothing_that_is_none() {
     let why = reach.opened(&format!("way=device;path={path}"), &reach.all_but(""));
     let why = why.expect_err("no port");
     assert!(why.contains("not a serial port"), "{why}");
-    // With a star it stays closed.
+    // A need with a star does not open it either.
     let Some(reach) = Reach::built(&["serial:/dev/taceva-*".to_owned()]) else {
         return;
     };

@@ -1,4 +1,4 @@
-//! Every defect of a plugin gives a message that names it, and this process survives.
+//! Every defect of a plugin gives a message that names it, and the host's process survives.
 
 use std::fs;
 use std::io::{Seek, SeekFrom, Write};
@@ -37,7 +37,7 @@ macro_rules! refused {
 }
 
 refused!(a_wrong_magic: ["MAGIC=0x12345678u"], LoadProblem::Magic { found: 0x1234_5678 }, "begins with 0x12345678");
-refused!(a_newer_major: ["MAJOR=2"], LoadProblem::Major { found: 2 }, "version 2 of the interface, this TacEva has 1");
+refused!(a_newer_major: ["MAJOR=2"], LoadProblem::Major { found: 2 }, "version 2 of the interface, but this TacEva has 1");
 refused!(a_smaller_struct: ["SIZE=40"], LoadProblem::Size { found: 40, .. }, "40 bytes, expected at least");
 refused!(a_missing_symbol: ["NO_SYMBOL"], LoadProblem::Symbol(_), "no `taceva_plugin_v1`");
 refused!(another_id: ["ID=\"org.example.other\""], LoadProblem::Differs { .. }, "`id`: the manifest says `org.example.fixture`, the library `org.example.other`");
@@ -47,10 +47,10 @@ refused!(an_id_at_an_address_that_is_none: ["BAD_ID"], LoadProblem::Address { wh
 refused!(a_descriptor_that_lies: ["RATE_HZ=\"60\""], LoadProblem::Differs { .. }, "rate_hz: the manifest says");
 refused!(a_driver_that_is_not_there: ["NO_SENSORS"], LoadProblem::Differs { .. }, "eye`: the manifest says present");
 refused!(torques_in_the_unit_of_an_older_interface: ["MINOR=2", "FORCE_ID=\"taceva.force/1\""], LoadProblem::Differs { .. }, "wrist`: the manifest says present, the library absent: it was built for version 1.2 of the interface, build it again for 1.3");
-refused!(two_drivers_of_one_key: ["DRIVERS=2"], LoadProblem::Table(_), "two of its drivers are called");
+refused!(two_drivers_of_one_key: ["DRIVERS=2"], LoadProblem::Table(_), "two of its drivers have the key");
 refused!(more_drivers_than_anybody_has: ["DRIVERS=4000000000u"], LoadProblem::Table(_), "a factory of 4000000000 drivers");
 refused!(a_description_that_is_not_utf_8: ["SAYS_NO_TEXT"], LoadProblem::Describe(_), "not UTF-8");
-refused!(a_length_that_overflows: ["SAYS_ENDLESS"], LoadProblem::Describe(_), "more text than is accepted");
+refused!(a_length_that_overflows: ["SAYS_ENDLESS"], LoadProblem::Describe(_), "more than 4096 texts or 1 MiB of text");
 refused!(an_init_that_fails: ["INIT_FAILS"], LoadProblem::Init(_), "its `init` failed: nothing is there");
 refused!(a_factory_that_is_null: ["NO_FACTORY"], LoadProblem::Lacks { what: "factory" }, "`factory` is NULL");
 refused!(an_open_that_is_null: ["NO_OPEN"], LoadProblem::Lacks { what: "open" }, "`open` is NULL");
@@ -69,7 +69,7 @@ fn a_library_that_looks_for_another_beside_itself_is_told_that_it_has_no_folder(
         "{problem:?}"
     );
     assert!(
-        text.contains("libneighbour.so") && text.contains("it searches `$ORIGIN`"),
+        text.contains("libneighbour.so") && text.contains("its run path is `$ORIGIN`"),
         "{text}"
     );
 }
@@ -98,12 +98,12 @@ macro_rules! not_opened {
 not_opened!(a_function_pointer_that_is_null: ["NO_CAPTURE"], Unsupported, "`capture` is NULL");
 not_opened!(a_close_that_is_null: ["NO_CLOSE"], Unsupported, "`close` is NULL");
 not_opened!(a_table_that_ends_too_early: ["TABLE_SIZE=32"], Unsupported, "`capture` is NULL");
-not_opened!(a_table_without_a_size: ["TABLE_SIZE=0"], Abi, "does not even cover the size");
+not_opened!(a_table_without_a_size: ["TABLE_SIZE=0"], Abi, "the size is below 8 bytes");
 not_opened!(a_handle_that_is_null: ["NULL_HANDLE"], Abi, "its handle is NULL");
 not_opened!(a_table_that_is_null: ["NULL_TABLE"], Abi, "the table is NULL");
 not_opened!(an_ability_that_is_promised_and_absent: ["NO_EXTENSIONS"], Abi, "taceva.sensor.lighting/1");
 
-/// Error of a capture by the plugin built with `macros`, which repeats on a second call; `None` without a C compiler.
+/// Error of a capture by the plugin built with `macros`. A second call gives the same error. `None` without a C compiler.
 fn capture(macros: &[&str]) -> Option<(ErrorKind, String)> {
     let fixture = Fixture::built(macros)?;
     let mut eye = fixture
@@ -138,9 +138,9 @@ macro_rules! no_frame {
 no_frame!(a_frame_larger_than_declared: ["TOLD_WIDTH=4000000000u"], Protocol, "4000000000×6 rgb8, expected 8×6 rgb8");
 no_frame!(a_frame_whose_length_overflows: ["TOLD_LENGTH=UINT64_MAX"], Protocol, "in 18446744073709551615 bytes, expected 144");
 no_frame!(a_frame_of_an_unknown_format: ["FORMAT=77"], Unsupported, "pixel format 77");
-no_frame!(a_frame_without_pixels: ["NO_DATA"], Protocol, "without pixels");
+no_frame!(a_frame_without_pixels: ["NO_DATA"], Protocol, "data pointer is NULL");
 no_frame!(a_frame_elsewhere_that_is_not_lent: ["NO_RELEASE"], Abi, "it has no `release`");
-no_frame!(a_status_that_is_none: ["STATUS=5"], Abi, "status 5, which the interface");
+no_frame!(a_status_that_is_none: ["STATUS=5"], Abi, "unknown status 5");
 no_frame!(a_fault_of_the_device: ["STATUS=TACEVA_DEVICE_FAULT"], DeviceFault, "as it was told to");
 
 #[test]
@@ -272,5 +272,5 @@ not_listed!(a_manifest_with_an_unknown_key: "license" => "licence", Manifest, "d
 not_listed!(a_manifest_with_a_wrong_type: "rate_hz = 1000" => "rate_hz = true", Manifest, "line 16, column 11: invalid type");
 not_listed!(a_path_with_two_dots: "libfixture.so" => "../libfixture.so", Manifest, "without `..`");
 not_listed!(a_folder_instead_of_a_file: "libfixture.so" => ".", Manifest, "without `..`");
-not_listed!(two_tables_that_claim_one_key: "key = \"arm\"" => "key = \"eye\"", Manifest, "two tables are called `eye`");
+not_listed!(two_tables_that_claim_one_key: "key = \"arm\"" => "key = \"eye\"", Manifest, "two tables have the key `eye`");
 not_listed!(a_manifest_for_a_newer_interface: "major = 1" => "major = 2", Abi, "version 2.0 of the interface");

@@ -1,4 +1,4 @@
-/* A lamp that is opened only once it has reached something outside its process: the way and the place are its arguments. */
+/* A lamp that opens only if it can access a resource outside its process. Its arguments select the resource. */
 #define _GNU_SOURCE
 #include <arpa/inet.h>
 #include <errno.h>
@@ -31,7 +31,7 @@ static struct sockaddr_in local(long long port) {
   return address;
 }
 
-/* 0, or what the system says. */
+/* 0, or the error number of the system. */
 static int reached(int result) { return result < 0 ? errno : 0; }
 
 static int reach(const char *way, const char *path, long long port) {
@@ -47,7 +47,7 @@ static int reach(const char *way, const char *path, long long port) {
     file = socket(AF_INET, SOCK_DGRAM, 0);
     if (file < 0) return errno;
     why = reached((int)sendto(file, "x", 1, 0, to, sizeof address));
-  } else if (!strcmp(way, "usb")) { /* by which libraries hear of devices that come and go */
+  } else if (!strcmp(way, "usb")) { /* the socket for hotplug events, which libraries need */
     file = socket(AF_NETLINK, SOCK_RAW, NETLINK_KOBJECT_UEVENT);
     why = reached(file);
   } else if (!strcmp(way, "write")) {

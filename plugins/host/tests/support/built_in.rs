@@ -1,4 +1,4 @@
-//! Linked drivers of a program as a session, which a child serves if no library is loaded.
+//! Linked drivers of a program as a session. A child serves it if no library is loaded.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 

@@ -1,4 +1,4 @@
-//! Test runner for a program whose `main` must not begin with the usual harness.
+//! Test runner for a program whose `main` cannot start with the usual harness.
 
 use std::panic::catch_unwind;
 use std::process::ExitCode;
@@ -6,7 +6,7 @@ use std::process::ExitCode;
 /// A test by name.
 pub(crate) type Test = (&'static str, fn());
 
-/// Runs the selected tests in order: those whose names contain an argument, if given, except those after `--skip`.
+/// Runs the selected tests in order. Arguments select tests by parts of their names; arguments after `--skip` exclude tests.
 #[expect(clippy::print_stdout, reason = "a test program says what it did")]
 pub(crate) fn run(tests: &[Test]) -> ExitCode {
     let (mut filters, mut skipped) = (Vec::new(), Vec::new());

@@ -56,9 +56,9 @@ unsafe extern "C" fn bring(
             return Err(Failure::argument("`take` is NULL"));
         }
         let there = changer.bring(name, deadline(timeout_ns))?;
-        // SAFETY: the host's own function with its own context.
+        // SAFETY: the host passes its own function and context.
         unsafe { memory::hand(take, context, &there) }
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }

@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::handles::Handle;
 use crate::memory;
 
-/// A transducer, with its declaration that it numbers readings.
+/// A transducer, and whether it declares numbered readings.
 pub(crate) struct Opened {
     force: Box<dyn ForceTransducer>,
     is_numbered: bool,
@@ -72,12 +72,12 @@ unsafe extern "C" fn extension(handle: *mut c_void, id: Text) -> *const c_void {
 
 unsafe extern "C" fn start(handle: *mut c_void, timeout_ns: u64, error: *mut Error) -> Status {
     let work = |opened: &mut Opened| Ok(opened.force.start(deadline(timeout_ns))?);
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }
 
 unsafe extern "C" fn stop(handle: *mut c_void, error: *mut Error) -> Status {
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe {
         call(handle, error, |opened: &mut Opened| {
             Ok(opened.force.stop()?)
@@ -93,7 +93,7 @@ unsafe extern "C" fn read(
     error: *mut Error,
 ) -> Status {
     let work = |opened: &mut Opened| {
-        // SAFETY: the host's places for the two.
+        // SAFETY: the host provides memory for both.
         let (wrench, stamp) = unsafe {
             (
                 memory::place("wrench", wrench)?,
@@ -104,7 +104,7 @@ unsafe extern "C" fn read(
         (*wrench, *stamp) = (convert::wrench(&read)?, convert::stamp(&at)?);
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }
 
@@ -118,7 +118,7 @@ unsafe extern "C" fn zero(handle: *mut c_void, timeout_ns: u64, error: *mut Erro
         })?;
         Ok(tare.zero(deadline(timeout_ns))?)
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }
 
@@ -128,12 +128,12 @@ unsafe extern "C" fn sequence(
     error: *mut Error,
 ) -> Status {
     let work = |opened: &mut Opened| {
-        // SAFETY: the host's place for the number.
+        // SAFETY: the host provides memory for the number.
         let place = unsafe { memory::place("sequence", sequence) }?;
         let none = || Failure::new(ErrorKind::NotFound, "no numbered reading yet");
         *place = opened.force.sequence().ok_or_else(none)?;
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }

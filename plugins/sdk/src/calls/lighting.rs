@@ -50,6 +50,6 @@ unsafe extern "C" fn set(
         let scene = unsafe { memory::text("scene", scene) }?;
         Ok(lighting.set(scene, deadline(timeout_ns))?)
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }

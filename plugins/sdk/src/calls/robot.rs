@@ -54,7 +54,7 @@ impl Kind for dyn Robot {
 }
 
 impl Opened {
-    /// The requested motion, if it is within the declared limits.
+    /// Target and speed of the requested motion. Fails if they exceed the declared limits.
     fn asked(&self, asked: &Motion) -> Result<(Pose, Speed), Failure> {
         let (target, speed) = convert::motion(asked)?;
         let refused = |message| Err(Failure::new(ErrorKind::OutOfRange, message));
@@ -63,7 +63,9 @@ impl Opened {
             (Some(workspace), _) if !workspace.contains(&target.position) => {
                 refused(format!("{x}, {y}, {z} is outside the workspace"))
             }
-            (_, Some(most)) if speed > most => refused(format!("{speed}, expected at most {most}")),
+            (_, Some(most)) if speed > most => {
+                refused(format!("the speed is {speed}, expected at most {most}"))
+            }
             _ => Ok((target, speed)),
         }
     }
@@ -112,18 +114,18 @@ unsafe extern "C" fn pose(
     error: *mut Error,
 ) -> Status {
     let work = |opened: &mut Opened| {
-        // SAFETY: the host's places for the two.
+        // SAFETY: the host provides memory for both.
         let (pose, stamp) =
             unsafe { (memory::place("pose", pose)?, memory::place("stamp", stamp)?) };
         let (stands, at) = opened.robot.pose(deadline(timeout_ns))?;
         (*pose, *stamp) = (convert::pose(&stands)?, convert::stamp(&at)?);
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }
 
-/// Accepts a motion. `wait` carries it out, because a robot of core moves during a blocking call.
+/// Accepts a motion. `wait` executes it, because a robot of core moves during a blocking call.
 unsafe extern "C" fn move_to(
     handle: *mut c_void,
     target: *const Motion,
@@ -131,7 +133,7 @@ unsafe extern "C" fn move_to(
     error: *mut Error,
 ) -> Status {
     let work = |opened: &mut Opened| {
-        // SAFETY: the host lends the motion for the call, and the place is its own.
+        // SAFETY: the host lends the motion for the call and provides the memory.
         let (target, token) = unsafe {
             (
                 memory::sized("motion", target)?,
@@ -144,7 +146,7 @@ unsafe extern "C" fn move_to(
         *token = opened.motions;
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }
 
@@ -156,38 +158,41 @@ unsafe extern "C" fn wait(
     error: *mut Error,
 ) -> Status {
     let work = |opened: &mut Opened| {
-        // SAFETY: the host's place for the stamp.
+        // SAFETY: the host provides memory for the stamp.
         let stamp = unsafe { memory::place("stamp", stamp) }?;
         let accepted = opened.accepted.take_if(|(accepted, ..)| *accepted == token);
         let (_, target, speed) = accepted.ok_or_else(|| {
             Failure::argument(format!(
-                "motion {token} was never accepted, or its end was reported already"
+                "motion {token} was not accepted, or its end was reported before"
             ))
         })?;
         let arrived = opened.robot.move_to(target, speed, deadline(timeout_ns))?;
         *stamp = convert::stamp(&arrived)?;
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }
 
-/// Halts without waiting for the pending call of the robot.
+/// Halts without waiting for the robot's pending call.
 unsafe extern "C" fn halt(handle: *mut c_void, error: *mut Error) -> Status {
     let work = || {
         let handle = handles::find::<Handle<Opened>>(handle)?;
         match &handle.halt {
             Some(halt) => Ok(halt.halt()?),
-            None => Err(Failure::new(ErrorKind::Internal, "a robot without a halt")),
+            None => Err(Failure::new(
+                ErrorKind::Internal,
+                "the robot has no halt handle",
+            )),
         }
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { guard(error, work) }
 }
 
 unsafe extern "C" fn clear_halt(handle: *mut c_void, timeout_ns: u64, error: *mut Error) -> Status {
     let work = |opened: &mut Opened| Ok(opened.robot.clear_halt(deadline(timeout_ns))?);
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }
 
@@ -200,7 +205,7 @@ unsafe extern "C" fn move_guarded(
     error: *mut Error,
 ) -> Status {
     let work = |opened: &mut Opened| {
-        // SAFETY: the host lends the motion for the call, and the place is its own and begins with its size.
+        // SAFETY: the host lends the motion for the call and provides the memory and begins with its size.
         let (target, stop) = unsafe {
             (
                 memory::sized("motion", target)?,
@@ -215,7 +220,10 @@ unsafe extern "C" fn move_guarded(
         }
         let guard = Guard::at(Newton(guard_n));
         let robot = opened.robot.guarded_motion().ok_or_else(|| {
-            Failure::new(ErrorKind::Unsupported, "the robot does not watch the force")
+            Failure::new(
+                ErrorKind::Unsupported,
+                "the robot does not support guarded motions",
+            )
         })?;
         let (is_guarded, pose, at) =
             match robot.move_guarded(target, speed, guard, deadline(timeout_ns))? {
@@ -226,7 +234,7 @@ unsafe extern "C" fn move_guarded(
         (stop.pose, stop.stamp) = (convert::pose(&pose)?, convert::stamp(&at)?);
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }
 
@@ -238,7 +246,7 @@ unsafe extern "C" fn move_expiring(
     error: *mut Error,
 ) -> Status {
     let work = |opened: &mut Opened| {
-        // SAFETY: the host lends the motion for the call, and the place is its own.
+        // SAFETY: the host lends the motion for the call and provides the memory.
         let (target, stamp) = unsafe {
             (
                 memory::sized("motion", target)?,
@@ -249,13 +257,13 @@ unsafe extern "C" fn move_expiring(
         let robot = opened.robot.expiring_motion().ok_or_else(|| {
             Failure::new(
                 ErrorKind::Unsupported,
-                "the motions of the robot do not expire",
+                "the robot does not support expiring motions",
             )
         })?;
         let arrived = robot.move_expiring(target, speed, deadline(timeout_ns))?;
         *stamp = convert::stamp(&arrived)?;
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }

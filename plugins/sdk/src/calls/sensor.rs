@@ -38,7 +38,7 @@ impl Kind for dyn Sensor {
 
 static CALLS: SensorCalls = SensorCalls {
     device: device_calls::<SensorCalls, Opened>(extension),
-    // Frames are written into the buffer of the host.
+    // Frames are written into the host's buffer, so none is lent.
     max_lent: 0,
     reserved: 0,
     start: Some(start),
@@ -61,12 +61,12 @@ unsafe extern "C" fn extension(handle: *mut c_void, id: Text) -> *const c_void {
 
 unsafe extern "C" fn start(handle: *mut c_void, timeout_ns: u64, error: *mut Error) -> Status {
     let work = |opened: &mut Opened| Ok(opened.sensor.start(deadline(timeout_ns))?);
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }
 
 unsafe extern "C" fn stop(handle: *mut c_void, error: *mut Error) -> Status {
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe {
         call(handle, error, |opened: &mut Opened| {
             Ok(opened.sensor.stop()?)
@@ -81,13 +81,13 @@ unsafe extern "C" fn capture(
     error: *mut Error,
 ) -> Status {
     let work = |opened: &mut Opened| {
-        // SAFETY: the host's place for the frame, which begins with its size.
+        // SAFETY: the host provides memory for the frame, which begins with its size.
         let frame = unsafe { memory::sized_place("frame", frame) }?;
         let info = opened.sensor.frame_info();
         let length = info.byte_len().ok_or_else(|| {
             Failure::new(
                 ErrorKind::Internal,
-                format!("frames of {info} fit no buffer"),
+                format!("frames of {info} exceed the address space"),
             )
         })?;
         let room = usize::try_from(frame.buffer_length).unwrap_or(usize::MAX);
@@ -96,7 +96,7 @@ unsafe extern "C" fn capture(
                 format!("a buffer of {room} bytes, expected {length} for a frame of {info}");
             return Err(Failure::argument(message));
         }
-        // SAFETY: the host states the length of the buffer, which is ours for the call.
+        // SAFETY: the host states the length of the buffer, and lends it for the call.
         let buffer = unsafe { memory::list_place("buffer", frame.buffer, length) }?;
         let into = FrameMut::new(info, buffer)
             .map_err(|error| Failure::new(ErrorKind::Internal, error.to_string()))?;
@@ -105,12 +105,12 @@ unsafe extern "C" fn capture(
         frame.format = format(info.format)?;
         (frame.data, frame.release) = (frame.buffer.cast_const(), None);
         frame.length = length as u64;
-        // Drivers of core do not report lost frames: captured frames are counted.
+        // Drivers of core do not report lost frames, so the captured frames are numbered.
         opened.frames += 1;
         (frame.sequence, frame.flags) = (opened.frames, 0);
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }
 
@@ -121,7 +121,10 @@ fn format(format: PixelFormat) -> Result<AbiFormat, Failure> {
         PixelFormat::Rgb8 => Ok(AbiFormat::RGB8),
         PixelFormat::Rgb16 => Ok(AbiFormat::RGB16),
         newer => {
-            let message = format!("frames of {} cannot cross the boundary", newer.name());
+            let message = format!(
+                "the plugin interface has no pixel format for {}",
+                newer.name()
+            );
             Err(Failure::new(ErrorKind::Unsupported, message))
         }
     }
@@ -139,11 +142,11 @@ unsafe extern "C" fn set_light(
         let lighting = opened.sensor.lighting().ok_or_else(|| {
             Failure::new(
                 ErrorKind::Unsupported,
-                "the sensor does not control the light around it",
+                "the sensor does not control its lighting",
             )
         })?;
         Ok(lighting.set(scene, deadline(timeout_ns))?)
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { call(handle, error, work) }
 }

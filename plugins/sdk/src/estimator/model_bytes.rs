@@ -1,4 +1,4 @@
-//! A fitted model as bytes at the boundary: its shape and channels, then the author's own bytes.
+//! A fitted model as bytes at the boundary: its shape and channels, then the bytes of its author.
 
 use taceva_core::{Channel, Channels, ErrorKind, FeatureShape, Saved, SavedRegressor, Unit};
 
@@ -7,7 +7,7 @@ use crate::failure::Failure;
 /// First bytes of a model.
 const MAGIC: &[u8; 8] = b"TACEREG1";
 
-/// The bytes of `regressor`.
+/// Encodes `regressor`.
 pub(super) fn write(regressor: &dyn SavedRegressor) -> Result<Vec<u8>, Failure> {
     let mut bytes = MAGIC.to_vec();
     let FeatureShape {
@@ -17,7 +17,10 @@ pub(super) fn write(regressor: &dyn SavedRegressor) -> Result<Vec<u8>, Failure> 
     } = regressor.shape();
     for count in [height, width, depth, regressor.channels().len()] {
         let count = u32::try_from(count).map_err(|_| {
-            Failure::new(ErrorKind::OutOfRange, format!("{count} numbers a sample"))
+            Failure::new(
+                ErrorKind::OutOfRange,
+                format!("{count} numbers per sample, expected at most 2^32 - 1"),
+            )
         })?;
         bytes.extend(count.to_le_bytes());
     }
@@ -65,7 +68,7 @@ pub(super) fn read<R>(
     load(&Saved::new(rest.0, &channels, shape))
 }
 
-/// Channel called `name`: one of the six with its unit, any other with the unit 1.
+/// Channel with this name: one of the six with its unit, any other with the unit 1.
 pub(super) fn channel(name: &str) -> Result<Channel, Failure> {
     let known = Channel::SIX
         .into_iter()

@@ -7,7 +7,7 @@ use std::thread::{self, ThreadId};
 use taceva_abi::Progress as Report;
 use taceva_core::Progress;
 
-/// Reports to the host from the thread of the fit request; other threads read the last answer.
+/// Reports to the host from the thread of the fit request. Other threads read the last answer.
 pub(super) struct ReportedProgress {
     report: Report,
     context: AtomicPtr<c_void>,
@@ -29,7 +29,7 @@ impl ReportedProgress {
         }
     }
 
-    #[expect(clippy::cast_precision_loss, reason = "a share for people")]
+    #[expect(clippy::cast_precision_loss, reason = "a fraction for display")]
     fn share(&self) -> f64 {
         match self.steps.load(Ordering::Relaxed) {
             0 => 0.0,
@@ -45,7 +45,7 @@ impl ReportedProgress {
         else {
             return;
         };
-        // SAFETY: the host's own function with its own context, on the thread on which it waits for the fit.
+        // SAFETY: the host passes its own function and context, and its thread of this call waits for the fit.
         let answer = unsafe { report(self.context.load(Ordering::Relaxed), self.share()) };
         if answer != 0 {
             self.is_cancelled.store(true, Ordering::Release);

@@ -22,7 +22,7 @@ use crate::handles;
 use crate::table::estimator_table;
 use crate::{factory, memory};
 
-/// The calls on `estimators` estimators.
+/// Table of calls on `estimators` estimators.
 pub(crate) fn table(estimators: u32) -> Table {
     #[expect(clippy::cast_possible_truncation, reason = "thirty-two bytes")]
     let size = size_of::<Table>() as u32;
@@ -53,7 +53,9 @@ fn estimator(number: u32) -> Result<&'static dyn EstimatorFactory, Failure> {
         .and_then(|number| estimators.get(number));
     let found = found.ok_or_else(|| {
         let count = estimators.len();
-        Failure::argument(format!("no estimator {number}, expected less than {count}"))
+        Failure::argument(format!(
+            "no estimator has the number {number}, expected less than {count}"
+        ))
     })?;
     Ok(&**found)
 }
@@ -67,10 +69,10 @@ unsafe extern "C" fn describe(
     let work = || {
         let estimator = estimator(number)?;
         let table = estimator_table(estimator);
-        // SAFETY: the host's own function with its own context.
+        // SAFETY: the host passes its own function and context.
         unsafe { memory::hand(take, context, &table) }
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { guard(error, work) }
 }
 
@@ -85,10 +87,10 @@ unsafe extern "C" fn fit(
     error: *mut Error,
 ) -> Status {
     let work = || {
-        // SAFETY: the host's place for the model.
+        // SAFETY: the host provides memory for the model.
         let place = unsafe { memory::place("regressor", regressor) }?;
         let estimator = estimator(number)?;
-        // SAFETY: the host lends its settings and both sets for the call.
+        // SAFETY: the host lends settings and both sets for the call.
         let (settings, training) = unsafe {
             (
                 factory::args(settings, estimator.settings())?,
@@ -111,7 +113,7 @@ unsafe extern "C" fn fit(
         *place = opened(fitted);
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { guard(error, work) }
 }
 
@@ -123,7 +125,7 @@ unsafe extern "C" fn load(
     error: *mut Error,
 ) -> Status {
     let work = || {
-        // SAFETY: the host's place for the model, and its bytes, lent for the call.
+        // SAFETY: the host provides memory for the model, and lends its bytes for the call.
         let (place, bytes) = unsafe {
             let place = memory::place("regressor", regressor)?;
             (place, memory::list("bytes", bytes, whole(length)?)?)
@@ -135,7 +137,7 @@ unsafe extern "C" fn load(
         )?);
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { guard(error, work) }
 }
 
@@ -163,7 +165,7 @@ unsafe extern "C" fn predict(
         let regressor: Arc<Kept> = handles::find(handle)?;
         let (samples, shape) = (whole(samples)?, regressor.shape());
         let channels = regressor.channels().len();
-        // The model's shape may come from an untrusted file; the lengths are the host's.
+        // The model's shape may come from an untrusted file, but the host knows the lengths.
         let taken = times(samples, shape.len())?;
         let given = times(samples, channels)?;
         if whole(features_length)? != taken || whole(into_length)? != given {
@@ -183,7 +185,7 @@ unsafe extern "C" fn predict(
             None => Ok(()),
         }
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { guard(error, work) }
 }
 
@@ -195,7 +197,7 @@ unsafe extern "C" fn save(
 ) -> Status {
     let work = || {
         let regressor: Arc<Kept> = handles::find(handle)?;
-        // SAFETY: the host's place for the length.
+        // SAFETY: the host provides memory for the length.
         let length = unsafe { memory::place("length", length) }?;
         let room = if into.is_null() { 0 } else { whole(*length)? };
         let bytes = model_bytes::write(&**regressor)?;
@@ -204,15 +206,15 @@ unsafe extern "C" fn save(
             let message = format!("a buffer of {room} bytes, expected {}", bytes.len());
             return Err(Failure::new(ErrorKind::OutOfRange, message));
         }
-        // SAFETY: the host states that there is so much room.
+        // SAFETY: the host states that `into` has this length.
         unsafe { memory::list_place("into", into, bytes.len()) }?.copy_from_slice(&bytes);
         Ok(())
     };
-    // SAFETY: the host's own promise for `error`.
+    // SAFETY: the host guarantees that `error` is valid.
     unsafe { guard(error, work) }
 }
 
-/// Samples of the host, copied and checked.
+/// Samples of the host, checked and copied.
 struct Set {
     features: Features,
     channels: Channels,
@@ -222,16 +224,16 @@ struct Set {
 
 impl Set {
     /// # Safety
-    /// Unless it is NULL, the set and its arrays have the stated lengths and stay unchanged during the call.
+    /// `set` is NULL, or the set and its arrays have the stated lengths and stay unchanged during the call.
     unsafe fn read(set: *const AbiSet) -> Result<Set, Failure> {
-        // SAFETY: promised by the caller.
+        // SAFETY: guaranteed by the caller.
         let set = unsafe { memory::sized("training set", set) }?;
         let [height, width, depth, columns] =
             [set.height, set.width, set.depth, set.channels].map(|count| whole(count.into()));
         let (height, width, depth) = (height?, width?, depth?);
         let (samples, columns) = (whole(set.samples)?, columns?);
         let numbers = times(times(samples, height)?, times(width, depth)?)?;
-        // SAFETY: promised by the caller, for all four.
+        // SAFETY: guaranteed by the caller, for all four.
         let (features, targets, names) = unsafe {
             (
                 memory::list("features", set.features, numbers)?,
@@ -261,8 +263,7 @@ impl Set {
         let channels =
             Channels::new(list.clone()).map_err(|error| Failure::argument(error.to_string()))?;
         if channels.as_slice() != list {
-            let message =
-                "the channels are in another order, expected `Px Py Pz Fx Fy Fz`, then by name";
+            let message = "the channels are in the wrong order, expected `Px Py Pz Fx Fy Fz`, then others by name";
             return Err(Failure::argument(message));
         }
         let shape = FeatureShape {
@@ -293,5 +294,5 @@ fn times(count: usize, each: usize) -> Result<usize, Failure> {
 }
 
 fn too_many(count: impl std::fmt::Display) -> Failure {
-    Failure::argument(format!("{count} do not fit the address space"))
+    Failure::argument(format!("{count} numbers exceed the address space"))
 }

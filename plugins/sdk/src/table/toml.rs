@@ -1,13 +1,13 @@
-//! Numbers and texts as TOML writes them.
+//! Numbers and texts in TOML notation.
 
 use std::fmt::{self, Write};
 
-/// A float as TOML writes it.
+/// A float in TOML notation.
 pub(super) fn written(number: f64) -> String {
     Number(number).to_string()
 }
 
-/// A float as TOML writes it: the shortest digits that read back, with a point or an exponent.
+/// A float in TOML notation: the fewest digits that parse back to it, with a point or an exponent.
 pub(super) struct Number(pub(super) f64);
 
 impl fmt::Display for Number {
@@ -16,7 +16,7 @@ impl fmt::Display for Number {
     }
 }
 
-/// A basic string of TOML.
+/// A basic TOML string.
 pub(super) struct Text<'a>(pub(super) &'a str);
 
 impl fmt::Display for Text<'_> {

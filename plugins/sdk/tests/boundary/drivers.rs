@@ -1,4 +1,4 @@
-//! Drivers that do what their arguments ask for, good and bad.
+//! Drivers that behave as their arguments request, correctly or not.
 
 mod bench;
 mod changer;

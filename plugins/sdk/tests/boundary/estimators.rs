@@ -1,4 +1,4 @@
-//! Estimators through their table: fitted, kept, loaded and asked.
+//! Estimators called through their table: fit, save, load and predict.
 
 #![expect(unsafe_code, reason = "the tables of a plugin are called")]
 
@@ -9,7 +9,7 @@ use taceva_plugin::abi::{Progress, Regressor, RegressorCalls, Status, Text, Trai
 
 use crate::fake_host::{Ended, ended, estimators, taken, with_args};
 
-/// A fitted model, closed when it is dropped.
+/// A fitted model that is closed on drop.
 struct Fitted(Regressor);
 
 impl Fitted {
@@ -20,7 +20,7 @@ impl Fitted {
 
     fn predict(&self, features: &[f32], samples: u64, into: &mut [f64]) -> Ended {
         let predict = self.calls().predict.expect("a function");
-        // SAFETY: both arrays are as long as two numbers a sample make them.
+        // SAFETY: both arrays have two numbers per sample.
         ended(|error| unsafe {
             predict(
                 self.0.handle,
@@ -37,12 +37,12 @@ impl Fitted {
     fn save(&self) -> Vec<u8> {
         let save = self.calls().save.expect("a function");
         let mut length = 0;
-        // SAFETY: NULL asks for the length.
+        // SAFETY: NULL requests only the length.
         let asked =
             ended(|error| unsafe { save(self.0.handle, null_mut(), &raw mut length, error) });
         assert_eq!(asked.0, Status::OUT_OF_RANGE);
         let mut bytes = vec![0; usize::try_from(length).expect("small")];
-        // SAFETY: there is as much room as was asked for.
+        // SAFETY: the buffer has the requested length.
         let saved = ended(|error| unsafe {
             save(self.0.handle, bytes.as_mut_ptr(), &raw mut length, error)
         });
@@ -54,7 +54,7 @@ impl Fitted {
 impl Drop for Fitted {
     fn drop(&mut self) {
         let close = self.calls().close.expect("a function");
-        // SAFETY: the last call on it.
+        // SAFETY: this is the last call on the model.
         unsafe { close(self.0.handle) };
     }
 }
@@ -66,7 +66,7 @@ fn unfilled() -> Regressor {
     }
 }
 
-/// Fits three samples of two features and two channels.
+/// Fits three samples with two features and two channels.
 fn fit(names: [&str; 2], targets: [f64; 6], progress: Progress) -> Result<Fitted, Ended> {
     let features = [0.0_f32; 6];
     let names = names.map(Text::from);
@@ -88,7 +88,7 @@ fn fit(names: [&str; 2], targets: [f64; 6], progress: Progress) -> Result<Fitted
     let mut calls = 0_u32;
     let context = (&raw mut calls).cast();
     let ended = with_args(&[("shift", "0.5")], |settings| {
-        // SAFETY: everything lives for the call.
+        // SAFETY: all arguments live for the call.
         ended(|error| unsafe {
             fit(
                 0,
@@ -111,7 +111,7 @@ fn fit(names: [&str; 2], targets: [f64; 6], progress: Progress) -> Result<Fitted
 fn load(bytes: &[u8]) -> Result<Fitted, Ended> {
     let load = estimators().load.expect("a function");
     let mut regressor = unfilled();
-    // SAFETY: everything lives for the call.
+    // SAFETY: all arguments live for the call.
     let ended = ended(|error| unsafe {
         load(
             0,
@@ -131,7 +131,7 @@ const TARGETS: [f64; 6] = [1.0, 10.0, 2.0, 20.0, 3.0, 30.0];
 
 unsafe extern "C" fn count(context: *mut c_void, done: f64) -> i32 {
     assert!((0.0..=1.0).contains(&done));
-    // SAFETY: the context of every call here is a count of ours.
+    // SAFETY: the context of every call in this file is a counter.
     unsafe { *context.cast::<u32>() += 1 };
     0
 }
@@ -173,7 +173,7 @@ fn a_model_is_fitted_kept_loaded_and_predicts_the_same() {
 #[test]
 fn an_estimator_describes_itself_as_its_manifest_would() {
     let describe = estimators().describe.expect("a function");
-    // SAFETY: the list takes the text.
+    // SAFETY: `take` appends the text to the list.
     let (_, texts) = taken(|context, error| unsafe {
         describe(0, Some(crate::fake_host::take), context, error)
     });
@@ -202,7 +202,7 @@ fn sets_that_cannot_be_meant_are_refused() {
     spoilt[3] = f64::NAN;
     for (names, targets, expected) in [
         (["Px", "Fz"], spoilt, "not finite"),
-        (["Fz", "Px"], TARGETS, "another order"),
+        (["Fz", "Px"], TARGETS, "wrong order"),
         (["Fz", "Fz"], TARGETS, "given twice"),
         (["F z", "Px"], TARGETS, "not a channel name"),
     ] {
@@ -225,7 +225,7 @@ fn bytes_that_are_no_model_are_refused_wherever_they_are_cut_or_changed() {
     for position in 0..bytes.len() {
         let mut changed = bytes.clone();
         changed[position] ^= 0x81;
-        // Some changes make another model; none may do more than that.
+        // Some changes give another model, and none may have any other effect.
         drop(load(&changed));
     }
 }

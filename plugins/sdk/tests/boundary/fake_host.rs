@@ -1,4 +1,4 @@
-//! The other side of the boundary: it calls through the tables as a host does, and keeps what was said.
+//! Emulated host: it calls through the tables as a real host does, and stores the results.
 
 #![expect(unsafe_code, reason = "the tables of a plugin are called")]
 
@@ -12,11 +12,11 @@ use taceva_plugin::abi::{
 };
 
 unsafe extern "C" {
-    /// What the library exports, by its symbol alone.
+    /// The library's export, linked by its symbol.
     safe static taceva_plugin_v1: Plugin;
 }
 
-/// How a call ended, with its message.
+/// Result of a call, with its message.
 pub(crate) type Ended = (Status, String);
 
 /// The plugin, initialised once.
@@ -27,7 +27,7 @@ pub(crate) fn plugin() -> &'static Plugin {
     &taceva_plugin_v1
 }
 
-/// The plugin, perhaps before it is initialised.
+/// The plugin, perhaps not initialised.
 pub(crate) fn exported() -> &'static Plugin {
     &taceva_plugin_v1
 }
@@ -57,7 +57,7 @@ unsafe extern "C" fn now_ns(_: *mut c_void) -> u64 {
     42
 }
 
-/// Makes a call that takes an error, and reads what it left there.
+/// Makes a call with an error argument, and reads that error.
 pub(crate) fn ended(call: impl FnOnce(*mut Error) -> Status) -> Ended {
     let mut error = Error::new();
     let status = call(&raw mut error);
@@ -66,14 +66,14 @@ pub(crate) fn ended(call: impl FnOnce(*mut Error) -> Status) -> Ended {
     (status, message)
 }
 
-/// The factory of a kind.
+/// Factory of a kind.
 pub(crate) fn factory(id: &str) -> &'static Factory {
     let factory = plugin().factory.expect("a function");
     // SAFETY: the text lives for the call; the table lives as long as the plugin.
     unsafe { factory(Text::from(id)).cast::<Factory>().as_ref() }.expect("a table")
 }
 
-/// The factory of estimators.
+/// Factory of estimators.
 pub(crate) fn estimators() -> &'static EstimatorFactory {
     let id = taceva_plugin::abi::ESTIMATOR_FACTORY;
     let factory = plugin().factory.expect("a function");
@@ -81,7 +81,7 @@ pub(crate) fn estimators() -> &'static EstimatorFactory {
     unsafe { factory(Text::from(id)).cast::<EstimatorFactory>().as_ref() }.expect("a table")
 }
 
-/// Arguments of texts.
+/// Text arguments for a call.
 pub(crate) fn with_args<R>(pairs: &[(&str, &str)], work: impl FnOnce(*const Args) -> R) -> R {
     let items: Vec<Arg> = pairs
         .iter()
@@ -101,16 +101,16 @@ pub(crate) fn with_args<R>(pairs: &[(&str, &str)], work: impl FnOnce(*const Args
     work(&raw const args)
 }
 
-/// Takes texts into a list.
+/// Appends a text to the list at `context`.
 pub(crate) unsafe extern "C" fn take(context: *mut c_void, text: Text) {
-    // SAFETY: the context of every call here is a list of ours, and the text is lent for the call.
+    // SAFETY: the context of every call in these tests is a list, and the text is borrowed for the call.
     unsafe {
         let list = &mut *context.cast::<Vec<String>>();
         list.push(text.to_str().expect("UTF-8").to_owned());
     }
 }
 
-/// What a function hands over through [`take`].
+/// Texts that a function passes to [`take`].
 pub(crate) fn taken(call: impl FnOnce(*mut c_void, *mut Error) -> Status) -> (Ended, Vec<String>) {
     let mut list: Vec<String> = Vec::new();
     let context = (&raw mut list).cast();
@@ -118,13 +118,13 @@ pub(crate) fn taken(call: impl FnOnce(*mut c_void, *mut Error) -> Status) -> (En
     (ended, list)
 }
 
-/// An open device, closed when it is dropped.
+/// An open device that is closed on drop.
 pub(crate) struct Open {
     handle: *mut c_void,
     calls: *const DeviceCalls,
 }
 
-// SAFETY: handles may be used from every thread, as the headers say.
+// SAFETY: the interface allows handles on every thread.
 unsafe impl Send for Open {}
 // SAFETY: as above.
 unsafe impl Sync for Open {}
@@ -154,23 +154,23 @@ impl Open {
         }
     }
 
-    /// What its calls take first.
+    /// First argument of the device's calls.
     pub(crate) fn handle(&self) -> *mut c_void {
         self.handle
     }
 
-    /// The table of its kind.
+    /// Table of the device's kind.
     pub(crate) fn calls<T>(&self) -> &'static T {
-        // SAFETY: a table lives as long as the library, and is at least as long as it says.
+        // SAFETY: a table lives as long as the library, and has at least its stated size.
         unsafe {
             assert_eq!(usize::try_from((*self.calls).size), Ok(size_of::<T>()));
             &*self.calls.cast::<T>()
         }
     }
 
-    /// The table of an ability.
+    /// Table of an extension.
     pub(crate) fn extension<T>(&self, id: &str) -> Option<&'static T> {
-        // SAFETY: the text lives for the call; the table as long as the library.
+        // SAFETY: the text lives for the call, and the table lives as long as the library.
         unsafe {
             let extension = (*self.calls).extension.expect("a function");
             extension(self.handle, Text::from(id)).cast::<T>().as_ref()
@@ -178,12 +178,12 @@ impl Open {
     }
 
     pub(crate) fn interrupt(&self) {
-        // SAFETY: from any thread while the device is open.
+        // SAFETY: allowed from any thread while the device is open.
         unsafe { (*self.calls).interrupt.expect("a function")(self.handle) };
     }
 
     pub(crate) fn close(&self) {
-        // SAFETY: closing twice is a mistake that the other side must survive.
+        // SAFETY: closing twice is a mistake that the plugin must survive.
         unsafe { (*self.calls).close.expect("a function")(self.handle) };
     }
 }

@@ -1,4 +1,4 @@
-//! Drivers in Rust behind the C tables, as a host meets them: what they promise holds, and no mistake on either side ends the program.
+//! Rust drivers behind the C tables, as a host calls them. Their guarantees hold, and no mistake on either side ends the program.
 
 mod drivers;
 mod estimators;

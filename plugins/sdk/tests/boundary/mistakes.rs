@@ -1,4 +1,4 @@
-//! Mistakes on either side: each is a typed error, and the program goes on.
+//! Mistakes on either side. Each gives a typed error, and the program continues.
 
 #![expect(unsafe_code, reason = "the tables of a plugin are called")]
 
@@ -17,7 +17,7 @@ use crate::places::{frame, motion};
 
 fn capture(sensor: &Open, frame: *mut Frame) -> Ended {
     let capture = sensor.calls::<SensorCalls>().capture.expect("a function");
-    // SAFETY: the frame is NULL or lives for the call; that it may lie about itself is what is tried.
+    // SAFETY: the frame is NULL or lives for the call. Its fields may be false, which is the test.
     ended(|error| unsafe { capture(sensor.handle(), frame, 1_000_000, error) })
 }
 
@@ -102,11 +102,11 @@ fn handles_that_are_closed_of_another_kind_or_made_up_are_refused_unfollowed() {
         without_provenance_mut(usize::MAX),
     ];
     for handle in handles {
-        // SAFETY: a handle is a number, and never followed.
+        // SAFETY: a handle is a number and is never dereferenced.
         let (status, message) =
             ended(|error| unsafe { calls.start.expect("a function")(handle, 1, error) });
         assert_eq!(status, Status::INVALID_ARGUMENT);
-        assert!(message.contains("the handle is not open"), "{message}");
+        assert!(message.contains("the handle is closed"), "{message}");
     }
     assert_eq!(read(&force).0, Status::OK);
 }
@@ -134,7 +134,7 @@ fn null_and_short_places_are_refused() {
     assert_eq!(capture(&sensor, &raw mut without).1, "`buffer` is NULL");
     let robot = Open::new(ROBOT_FACTORY, "well");
     let pose = robot.calls::<RobotCalls>().pose.expect("a function");
-    // SAFETY: NULL is refused.
+    // SAFETY: NULL is rejected.
     let answer =
         ended(|error| unsafe { pose(robot.handle(), null_mut::<Pose>(), null_mut(), 1, error) });
     assert_eq!(answer.1, "`pose` is NULL");
@@ -149,7 +149,7 @@ fn a_host_without_a_place_for_messages_still_hears_the_status() {
     let mut none = Error::new();
     none.size = 0;
     for error in [null_mut(), &raw mut none, without_provenance_mut(9)] {
-        // SAFETY: an error that is NULL, without room or crooked is not written.
+        // SAFETY: an error that is NULL, too short or misaligned is not written.
         let status = unsafe {
             calls.capture.expect("a function")(sensor.handle(), &raw mut frame, 1, error)
         };
@@ -162,7 +162,7 @@ fn numbers_that_are_not_finite_go_neither_way() {
     let sensor = Open::new(SENSOR_FACTORY, "nan");
     let (status, message) = captured(&sensor);
     assert_eq!(status, Status::DEVICE_FAULT);
-    assert!(message.contains("is not a time"), "{message}");
+    assert!(message.contains("expected finite times"), "{message}");
     let (status, wrench) = read(&Open::new(FORCE_FACTORY, "nan"));
     assert_eq!((status, wrench), (Status::DEVICE_FAULT, Wrench::default()));
     let robot = Open::new(ROBOT_FACTORY, "nan");
@@ -230,11 +230,11 @@ fn what_a_host_asks_for_wrongly_is_refused() {
     let sensors = factory(SENSOR_FACTORY);
     let take = Some(crate::fake_host::take as unsafe extern "C" fn(*mut c_void, Text));
     let describe = sensors.describe.expect("a function");
-    // SAFETY: a number too high is refused before anything is taken; so is a NULL function.
+    // SAFETY: a number out of range is rejected before `take` is called, and so is a NULL function.
     unsafe {
         assert_eq!(
             ended(|error| describe(1, null(), take, null_mut(), error)).1,
-            "no driver 1, expected less than 1"
+            "no driver has the number 1, expected less than 1"
         );
         assert_eq!(
             ended(|error| describe(0, null(), None, null_mut(), error)).1,

@@ -1,4 +1,4 @@
-//! A robot as a host moves it.
+//! Calls of a host on a robot.
 
 #![expect(unsafe_code, reason = "the tables of a plugin are called")]
 
@@ -7,7 +7,7 @@ use taceva_plugin::abi::{Motion, RobotCalls, Stamp, Status};
 use crate::fake_host::{Ended, Open, ended};
 
 impl Open {
-    /// Begins a motion, and gives its token.
+    /// Begins a motion and returns its token.
     pub(crate) fn move_to(&self, asked: &Motion) -> Result<u64, Ended> {
         let move_to = self.calls::<RobotCalls>().move_to.expect("a function");
         let (asked, mut token) = (&raw const *asked, 0);
@@ -18,7 +18,7 @@ impl Open {
         }
     }
 
-    /// Waits for the motion of `token`, and gives when it ended.
+    /// Waits for the motion of `token` and returns the stamp of its end.
     pub(crate) fn wait(&self, token: u64, timeout_ns: u64) -> Result<Stamp, Ended> {
         let wait = self.calls::<RobotCalls>().wait.expect("a function");
         let mut stamp = Stamp::default();

@@ -1,10 +1,10 @@
-//! What a host hands over to be filled in or followed.
+//! Structs that a host passes to the plugin.
 
 use std::ptr::{null, null_mut};
 
 use taceva_plugin::abi::{Frame, Motion, PixelFormat, Pose, Stamp};
 
-/// A frame of the host with room for `buffer`.
+/// A frame of the host with `buffer`.
 pub(crate) fn frame(buffer: &mut [u8]) -> Frame {
     Frame {
         size: u32::try_from(size_of::<Frame>()).expect("small"),
@@ -24,7 +24,7 @@ pub(crate) fn frame(buffer: &mut [u8]) -> Frame {
     }
 }
 
-/// A slow motion to `z` m, positive into the gel.
+/// A slow motion to `z`, in m, positive into the gel.
 pub(crate) fn motion(z: f64) -> Motion {
     Motion {
         size: u32::try_from(size_of::<Motion>()).expect("small"),

@@ -1,4 +1,4 @@
-//! What a driver promises, through the tables.
+//! Guarantees of drivers, tested through the tables.
 
 mod bench;
 mod changer;
@@ -9,7 +9,7 @@ mod sensor;
 
 use std::time::Duration;
 
-/// In nanoseconds.
+/// One second, in nanoseconds.
 const SECOND: u64 = 1_000_000_000;
-/// Within which a blocked call answers an interrupt or a halt.
+/// Time within which a blocked call returns after an interrupt or a halt.
 const AT_ONCE: Duration = Duration::from_millis(50);

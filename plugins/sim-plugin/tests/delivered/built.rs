@@ -1,4 +1,4 @@
-//! Plugins that were built for these tests, each in a folder of its own.
+//! Plugins built for these tests, each in a separate folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,22 +9,22 @@ use cargo_metadata::Message;
 use taceva_host::{Children, PluginConfig, PluginHost, Plugins, SearchPath};
 use taceva_needs::{Need, skip};
 
-/// Where the code of plugins runs.
+/// Process in which plugin code runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Delivery {
     InProcess,
     Child,
 }
 
-/// The workspace.
+/// Folder of the workspace.
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// The library of this crate, built with `flags` of the compiler and the profile for development.
+/// Library of this crate, built with the compiler flags `flags` and the development profile.
 fn library(flags: &[&str]) -> PathBuf {
     let test = std::env::current_exe().expect("a test knows where it is");
-    // target/debug/deps/test-0123
+    // Path of this test: target/debug/deps/test-0123.
     let target = test.ancestors().nth(3).expect("a target folder");
     let mut cargo = Command::new(env!("CARGO"));
     cargo.current_dir(root()).args([
@@ -35,7 +35,7 @@ fn library(flags: &[&str]) -> PathBuf {
         "--target-dir",
     ]);
     if flags.is_empty() {
-        // Where this test was built, nearly all of it is built already.
+        // The target folder of this test already has nearly all build products.
         cargo.arg(target);
     } else {
         cargo.arg(target.join("flagged"));
@@ -57,7 +57,7 @@ fn library(flags: &[&str]) -> PathBuf {
         .into_std_path_buf()
 }
 
-/// Lays the simulated bench, built with `flags`, into `folder`.
+/// Installs the simulated bench, built with `flags`, in `folder`.
 pub(crate) fn lay_bench(folder: &Path, flags: &[&str]) {
     fs::create_dir_all(folder).expect("a folder");
     fs::copy(library(flags), folder.join("libtaceva_sim_plugin.so")).expect("room");
@@ -65,7 +65,7 @@ pub(crate) fn lay_bench(folder: &Path, flags: &[&str]) {
     fs::copy(manifest, folder.join("plugin.toml")).expect("room");
 }
 
-/// Builds the example in C as the plugin `org.example.<word>`; `false`, with the reason printed, where a tool for that is missing.
+/// Builds the C example as the plugin `org.example.<word>`. Prints the reason and returns `false` if a tool is missing.
 pub(crate) fn lay_c(folder: &Path, word: &str, compiler: &str, level: &str) -> bool {
     for tool in [compiler, "make"] {
         if let Err(error) = Command::new(tool).arg("--version").output() {
@@ -113,7 +113,7 @@ pub(crate) fn lay_c(folder: &Path, word: &str, compiler: &str, level: &str) -> b
     true
 }
 
-/// The plugins below `folder`; their code runs where `delivery` says.
+/// Host of the plugins below `folder`. Their code runs in the process that `delivery` names.
 pub(crate) fn host(folder: &Path, delivery: Delivery) -> Arc<PluginHost> {
     let plugins = Plugins::search(SearchPath::empty().given([folder.to_owned()]), &[]);
     let rejections = &plugins.rejections;

@@ -1,4 +1,4 @@
-//! The simulated bench and the example in C under `taceva plugin check`.
+//! The simulated bench and the C example pass `taceva plugin check`.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use tempfile::TempDir;
 
 use crate::built::{Delivery, host, lay_bench, lay_c};
 
-/// Number of checks of the one plugin of `host`, and the broken promises.
+/// Number of checks of the only plugin of `host`, and the broken promises.
 fn checked(host: &Arc<PluginHost>) -> (usize, Vec<String>) {
     let plugin = host.plugins().iter().next().expect("one plugin");
     let mut made = 0;

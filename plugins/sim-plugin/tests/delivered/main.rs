@@ -1,6 +1,6 @@
-//! Plugins as they are delivered: built libraries beside their manifests, in this process and in children of it.
+//! Plugins as delivered: built libraries with their manifests, in this process and in child processes.
 //!
-//! This program is its own host child, so its `main` begins as that of every host does.
+//! This program is its own host child, so its `main` begins like that of every host.
 
 #[cfg(target_os = "linux")]
 mod built;

@@ -1,4 +1,4 @@
-//! The manifest says what the drivers say of themselves. `TACEVA_BLESS=1` writes it anew.
+//! The manifest equals the descriptions of the drivers. `TACEVA_BLESS=1` rewrites it.
 
 use std::fs;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Plugins in C and in Rust, by different compilers and flags, open beside each other.
+//! C and Rust plugins, built with different compilers and flags, are open at the same time.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,20 +15,20 @@ use tempfile::TempDir;
 
 use crate::built::{Delivery, host, lay_bench, lay_c};
 
-/// The builds of the example in C that can be made here: the word in the plugin's id, the compiler and its flags.
+/// Builds of the C example: the word in the plugin's id, the compiler and its flags.
 const C_BUILDS: [(&str, &str, &str); 3] = [
     ("plain", "cc", "-O0"),
     ("whole", "cc", "-O3 -flto"),
     ("other", "clang", "-O2"),
 ];
 
-/// The builds of the bench in Rust: the profile for development as it is, and all that this processor can do.
+/// Builds of the bench in Rust: the development profile, and all features of this processor.
 const RUST_BUILDS: [(&str, &[&str]); 2] = [
     ("development", &[]),
     ("native", &["-Ctarget-cpu=native", "-Copt-level=3"]),
 ];
 
-/// Lays each build of the example in C that can be made here into a folder of its own; their words.
+/// Installs each possible build of the C example in a separate folder. Returns their words.
 fn lay_all_c(folder: &Path) -> Vec<&'static str> {
     C_BUILDS
         .into_iter()
@@ -67,12 +67,12 @@ pub(crate) fn plugins_of_different_languages_and_flags_keep_their_contracts_in_o
     }
 }
 
-/// Pictures and readings that are taken of each plugin, one after another of all of them in turn.
+/// Number of frames and readings from each plugin, taken in turn.
 const ROUNDS: usize = 5;
-/// Long enough for a machine with other work.
+/// Long enough for a busy machine.
 const PATIENT: Deadline = Deadline::after(std::time::Duration::from_secs(20));
 
-/// A sensor and a force transducer of one plugin, and what they gave.
+/// A sensor and a force transducer of one plugin, and their data.
 struct Pair {
     sensor: Box<dyn Sensor>,
     force: Box<dyn ForceTransducer>,
@@ -122,7 +122,7 @@ fn open<D: Device + ?Sized>(
     factory.open(&args, rig).expect("it opens")
 }
 
-/// The drivers of a kind by what stands before the `/` of their keys and after it.
+/// Drivers of a kind, by the parts of their keys before and after the `/`.
 fn drivers<D>(host: &Arc<PluginHost>) -> BTreeMap<String, Box<dyn Factory<D>>>
 where
     D: Device + ?Sized,
@@ -134,7 +134,7 @@ where
         .collect()
 }
 
-/// What the bench gives that is linked into this program.
+/// Data of the bench that is linked into this program.
 fn linked() -> Pair {
     let sensor = SensorFactory::new(Model::GelSight).expect("a driver");
     let force = ForceTransducerFactory::new().expect("a driver");
@@ -153,7 +153,7 @@ pub(crate) fn c_and_rust_plugins_of_four_builds_give_right_frames_and_wrenches_w
     let mut expected = linked();
     (0..ROUNDS).for_each(|_| expected.take());
 
-    // The children of one delivery are open while the libraries of the other are loaded here.
+    // The children of one delivery are open while this process loads the libraries of the other.
     let mut in_c: Vec<Pair> = Vec::new();
     let mut in_rust: Vec<Pair> = Vec::new();
     for delivery in [Delivery::InProcess, Delivery::Child] {
@@ -165,7 +165,7 @@ pub(crate) fn c_and_rust_plugins_of_four_builds_give_right_frames_and_wrenches_w
                 in_c.push(Pair::of(&host, (&sensor, ""), (&force, "load=12.5")));
             }
         }
-        // One id twice: each build has a host of its own.
+        // Two builds have the same id, so each has its own host.
         for (word, _) in RUST_BUILDS {
             let host = host(&scratch.path().join(word), delivery);
             in_rust.push(Pair::of(
@@ -196,7 +196,7 @@ pub(crate) fn c_and_rust_plugins_of_four_builds_give_right_frames_and_wrenches_w
     }
 }
 
-/// A load along the z of the sensor, N.
+/// A load along the z axis of the sensor, N.
 fn load(newton: f64) -> Wrench {
     let mut wrench = Wrench::default();
     wrench.force[2] = taceva_core::Newton(newton);

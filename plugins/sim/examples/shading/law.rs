@@ -1,4 +1,4 @@
-//! Laws that are linear in their coefficients: what each term of one changes in the picture of a press.
+//! Shading laws that are linear in their coefficients. Each term is the change of the picture per unit of one coefficient.
 
 use std::error::Error;
 
@@ -10,25 +10,25 @@ use taceva_sim::optics::{Camera, CameraSpec, GelSpec, OpticsSpec, Stimulus, View
 
 use super::press::{Press, Presses};
 
-/// A law of shading.
+/// Law of shading.
 pub(crate) enum Law {
-    /// The bench's own camera with one lamp lit: each lamp's strength in each colour is fitted, its place is the bench's.
+    /// The bench's own camera with one lamp lit at a time. The strength of each lamp in each colour is fitted; its place is that of the bench.
     Lamps(Vec<Camera>),
-    /// Powers of the surface's normal, up to the second, times 1, x and y.
+    /// Powers of the surface normal, up to the second, times 1, x and y.
     Polynomial(Tables),
 }
 
-/// A term of a law, a value a pixel.
+/// Term of a law, one value per pixel.
 pub(crate) type Term = Vec<f64>;
 
-/// The strength at which a lamp is drawn: bright enough that 16 bits do not show, too dim to saturate.
+/// Strength of a lit lamp, DN: bright enough for 16-bit quantisation, too dim to saturate.
 const LIT_DN: f64 = 100.0;
 
-/// What the bench takes a GelSight's gel to be thick, in mm.
+/// Gel thickness of a GelSight in the bench, mm.
 const THICKNESS_MM: f64 = 4.25;
 
 impl Law {
-    /// The bench's optics at the size of these pictures, without noise and unevenness.
+    /// Optics of the bench at the size of these pictures, without noise and unevenness.
     pub(crate) fn lamps(presses: &Presses) -> Result<Law, Box<dyn Error>> {
         let [width, height] = [presses.background.width, presses.background.height()];
         let size = [u32::try_from(width)?, u32::try_from(height)?];
@@ -37,11 +37,11 @@ impl Law {
         [parameters.surface.width_mm, parameters.surface.height_mm] = field;
         let mut spec = OpticsSpec::new(&parameters);
         spec.field = field;
-        // Reduced pictures have 16 bits a colour.
+        // Reduced pictures have 16 bits per colour.
         spec.native = size.map(|pixels| 2 * pixels);
         spec.camera = CameraSpec::QUIET;
         let GelSpec::Gelsight(gel) = &mut spec.gel else {
-            return Err("the bench's GelSight is no coated gel".into());
+            return Err("the GelSight of the bench has no coated gel".into());
         };
         gel.sag_mm = [0.0; 2];
         gel.ambient_dn = [0.0; 3];
@@ -72,7 +72,7 @@ impl Law {
         }
     }
 
-    /// Its terms for a press.
+    /// Terms for one press.
     pub(crate) fn terms(
         &self,
         press: &Press,
@@ -90,7 +90,7 @@ impl Law {
     }
 }
 
-/// What the light of one lamp does where the gel is pressed, less what it does where nothing touches.
+/// Light of one lamp on the pressed gel, minus its light on the untouched gel.
 fn lit(mut camera: Camera, press: &Press, presses: &Presses) -> Result<Term, Box<dyn Error>> {
     let load = presses.load(press);
     let pressed = Stimulus::Ball(Contact {
@@ -105,7 +105,11 @@ fn lit(mut camera: Camera, press: &Press, presses: &Presses) -> Result<Term, Box
     });
     let mut take = |stimulus| -> Result<Term, Box<dyn Error>> {
         let info = camera.frame_info();
-        let mut bytes = vec![0; info.byte_len().ok_or("a frame beyond the address space")?];
+        let mut bytes = vec![
+            0;
+            info.byte_len()
+                .ok_or("the frame exceeds the address space")?
+        ];
         let view = View {
             stimulus,
             ..View::default()
@@ -142,7 +146,7 @@ fn powers(tables: &Tables, press: &Press, presses: &Presses) -> Vec<Term> {
             let [slope_x, slope_y] = {
                 #[expect(
                     clippy::cast_possible_truncation,
-                    reason = "places are looked up in f32"
+                    reason = "the tables take places in f32"
                 )]
                 let slope = field.slope(x as f32, y as f32);
                 slope.map(f64::from)

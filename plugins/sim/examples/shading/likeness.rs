@@ -1,18 +1,18 @@
-//! How like two pictures are.
+//! Similarity of two pictures.
 
 use super::press::Picture;
 
-/// Three measures of likeness, over all pixels and colours.
+/// Three measures of similarity, over all pixels and colours.
 pub(crate) struct Likeness {
     /// Mean absolute difference, in DN.
     l1_dn: f64,
-    /// Peak signal to noise, 20 log₁₀(255 / RMS), in dB.
+    /// Peak signal-to-noise ratio, 20 log₁₀(255 / RMS), in dB.
     psnr_db: f64,
     /// Mean structural similarity (Wang, Bovik, Sheikh and Simoncelli 2004): Gaussian window of σ = 1.5 pixels cut at 5, K₁ = 0.01, K₂ = 0.03.
     ssim: f64,
 }
 
-/// Half the window of the structural similarity, in pixels, and the spread of its weights.
+/// Half-width of the window of the structural similarity, and standard deviation of its weights, in pixels.
 const REACH: usize = 5;
 const SPREAD: f64 = 1.5;
 
@@ -40,7 +40,7 @@ impl Likeness {
     }
 }
 
-/// The mean of the structural similarity over the windows that lie wholly in the picture.
+/// Mean structural similarity over the windows that lie completely within the picture.
 fn similarity(one: &[f64], other: &[f64], width: usize) -> f64 {
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).collect::<Vec<_>>();
     let [mean, other_mean] = [one, other].map(|plane| smoothed(plane, width));
@@ -57,7 +57,7 @@ fn similarity(one: &[f64], other: &[f64], width: usize) -> f64 {
     values.sum::<f64>() / mean.len() as f64
 }
 
-/// The means under the window, where it fits.
+/// Weighted means over each window that fits in the picture.
 fn smoothed(plane: &[f64], width: usize) -> Vec<f64> {
     let weights: [f64; 2 * REACH + 1] = std::array::from_fn(|at| {
         let off = (at as f64 - REACH as f64) / SPREAD;
@@ -84,7 +84,7 @@ fn smoothed(plane: &[f64], width: usize) -> Vec<f64> {
         .collect()
 }
 
-/// Means over presses with the half-width of their 95 % interval, by Student's t.
+/// Means over presses, with 95 % confidence intervals by Student's t.
 pub(crate) fn summary(presses: &[Likeness]) -> String {
     let row = |of: fn(&Likeness) -> f64, digits: usize| {
         let count = presses.len() as f64;
@@ -105,7 +105,7 @@ pub(crate) fn summary(presses: &[Likeness]) -> String {
     .concat()
 }
 
-/// The 97.5 % point of Student's t, by the first terms of Cornish and Fisher's series: to 0.001 from ten degrees of freedom on.
+/// 97.5 % quantile of Student's t, by the first terms of the Cornish-Fisher expansion: accurate to 0.001 from ten degrees of freedom on.
 fn student(freedom: f64) -> f64 {
     let z = 1.959_963_985_f64;
     let (z3, z5) = (z.powi(3), z.powi(5));

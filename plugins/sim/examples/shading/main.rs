@@ -1,16 +1,16 @@
-//! How well closed-form shading draws a real coated gel that balls are pressed into.
+//! Measures the accuracy of closed-form shading for pictures of balls pressed into a real coated gel.
 //!
 //! ```text
 //! cargo run --release -p taceva-sim --example shading -- FOLDER
 //! ```
 //!
-//! FOLDER holds `labels.csv` and the pictures it names: one of the untouched gel and some of a ball of 2.92 mm with the place and radius of
-//! its contact in pixels. Without an argument it is the folder `gelsight-ball-depth` of `TACEVA_DATA`. Pictures without a licence are
-//! read where they lie; nothing of them is written.
+//! FOLDER contains `labels.csv` and the pictures that it names: one of the untouched gel, and others of a ball of 2.92 mm radius. Each label has the
+//! place and radius of the contact, pixels. The default is the folder `gelsight-ball-depth` of `TACEVA_DATA`. Pictures without a licence are only
+//! read; no part of them is written.
 //!
-//! Every press is scored by coefficients that were fitted to all other presses, so no score is of a picture that was seen.
+//! Each press is scored with coefficients fitted to all other presses, so no scored picture was used in its fit.
 
-#![expect(clippy::print_stdout, reason = "an example talks to a person")]
+#![expect(clippy::print_stdout, reason = "an example prints its results")]
 
 mod law;
 mod likeness;
@@ -30,7 +30,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let data = std::env::var_os("TACEVA_DATA");
     let of_data = data.map(|folder| PathBuf::from(folder).join("gelsight-ball-depth"));
     let Some(folder) = named.or(of_data) else {
-        println!("skipped: name a folder of ball presses, or one that holds it by TACEVA_DATA");
+        println!(
+            "skipped: no folder of ball presses; give FOLDER, or set TACEVA_DATA to its parent folder"
+        );
         return Ok(());
     };
     let presses = Presses::read(&folder)?;
@@ -52,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut number = 0..;
         report(&name, &presses, |press| {
             let own = number.next().and_then(|number: usize| parts.get(number));
-            let others = whole.without(own.ok_or("a press more than was read")?);
+            let others = whole.without(own.ok_or("a press has no normal equations")?);
             let change = others.solve()?.draw(&law.terms(press, &presses)?);
             Ok(presses.background.changed(&change))
         })?;
@@ -60,7 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Prints how like the pictures that `draw` gives are to those that were taken: whole, and around the contact.
+/// Prints the similarity between drawn pictures and camera pictures: over the whole picture, and around the contact.
 fn report(
     name: &str,
     presses: &Presses,

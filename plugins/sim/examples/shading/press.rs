@@ -1,4 +1,4 @@
-//! Pictures of ball presses as a folder holds them.
+//! Pictures of ball presses from a folder.
 
 use std::error::Error;
 use std::ops::Range;
@@ -6,11 +6,11 @@ use std::path::Path;
 
 use taceva_sim::displacement::Load;
 
-/// The ball's radius and the side of a pixel, in mm: what the set says of itself.
+/// Radius of the ball and side of a pixel, mm, as stated by the data set.
 const BALL_MM: f64 = 2.92;
 const PIXEL_MM: f64 = 0.059_259_3;
 
-/// A square picture, red, green and blue of a pixel beside each other, in DN.
+/// A square picture in DN, with red, green and blue of each pixel side by side.
 #[derive(Clone)]
 pub(crate) struct Picture {
     pub(crate) width: usize,
@@ -23,11 +23,11 @@ pub(crate) type Window = [Range<usize>; 2];
 /// One press.
 pub(crate) struct Press {
     pub(crate) picture: Picture,
-    /// Middle and radius of the contact in pixels, from the upper left corner.
+    /// Centre and radius of the contact, pixels from the upper left corner.
     contact_px: [f64; 3],
 }
 
-/// All presses, and the untouched gel.
+/// All presses, and the picture of the untouched gel.
 pub(crate) struct Presses {
     pub(crate) background: Picture,
     pub(crate) presses: Vec<Press>,
@@ -46,7 +46,7 @@ impl Picture {
         self.dn.len() / (3 * self.width)
     }
 
-    /// The picture with `change` added, within what 8 bits hold.
+    /// Picture with `change` added, clipped to 8 bits.
     pub(crate) fn changed(&self, change: &[f64]) -> Picture {
         let changed = self.dn.iter().zip(change);
         Picture {
@@ -57,7 +57,7 @@ impl Picture {
         }
     }
 
-    /// A part of it.
+    /// Part of the picture.
     pub(crate) fn cut(&self, [columns, rows]: &Window) -> Picture {
         let row =
             |row: usize| &self.dn[3 * (row * self.width + columns.start)..][..3 * columns.len()];
@@ -69,7 +69,7 @@ impl Picture {
 }
 
 impl Presses {
-    /// The untouched gel and the ball presses that `labels.csv` in `folder` names.
+    /// Reads the untouched gel and the ball presses that `labels.csv` in `folder` names.
     pub(crate) fn read(folder: &Path) -> Result<Presses, Box<dyn Error>> {
         let labels = folder.join("labels.csv");
         let text = std::fs::read_to_string(&labels)
@@ -99,12 +99,12 @@ impl Presses {
         })
     }
 
-    /// Width and height of what a picture shows.
+    /// Width and height of the imaged area.
     pub(crate) fn field_mm(&self) -> [f64; 2] {
         [self.background.width, self.background.height()].map(|pixels| pixels as f64 * PIXEL_MM)
     }
 
-    /// What the press changed in the picture.
+    /// Difference between the picture of the press and the background.
     pub(crate) fn change(&self, press: &Press) -> Vec<f64> {
         let pairs = press.picture.dn.iter().zip(&self.background.dn);
         pairs
@@ -112,7 +112,7 @@ impl Presses {
             .collect()
     }
 
-    /// The place on the gel that pixel `column`, `row` shows: x to the right, y upwards, from the middle.
+    /// Place on the gel at pixel `column`, `row`: x to the right, y upwards, from the centre.
     pub(crate) fn place_mm(&self, column: f64, row: f64) -> [f64; 2] {
         let [width, height] = self.field_mm();
         [
@@ -121,7 +121,7 @@ impl Presses {
         ]
     }
 
-    /// The contact as the bench knows it: the annotated radius a, the depth a²/R and Hertz's force at a modulus of 1 MPa.
+    /// Contact in the terms of the bench: the annotated radius a, the depth a²/R, and Hertz's force at a modulus of 1 MPa.
     pub(crate) fn load(&self, press: &Press) -> Load {
         let [column, row, radius] = press.contact_px;
         let contact_radius_mm = radius * PIXEL_MM;
@@ -140,7 +140,7 @@ impl Presses {
 }
 
 impl Press {
-    /// Two contact radii each way around the contact, as far as the picture goes.
+    /// Window of two contact radii to each side of the contact, clipped to the picture.
     pub(crate) fn surroundings(&self) -> Window {
         let [column, row, radius] = self.contact_px;
         let around = |middle: f64, end: usize| {

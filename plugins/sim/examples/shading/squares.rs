@@ -1,4 +1,4 @@
-//! Least squares of a few terms over many pixels: sums a press each, so that leaving one out is a difference.
+//! Least squares of a few terms over many pixels. Each press has its own sums, so leaving one out is a subtraction.
 
 use std::iter::Sum;
 
@@ -11,11 +11,11 @@ pub(crate) struct Squares {
     seen: Vec<[f64; 3]>,
 }
 
-/// What a term counts in each colour.
+/// Weight of each term in each colour.
 pub(crate) struct Coefficients(Vec<[f64; 3]>);
 
 impl Squares {
-    /// Those of one press that changed its picture by `change`.
+    /// Normal equations of one press that changed its picture by `change`.
     pub(crate) fn of(terms: &[Term], change: &[f64]) -> Squares {
         let dot = |one: &Term, other: &Term| one.iter().zip(other).map(|(a, b)| a * b).sum();
         let (pixels, _) = change.as_chunks::<3>();
@@ -41,7 +41,7 @@ impl Squares {
         self.seen.len()
     }
 
-    /// Those of the other presses.
+    /// Normal equations of the other presses.
     pub(crate) fn without(&self, press: &Squares) -> Squares {
         self.combined(press, -1.0)
     }
@@ -59,13 +59,13 @@ impl Squares {
         }
     }
 
-    /// Their solution, by Cholesky's factors.
+    /// Solves the equations by Cholesky factorisation.
     pub(crate) fn solve(mut self) -> Result<Coefficients, &'static str> {
         let count = self.terms();
         for pivot in 0..count {
             let root = self.own[pivot][pivot];
             if root <= 0.0 {
-                return Err("the presses do not tell the terms apart");
+                return Err("the terms are linearly dependent for these presses");
             }
             let root = root.sqrt();
             for row in pivot..count {
@@ -109,7 +109,7 @@ impl<'a> Sum<&'a Squares> for Squares {
 }
 
 impl Coefficients {
-    /// What they say that a press with these terms changes, three colours a pixel.
+    /// Predicted change of the picture for a press with these terms, three colours per pixel.
     pub(crate) fn draw(&self, terms: &[Term]) -> Vec<f64> {
         let pixels = terms.first().map_or(0, Vec::len);
         let mut change = vec![[0.0; 3]; pixels];

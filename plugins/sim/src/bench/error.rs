@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::parameters::Outline;
 
-/// A press that no rig would make.
+/// A press outside the range of the rig.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PressError {
@@ -27,9 +27,9 @@ pub enum PressError {
     /// The depth is out of range.
     #[error("a press {depth_mm} mm deep, expected 0 to {depth_max_mm} mm")]
     Depth {
-        /// The depth.
+        /// Depth, in mm.
         depth_mm: f64,
-        /// The greatest depth.
+        /// Greatest depth, in mm.
         depth_max_mm: f64,
     },
     /// The shear is out of range.

@@ -4,12 +4,12 @@ use super::PressError;
 use crate::parameters::{Outline, Parameters};
 use crate::specimen::Indenter;
 
-/// A press as the rig is commanded to make it.
+/// A press as commanded to the rig.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Press {
-    /// Id of the press: its own random numbers are drawn by it.
+    /// Id of the press. Its own random numbers depend on it.
     pub id: u64,
-    /// Id of its point: presses at one point share one first contact and one zero of the transducer.
+    /// Id of its point. Presses at one point share the first contact and the zero of the transducer.
     pub point: u64,
     /// Place of the ball, along x and y.
     pub place_mm: [f64; 2],
@@ -17,7 +17,7 @@ pub struct Press {
     pub depth_mm: f64,
     /// Shear of the ball along the gel, after the travel.
     pub shear_mm: [f64; 2],
-    /// Travel at the turning point, while unloading; `None` while loading.
+    /// Travel at the turning point during unloading; `None` during loading.
     pub turned_mm: Option<f64>,
     /// Ball of the press.
     pub indenter: Indenter,
@@ -75,5 +75,5 @@ impl Press {
     }
 }
 
-/// Greatest shear along one axis, in mm; beyond it a ball would miss a dome.
+/// Greatest shear along one axis, in mm. Beyond it, a ball would miss a dome.
 const SHEAR_MOST: f64 = 5.0;

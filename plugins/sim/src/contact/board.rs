@@ -1,4 +1,4 @@
-//! A flat board on a gel: its outline alone sets the force; its relief appears only in pictures.
+//! A flat board on a gel. The force depends only on its outline; its relief appears only in pictures.
 
 use std::f64::consts::{PI, TAU};
 
@@ -28,13 +28,13 @@ pub(super) fn layer_stiffness_n_per_mm(layer: &Layer) -> f64 {
     layer.young_modulus_mpa * radius / (0.375 + correction / TAU)
 }
 
-/// Stiffness of the holder of a board, N/mm, which levels itself on the gel. A rigid holder would exceed the force limit of any flat gel
-/// within a tenth of a millimetre.
+/// Stiffness of the holder of a board, N/mm. The holder levels itself on the gel. A rigid holder would exceed the force limit of any flat gel within
+/// a tenth of a millimetre.
 const HOLDER_N_PER_MM: f64 = 1.0;
-/// Halvings of a depth: far below a nanometre.
+/// Bisection steps of a depth, which reach far below a nanometre.
 const BISECTIONS: u32 = 40;
 
-/// Depth of a board in the gel, mm, for a holder `travel_mm` below first touch; `force_n` is the force of the gel at a depth.
+/// Depth of a board in the gel, mm, for a holder `travel_mm` below first touch. `force_n` gives the force of the gel at a depth.
 pub(super) fn depth_under_holder_mm(travel_mm: f64, force_n: impl Fn(f64) -> f64) -> f64 {
     let (mut low, mut high) = (0.0, travel_mm);
     for _ in 0..BISECTIONS {
@@ -50,7 +50,7 @@ pub(super) fn depth_under_holder_mm(travel_mm: f64, force_n: impl Fn(f64) -> f64
 
 /// Upper end of the integral, at which the correction of the layer has decayed.
 const ZETA_MAX: f64 = 14.0;
-/// Intervals of the midpoint rule; the integrand is smooth and even.
+/// Intervals of the midpoint rule. The integrand is smooth and even.
 const INTERVALS: u32 = 2000;
 
 #[cfg(test)]

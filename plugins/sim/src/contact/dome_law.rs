@@ -1,7 +1,7 @@
 //! A ball on a skin over a soft hemisphere.
 //!
-//! F(d) = k₁ d + k₂ d^(3/2) along the line through both centres: the buckled point stiffness of the skin, and Hertz's law of the gel. A
-//! ball beside the apex meets the dome at a slant. It presses less along the normal and slides, which alone makes the rim look softer.
+//! F(d) = k₁ d + k₂ d^(3/2) along the line through both centres: the buckled point stiffness of the skin, and Hertz's law of the gel. A ball beside
+//! the apex meets the dome at an angle. It presses less along the normal and slides, which by itself makes the rim appear softer.
 
 use super::indentation::Indentation;
 use super::stand::{Answer, Stand, dot};
@@ -11,11 +11,11 @@ use crate::parameters::Dome;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DomeLaw {
     dome: Dome,
-    /// 1 / √R of the ball for which the stiffness of the gel is stated.
+    /// 1 / √R of the ball for which the gel stiffness is specified.
     inverse_root_stated: f64,
 }
 
-/// Radius of the ball for which the stiffness of the gel is stated, mm.
+/// Radius of the ball for which the gel stiffness is specified, mm.
 const STATED_INDENTER_MM: f64 = 2.0;
 
 impl DomeLaw {
@@ -50,7 +50,7 @@ impl DomeLaw {
         self.rise(place_mm, indenter_radius_mm) - self.dome.radius_mm - indenter_radius_mm
     }
 
-    /// Height of the centre of a touching ball over that of the dome.
+    /// Height of the centre of a touching ball above the centre of the dome.
     fn rise(&self, [x, y]: [f64; 2], indenter_radius_mm: f64) -> f64 {
         let reach = self.dome.radius_mm + indenter_radius_mm;
         (reach * reach - x * x - y * y).max(0.0).sqrt()

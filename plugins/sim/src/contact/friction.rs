@@ -3,7 +3,7 @@
 //! # Reference
 //! Cattaneo (1938), Mindlin (1949) for the first loading; Mindlin and Deresiewicz (1953) for its reversal at constant normal force.
 
-/// Tangential resistance of a contact: stiffness k₀ at first, force μF at most.
+/// Tangential resistance of a contact: initial stiffness k₀, and maximum force μF.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
     /// μF, the force at which the whole contact slides.
@@ -23,18 +23,18 @@ impl Friction {
         self.resist(displacement_mm / self.sliding_begins_mm())
     }
 
-    /// Q(s) = Q(s*) − 2 μF [1 − (1 − (s* − s)/(2 s_max))^(3/2)] on the way back from `turned_mm`, at least −μF.
+    /// Q(s) = Q(s*) − 2 μF [1 − (1 − (s* − s)/(2 s_max))^(3/2)] after the reversal at `turned_mm`, at least −μF.
     pub fn unload(&self, turned_mm: f64, displacement_mm: f64) -> f64 {
         let back = (turned_mm - displacement_mm) / (2.0 * self.sliding_begins_mm());
         (self.load(turned_mm) - 2.0 * self.resist(back)).max(-self.limit_n)
     }
 
-    /// Stick radius over the contact radius: (1 − |Q|/μF)^(1/3).
+    /// Stick radius divided by the contact radius: (1 − |Q|/μF)^(1/3).
     pub fn stick_ratio(&self, force_n: f64) -> f64 {
         libm::cbrt((1.0 - force_n.abs() / self.limit_n).max(0.0))
     }
 
-    /// Force at `share` of the displacement of full sliding.
+    /// Force at `share`, the displacement divided by that of full sliding.
     fn resist(&self, share: f64) -> f64 {
         let rest = (1.0 - share).max(0.0);
         self.limit_n * (1.0 - rest * rest.sqrt())

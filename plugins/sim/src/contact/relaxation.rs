@@ -1,10 +1,10 @@
 //! Relaxation of a gel: one term of a Prony series.
 //!
-//! F(t) = (1 − g) F₀(d(t)) + h(t), dh/dt = −h/τ + g dF₀/dt. A step with linear F₀ is exact at any length: h ← h e^(−Δt/τ) + g ΔF₀ (τ/Δt) (1
-//! − e^(−Δt/τ)). The force is never below zero: a gel that recovers too slowly loses contact.
+//! F(t) = (1 − g) F₀(d(t)) + h(t), dh/dt = −h/τ + g dF₀/dt. A step with linear F₀ is exact at any length: h ← h e^(−Δt/τ) + g ΔF₀ (τ/Δt) (1 −
+//! e^(−Δt/τ)). The force is never below zero, because a gel that recovers too slowly loses contact.
 //!
 //! # Reference
-//! Standard linear solid; Lee and Radok (1960) for a growing contact. On unloading, where the contact shrinks, it is an approximation.
+//! Standard linear solid; Lee and Radok (1960) for a growing contact. It is an approximation for unloading, where the contact shrinks.
 
 /// Relaxation state of a gel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct Relaxation {
     fading_n: f64,
 }
 
-/// Decay of the relaxation state in a step of one length, computed once for equal steps.
+/// Decay of the relaxation state in one step, computed once for steps of equal length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decay {
     kept: f64,
@@ -54,7 +54,7 @@ impl Relaxation {
         }
     }
 
-    /// Advances one step, to the force `elastic_n` of a gel without relaxation.
+    /// Advances one step, to the force `elastic_n` of a gel without relaxation at the same indentation.
     pub fn step(&mut self, elastic_n: f64, decay: Decay) {
         let grown = self.fraction * (elastic_n - self.elastic_n);
         self.fading_n = self.fading_n * decay.kept + grown * decay.gained;

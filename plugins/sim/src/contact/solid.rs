@@ -8,7 +8,7 @@ use super::stand::{Answer, Stand, dot};
 use super::{Contact, Friction, Relaxation};
 use crate::parameters::{Body, Parameters};
 
-/// Body of a sensor, as the contact solver sees it.
+/// Body of a sensor, as input of the contact solver.
 #[derive(Clone, Copy, Debug)]
 pub struct Solid {
     law: Law,
@@ -59,7 +59,7 @@ impl Solid {
         }
     }
 
-    /// Force along the sensor's axis without relaxation, as in a search for contact.
+    /// Force along the sensor's axis without relaxation, as in a search for first contact.
     pub fn swift_force_n(&self, indentation: &Indentation) -> f64 {
         let stand = self.stand(indentation, indentation.depth_mm, indentation.shear_mm);
         let answer = self.answer(&stand, indentation);
@@ -71,7 +71,7 @@ impl Solid {
         (answer.force_n * stand.normal[2] - shear_n * tangent[2]) * indentation.stiffness
     }
 
-    /// Contact after `indentation` at the speed of the rig, read at once.
+    /// Contact after `indentation` at the speed of the rig, without a pause before the reading.
     pub fn contact(&self, indentation: &Indentation) -> Contact {
         let stand = self.stand(indentation, indentation.depth_mm, indentation.shear_mm);
         let answer = self.answer(&stand, indentation);
@@ -79,14 +79,14 @@ impl Solid {
         self.settle(indentation, &stand, &answer, relaxed)
     }
 
-    /// Contact after `indentation`, with a force of `relaxed` times the unrelaxed one.
+    /// Contact after `indentation`. Its force is `relaxed` times the unrelaxed force.
     pub fn contact_at(&self, indentation: &Indentation, relaxed: f64) -> Contact {
         let stand = self.stand(indentation, indentation.depth_mm, indentation.shear_mm);
         let answer = self.answer(&stand, indentation);
         self.settle(indentation, &stand, &answer, relaxed)
     }
 
-    /// Normal force of an unrelaxed gel at `depth_mm` with the shear of `indentation`: the input of the relaxation.
+    /// Normal force of an unrelaxed gel at `depth_mm` with the shear of `indentation`. It is the input of the relaxation.
     pub fn elastic_force_n(&self, indentation: &Indentation, depth_mm: f64) -> f64 {
         let stand = self.stand(indentation, depth_mm, indentation.shear_mm);
         self.answer(&stand, indentation).force_n * indentation.stiffness
@@ -113,7 +113,7 @@ impl Solid {
         }
     }
 
-    /// Relaxation of this body, at rest.
+    /// Relaxation of this body in its initial state.
     pub fn relaxation(&self) -> Relaxation {
         self.relaxation
     }
@@ -145,7 +145,7 @@ impl Solid {
         }
     }
 
-    /// Force relative to the unrelaxed one after a ramp to the greatest depth, and back if unloading, along the normal.
+    /// Ratio of relaxed to unrelaxed force after a ramp along the normal to the greatest depth, and back if unloading.
     fn relaxed(&self, indentation: &Indentation, normal_depth_mm: f64) -> f64 {
         let unrelaxed = |depth: f64| {
             self.answer_at(depth, indentation.indenter_radius_mm)
@@ -230,7 +230,7 @@ impl Solid {
     }
 }
 
-/// Radius of a ball that counts as flat, mm.
+/// Radius from which a ball counts as flat, mm.
 const FLAT_MM: f64 = 1e9;
 
 /// Steps of a ramp; the force is linear in each.

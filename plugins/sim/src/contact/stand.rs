@@ -11,7 +11,7 @@ pub(super) struct Stand {
     pub(super) slide: [f64; 3],
 }
 
-/// Response to a normal indentation.
+/// Response of a body to a normal indentation.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Answer {
     /// Normal force.
@@ -26,7 +26,7 @@ pub(super) struct Answer {
     pub(super) skin_share: f64,
 }
 
-/// The scalar product.
+/// Scalar product.
 pub(super) fn dot(left: [f64; 3], right: [f64; 3]) -> f64 {
     left[0] * right[0] + left[1] * right[1] + left[2] * right[2]
 }

@@ -1,7 +1,7 @@
 //! Conditioning of a gel by earlier presses, also called the Mullins effect.
 //!
-//! Below a depth of earlier presses, a gel has 1 − m (1 − e^(−n/n₀)) of its force after n presses. The history is a function of the set of
-//! finished presses, not of their order: an interrupted run meets the same gel.
+//! Below the depth of earlier presses, a gel has 1 − m (1 − e^(−n/n₀)) of its force after n presses. The history depends on the set of finished
+//! presses, not on their order, so an interrupted run meets the same gel.
 
 use std::collections::BTreeMap;
 
@@ -32,7 +32,7 @@ impl Conditioning {
         }
     }
 
-    /// Remaining part of the force at `depth_mm` of a place with this wear.
+    /// Remaining share of the force at `depth_mm` for a point with this wear.
     pub fn remaining(&self, wear: Wear, depth_mm: f64) -> f64 {
         if wear.presses == 0 || depth_mm >= wear.deepest_mm {
             return 1.0;
@@ -42,7 +42,7 @@ impl Conditioning {
     }
 }
 
-/// Wear of a gel by the finished presses of a run, by point.
+/// Wear of a gel from the finished presses of a run, by point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
     points: BTreeMap<u64, Wear>,

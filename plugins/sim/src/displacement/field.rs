@@ -57,7 +57,7 @@ impl<'p> Field<'p> {
         ]
     }
 
-    /// Gradient of the height at `x_mm`, `y_mm`: by x and by y, mm/mm.
+    /// Gradient of the height at `x_mm`, `y_mm`: derivatives with respect to x and y, mm/mm.
     pub fn slope(&self, x_mm: f32, y_mm: f32) -> [f32; 2] {
         let [x, y] = [x_mm - self.centre[0], y_mm - self.centre[1]];
         let [shear_x, shear_y] = self.shear;

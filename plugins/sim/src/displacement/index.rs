@@ -1,7 +1,7 @@
 //! Index of a radius in a table: fine near the contact, proportionally coarser farther out.
 //!
-//! Tables are indexed by t = 1 + (r/a)². Each octave of t is cut into equal cells, out to 64 contact radii. The bits of the number give the
-//! place in the octave, without logarithm or square root. The rim of the contact, t = 2, is a node, so a kink there stays exact.
+//! Tables are indexed by t = 1 + (r/a)². Each octave of t has equal cells, out to 64 contact radii. The bits of the number give the position in the
+//! octave, without logarithm or square root. The rim of the contact, t = 2, is a node, so a kink there is exact.
 
 /// Cells in an octave; a power of two.
 const CELLS: usize = 1 << CELL_BITS;
@@ -36,7 +36,7 @@ impl Place {
     }
 }
 
-/// Position of t = 1 + (r/a)²; values beyond the table map to its end.
+/// Position of t = 1 + (r/a)². Values beyond the table give its end.
 ///
 /// ```
 /// use taceva_sim::displacement::{locate, node};

@@ -5,11 +5,11 @@
 pub struct Load {
     /// Centre of the contact on the surface.
     pub centre_mm: [f64; 2],
-    /// The contact radius a.
+    /// Contact radius a.
     pub contact_radius_mm: f64,
-    /// Depth of the ball along its normal.
+    /// Depth of the ball along its contact normal.
     pub depth_mm: f64,
-    /// The radius of the ball.
+    /// Radius of the ball.
     pub indenter_radius_mm: f64,
     /// Effective modulus of the gel at this depth.
     pub young_modulus_mpa: f64,
@@ -26,7 +26,7 @@ impl Load {
         (x * x + y * y).sqrt()
     }
 
-    /// Direction of the shear force: a unit vector, along x without shear.
+    /// Direction of the shear force as a unit vector; along x without shear.
     pub fn shear_direction(&self) -> [f64; 2] {
         let size = self.shear_n();
         if size > 0.0 {

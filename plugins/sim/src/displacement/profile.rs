@@ -5,7 +5,7 @@ use super::load::Load;
 use super::radial::Quantity;
 use crate::number::narrow;
 
-/// Radial functions of one press, in mm and plain numbers; reusable for later presses.
+/// Radial functions of one press, with lengths in mm. The buffer can be reused for later presses.
 #[derive(Clone, Debug)]
 pub struct Profile {
     radius_mm: f64,
@@ -29,13 +29,13 @@ impl Profile {
         }
     }
 
-    /// Table of one function, with a value at each [`node`]: in mm for [`Quantity::Sink`] and [`Quantity::Along`], else divided by mm for
+    /// Table of one function, with a value at each [`node`]. [`Quantity::Sink`] and [`Quantity::Along`] are in mm; the others are divided by mm for
     /// each factor r.
     pub fn table(&self, quantity: Quantity) -> &Radial {
         &self.tables[quantity as usize]
     }
 
-    /// 1/a² in 1/mm²: [`locate`] takes t = 1 + r² times this value.
+    /// 1/a² in 1/mm². The argument of [`locate`] is t = 1 + r² times this value.
     pub fn inverse_radius_squared(&self) -> f32 {
         self.inverse_radius_squared
     }
@@ -46,7 +46,7 @@ impl Profile {
         locate(1.0 + radius_squared_mm2 * self.inverse_radius_squared)
     }
 
-    /// Radius beyond which the function stays at or below `least` in magnitude, in mm; 0 if it never exceeds it.
+    /// Radius beyond which the magnitude of the function is at most `least`, in mm; 0 if it never exceeds `least`.
     pub fn reach(&self, quantity: Quantity, least: f32) -> f64 {
         let table = self.table(quantity);
         let last = table.iter().rposition(|value| value.abs() > least);
@@ -70,14 +70,14 @@ impl Profile {
         &mut self.tables[quantity as usize]
     }
 
-    /// Fits the sink to the ball inside the contact and scales it outside to match at the rim.
+    /// Fits the sink to the ball inside the contact, and scales it outside to match at the rim.
     pub(super) fn follow_ball(&mut self, load: &Load) {
         let curvature = 1.0 / load.indenter_radius_mm;
         let squared = self.radius_mm * self.radius_mm;
         let at_rim = load.depth_mm - 0.5 * squared * curvature;
         let rim = RIM;
         let scale = at_rim / f64::from(self.table(Quantity::Sink)[rim]);
-        // Ball and layer agree to some per cent; a pressure far from Hertz's gives no usable ratio at the rim.
+        // Ball and layer agree to some per cent. A pressure far from Hertz's gives no usable ratio at the rim.
         let scale = if (0.5..2.0).contains(&scale) {
             narrow(scale)
         } else {

@@ -1,7 +1,7 @@
 //! Hankel integrals of a bonded layer under a round contact, in units of the contact radius.
 //!
-//! On the surface the half-space has a closed form; only the correction of the layer, which decays like e^(−2kh), is integrated. Below the
-//! surface the whole, smooth response is integrated.
+//! On the surface, the half-space has a closed form. Only the correction of the layer is integrated there, which decays like e^(−2kh). Below the
+//! surface, the whole response is smooth and integrated.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,7 +9,7 @@ use super::radial::Quantity;
 use crate::elastic::hertz;
 use crate::elastic::kernel::Kernel;
 
-/// A layer in units of its contact: lengths over the contact radius, unit modulus, ν = 1/2.
+/// A layer in units of its contact: lengths divided by the contact radius, unit modulus, ν = 1/2.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Layer {
     /// Thickness.
@@ -26,14 +26,14 @@ const POISSON_RATIO: f64 = 0.5;
 /// 2(1 − ν²)/E and 1/G at unit modulus.
 const NORMAL_COMPLIANCE: f64 = 1.5;
 const SHEAR_COMPLIANCE: f64 = 3.0;
-/// Upper end of the integral on the surface, at which the correction of the layer has decayed by e^(−28).
+/// Upper end of the integral on the surface, where the correction of the layer has decayed by e^(−28).
 const ZETA_MAX: f64 = 14.0;
-/// Upper end of the integral below the surface, at which the response has decayed.
+/// Upper end of the integral below the surface, where the response has decayed.
 const ATTENUATION_MAX: f64 = 30.0;
-/// Least number of panels, which resolve the decay of an integrand that does not oscillate.
+/// Least number of panels. It resolves the decay of an integrand that does not oscillate.
 const LEAST_PANELS: f64 = 10.0;
-/// Relative blur far out, where the field varies over lengths like r. A blur of 3 % of r changes it by 5·10⁻⁴ and ends the integral at k r
-/// = 150.
+/// Relative blur far from the contact, where the field varies over lengths like r. A blur of 3 % of r changes the field by 5·10⁻⁴ and ends the
+/// integral at k r = 150.
 const BLUR: f64 = 0.03;
 const ARGUMENT_MAX: f64 = 150.0;
 
@@ -133,7 +133,7 @@ fn bessel(k: f64, rho: f64) -> [f64; 3] {
         ];
     }
     let (j0, j1) = (libm::j0(x), libm::j1(x));
-    // The recurrence loses digits where J₂ is small beside its parts.
+    // The recurrence loses digits if J₂ is small relative to its parts.
     let j2 = if x < 0.5 {
         libm::jn(2, x)
     } else {

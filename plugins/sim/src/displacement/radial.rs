@@ -1,27 +1,27 @@
 //! Radial functions in a table.
 
-/// Radial functions, in the units of a unit force on a unit modulus at unit contact radius.
+/// Radial functions, for unit force, unit modulus and unit contact radius.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
 pub enum Quantity {
     /// Depth of the surface under pressure, into the gel.
     Sink,
-    /// Derivative of the depth by r, over r.
+    /// Derivative of the depth with respect to r, divided by r.
     SinkSlope,
-    /// Outward displacement under pressure, over r.
+    /// Outward displacement under pressure, divided by r.
     Outward,
-    /// Displacement along the shear that is independent of the angle: A₀ + A₂.
+    /// Displacement along the shear direction that is independent of the angle: A₀ + A₂.
     Along,
-    /// Displacement towards the shear's axis, over r²: 2 A₂/r².
+    /// Displacement towards the axis of the shear, divided by r²: 2 A₂/r².
     Radial,
-    /// Height of the bulge in front of the shear on its axis, over r.
+    /// Height of the bulge in front of the shear on its axis, divided by r.
     Bulge,
-    /// Derivative by r of the bulge over r, over r.
+    /// Derivative with respect to r of the bulge over r, divided by r.
     BulgeSlope,
 }
 
 impl Quantity {
-    /// All quantities, in order of their numbers.
+    /// All quantities, in the order of their numbers.
     pub const ALL: [Quantity; 7] = [
         Quantity::Sink,
         Quantity::SinkSlope,
@@ -32,7 +32,7 @@ impl Quantity {
         Quantity::BulgeSlope,
     ];
 
-    /// True for responses to the shear, false for those to the pressure.
+    /// True for responses to the shear, false for responses to the pressure.
     pub(super) const fn is_of_shear(self) -> bool {
         !matches!(
             self,
@@ -40,7 +40,7 @@ impl Quantity {
         )
     }
 
-    /// Power of the contact radius in the denominator of its unit.
+    /// Power of the contact radius in the denominator of the unit.
     pub(super) const fn radius_power(self) -> u8 {
         match self {
             Quantity::Sink | Quantity::Along => 1,

@@ -7,15 +7,15 @@ use super::quadrature::{Layer, Values};
 use super::radial::Quantity;
 use crate::number::narrow;
 
-/// Rows of a table, one for each contact radius: from 0.1 mm, three an octave, to 5 mm.
+/// Rows of a table, one for each contact radius: three per octave, from 0.1 mm to 5 mm.
 const ROWS: usize = 18;
 const SMALLEST_RADIUS_MM: f64 = 0.1;
-/// Step between nodes at which the integral is computed; a cubic interpolates between them.
+/// Step between nodes with a computed integral. A cubic interpolates between them.
 const STRIDE: usize = 4;
 
 /// Radial functions of a bonded incompressible layer at one depth below its surface.
 ///
-/// Construction evaluates some hundred thousand Bessel functions, in a tenth of a second; do it once a sensor.
+/// Construction evaluates some hundred thousand Bessel functions in a tenth of a second. Do it once per sensor.
 #[derive(Clone, Debug)]
 pub struct Tables {
     depth_mm: f64,
@@ -24,7 +24,7 @@ pub struct Tables {
 }
 
 impl Tables {
-    /// Computes the tables of a layer `thickness_mm` thick, `depth_mm` below its surface; 0 is the surface.
+    /// Computes the tables of a layer `thickness_mm` thick at `depth_mm` below its surface; 0 is the surface itself.
     pub fn new(thickness_mm: f64, depth_mm: f64) -> Tables {
         let radii_mm = std::array::from_fn(|row| {
             #[expect(clippy::cast_precision_loss, reason = "a row is a small number")]
@@ -54,8 +54,8 @@ impl Tables {
 
     /// Computes the row of `load` into `profile`, without allocation.
     ///
-    /// On the surface, the gel follows the ball exactly inside the contact. Outside, the sink is scaled to match at the rim, by less than 1
-    /// % for a ball of 2 mm.
+    /// On the surface, the gel follows the ball exactly inside the contact. Outside, the sink is scaled to match at the rim. The factor differs from
+    /// 1 by less than 1 % for a ball of 2 mm.
     pub fn profile(&self, load: &Load, profile: &mut Profile) {
         profile.clear();
         if load.normal_force_n <= 0.0 || load.contact_radius_mm <= 0.0 {
@@ -92,7 +92,7 @@ impl Tables {
     }
 }
 
-/// All radial functions of `layer`: the integral at each fourth node, cubics between, plus the closed form.
+/// All radial functions of `layer`: the integral at each fourth node, cubics between them, plus the closed form.
 fn fill(layer: &Layer) -> [Radial; Quantity::ALL.len()] {
     let radius = |position: usize| (node(position) - 1.0).sqrt();
     let coarse: Vec<(f64, Values)> = (0..NODES)
@@ -100,7 +100,7 @@ fn fill(layer: &Layer) -> [Radial; Quantity::ALL.len()] {
         .map(|position| (node(position), layer.integral(radius(position))))
         .collect();
     let mut tables = [[0.0; NODES]; Quantity::ALL.len()];
-    // The last node stays zero: the field ends there.
+    // The last node stays zero, because the field ends there.
     for position in 0..NODES - 1 {
         let smooth = interpolate(&coarse, position / STRIDE, node(position));
         let closed = layer.closed_form(radius(position));

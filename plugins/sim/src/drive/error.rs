@@ -1,11 +1,11 @@
-//! Shared parts of the devices: the argument that names their bench, and their errors.
+//! Shared parts of the devices: the argument with the name of their bench, and their errors.
 
 use taceva_core::{ArgSpec, ArgValue, Args, DriverError, DriverKey, ErrorKind};
 
 /// Key of the robot, which also reports failed mounts of specimens.
 pub(super) const ROBOT: DriverKey = DriverKey::fixed("sim/robot");
 
-/// Argument by which devices find each other.
+/// Argument that connects the devices of one bench.
 pub(super) fn rig_argument() -> ArgSpec {
     ArgSpec::text("rig")
         .default(ArgValue::Text("bench".to_owned()))
@@ -17,7 +17,7 @@ pub(super) fn rig_name(args: &Args) -> &str {
     args.text("rig")
 }
 
-/// Creates an error of a device with its reason.
+/// Creates an error of a device, with its reason.
 pub(super) fn failed(
     kind: ErrorKind,
     driver: &DriverKey,

@@ -13,7 +13,7 @@ use super::rig::SimulatedRig;
 use crate::parameters::Model;
 
 const KEY: DriverKey = DriverKey::fixed("sim/force-transducer");
-/// Reading rate, Hz; each reading averages over the time since the last.
+/// Reading rate, Hz. Each reading averages over the time since the last one.
 const RATE_HZ: f64 = 200.0;
 const READING: Duration = Duration::from_millis(5);
 /// Readings averaged for the tare.
@@ -98,7 +98,7 @@ impl ForceTransducer for SimulatedTransducer {
         let force_n = state.read();
         let range_n = state.force_range_n();
         if let Some(beyond) = force_n.iter().find(|force| force.abs() >= range_n) {
-            let why = format!("{beyond} N, expected less than {range_n} N");
+            let why = format!("{beyond} N exceeds the range, expected less than {range_n} N");
             return Err(failed(ErrorKind::OutOfRange, &KEY, doing, why));
         }
         let wrench = Wrench {

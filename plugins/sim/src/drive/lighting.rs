@@ -51,7 +51,7 @@ impl Factory<dyn Lighting> for LightingFactory {
 
 taceva_core::submit_builtin!(dyn Lighting, || Ok(Box::new(LightingFactory::new()?)));
 
-/// Lamps of a rig; they do not affect an opaque gel.
+/// Lamps of a rig. They do not affect an opaque gel.
 pub(super) struct Lamps {
     rig: SimulatedRig,
     driver: DriverKey,
@@ -89,7 +89,7 @@ impl Lighting for Lamps {
     }
 }
 
-/// Names of the scenes, that of calibration first.
+/// Names of the scenes. The calibration scene is the first.
 pub(super) fn scenes() -> Vec<String> {
     AmbientLight::ALL
         .map(|light| light.name().to_owned())

@@ -46,7 +46,7 @@ fn names(place: [Nanometre; 2]) -> Stream {
     Random::new(x).stream(Purpose::Draws, y)
 }
 
-/// Converts a place to whole nanometres; a coordinate out of range becomes 0.
+/// Converts a place to whole nanometres. A coordinate out of range becomes 0.
 pub(super) fn nanometres(place_mm: [f64; 2]) -> [Nanometre; 2] {
     place_mm.map(|side| Nanometre::from_millimetres(side).unwrap_or_default())
 }

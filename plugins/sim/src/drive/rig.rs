@@ -1,4 +1,4 @@
-//! The simulated rig, for the conduct of a run.
+//! Public handle of a simulated rig.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -42,7 +42,7 @@ impl SimulatedRig {
         bench
     }
 
-    /// Time of the rig's clock: that of the stamps of its devices.
+    /// Time of the rig's clock. The stamps of its devices use this clock.
     pub fn now(&self) -> Duration {
         self.state().now()
     }
@@ -66,16 +66,16 @@ impl SimulatedRig {
         Ok(())
     }
 
-    /// Names the next press: from the next tare in the air on, all its random numbers are a function of the name and the place. An
-    /// interrupted and resumed run therefore meets the same errors.
+    /// Names the next press. From the next tare in the air on, all its random numbers depend only on the name and the place. An interrupted and
+    /// resumed run therefore meets the same errors.
     ///
     /// Without names, visits to a place are counted.
     pub fn name_press(&self, name: u64) {
         self.state().name_visits(name);
     }
 
-    /// Delays the next tare in the air until `at` on the rig's clock, unless it is later already. With a schedule, an interrupted and
-    /// resumed run takes place at the original times.
+    /// Delays the next tare in the air until `at` on the rig's clock, unless that time has passed. A resumed run with a schedule therefore takes
+    /// place at the original times.
     pub fn schedule(&self, at: Duration) {
         self.state().schedule(at);
     }
@@ -91,12 +91,12 @@ impl SimulatedRig {
         state.bench.as_ref().map(|bench| bench.provenance())
     }
 
-    /// True contact of a ball now; `None` under a board or without a gel.
+    /// True present contact of a ball; `None` under a board or without a gel.
     pub fn truth(&self) -> Option<Contact> {
         self.state().contact()
     }
 
-    /// Locks the state and ignores poisoning: every change is complete before it can be interrupted.
+    /// Locks the state and ignores poisoning, because every change completes before any panic is possible.
     pub(super) fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }

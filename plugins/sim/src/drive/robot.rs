@@ -82,7 +82,7 @@ impl Factory<dyn Robot> for RobotFactory {
     }
 }
 
-/// Arguments. `gel` is for a sensor outside this bench: the forces come from that gel, the pictures do not show it.
+/// Arguments. `gel` is for a sensor outside this bench: the forces come from that gel, but the pictures do not show it.
 fn arguments() -> [ArgSpec; 3] {
     let gels = Model::ALL.map(Model::key);
     [
@@ -96,7 +96,7 @@ fn arguments() -> [ArgSpec; 3] {
     ]
 }
 
-/// Unit number of that gel.
+/// Unit number of the gel that `gel` names.
 const NOMINAL: u32 = 0;
 
 /// Gel that `args` name; `None` without one.
@@ -111,7 +111,7 @@ struct SimulatedRobot {
     latch: Arc<Latch>,
 }
 
-/// A halt that remains until it is cleared; each robot has its own.
+/// Halt that remains until it is cleared. Each robot has its own.
 #[derive(Debug, Default)]
 struct Latch {
     is_halted: AtomicBool,
@@ -146,7 +146,7 @@ impl SimulatedRobot {
             let why = format!("{speed}, expected at most {SPEED_MAX_MM_PER_S} mm/s");
             return Err(failed(ErrorKind::OutOfRange, &KEY, doing, why));
         }
-        // Rounded to the grid of the plugin boundary, so that a built-in bench and a plugin move alike.
+        // Rounded to the grid of the plugin interface, so a built-in bench and a plugin move alike.
         let speed = Speed::from_metres_per_second(speed.metres_per_second()).unwrap_or(speed);
         let is_halted = || self.latch.is_halted.load(Ordering::Acquire);
         let mut state = self.rig.state();
@@ -160,7 +160,7 @@ impl SimulatedRobot {
         match ended {
             Ended::Arrived | Ended::Guarded => Ok((ended, Stamp::at(state.now()))),
             Ended::OutOfTime => {
-                let why = format!("did not arrive within {deadline}");
+                let why = format!("the tip did not arrive within {deadline}");
                 Err(failed(ErrorKind::Timeout, &KEY, doing, why))
             }
             Ended::Halted => Err(failed(ErrorKind::Interrupted, &KEY, doing, "it was halted")),

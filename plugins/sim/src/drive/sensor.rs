@@ -43,7 +43,7 @@ impl SensorFactory {
         })
     }
 
-    /// Parameters by `args`: those of the model or of the table in `table`; without noise for `quiet`.
+    /// Parameters by `args`: from the model or the table in `table`, without noise for `quiet`.
     fn parameters(&self, args: &Args) -> Result<Parameters, String> {
         let table = args.get("table").and_then(ArgValue::as_text);
         let table = table.unwrap_or(self.model.table());
@@ -51,7 +51,7 @@ impl SensorFactory {
             true => Parameters::parse_quiet(table),
             false => Parameters::parse(table),
         };
-        parameters.map_err(|error| format!("the table of parameters, {error}"))
+        parameters.map_err(|error| format!("invalid `table`: {error}"))
     }
 }
 
@@ -61,7 +61,7 @@ impl Factory<dyn Sensor> for SensorFactory {
     }
 
     fn describe(&self, args: &Args) -> Result<Descriptor, DescriptorError> {
-        // An invalid table is rejected at opening, with its own message.
+        // An invalid table is rejected when the sensor is opened, with its own message.
         let parameters = self
             .parameters(args)
             .unwrap_or_else(|_| self.model.parameters());
@@ -135,7 +135,7 @@ impl Sensor for SimulatedSensor {
         self.camera.frame_info()
     }
 
-    /// Prepares the camera, so that the first picture meets its deadline like later ones.
+    /// Prepares the camera, so the first picture meets its deadline like later ones.
     fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
         self.camera.prepare();
         self.is_running = true;
@@ -150,7 +150,7 @@ impl Sensor for SimulatedSensor {
             return Err(refused(ErrorKind::InvalidArgument, why));
         }
         if !self.is_running {
-            let why = "it is not started".to_owned();
+            let why = "the sensor is not started".to_owned();
             return Err(refused(ErrorKind::InvalidArgument, why));
         }
         let mut state = self.rig.state();

@@ -22,7 +22,7 @@ use crate::parameters::{Model, Robot, Transducer};
 use crate::random::{Purpose, Random};
 use crate::rig::TransducerModel;
 
-/// State behind the devices of one rig.
+/// State of the devices of one rig.
 #[derive(Debug)]
 pub(super) struct State {
     now: Ticks,
@@ -43,7 +43,7 @@ pub(super) struct State {
     tare_n: [f64; 3],
     visits: Visits,
     visit: Visit,
-    /// Name of the coming visits, if given.
+    /// Name of the next visits, if given.
     name: Option<u64>,
     /// Earliest start of the next visit.
     appointment: Ticks,
@@ -159,7 +159,7 @@ impl State {
         std::array::from_fn(|axis| raw[axis] - self.tare_n[axis])
     }
 
-    /// Sets the tare to the mean of `readings` readings. In the air this begins a new visit if the gel was touched or visits are named.
+    /// Sets the tare to the mean of `readings` readings. In the air, this begins a new visit if the gel was touched or visits have names.
     pub(super) fn tare(&mut self, readings: u32) {
         let is_over = self.visit.has_touched || self.name.is_some();
         if self.visit.touch.is_none() {
@@ -245,7 +245,7 @@ impl State {
         }
     }
 
-    /// Begins a visit in the air. Draws a new position error, so that later results do not depend on the path.
+    /// Begins a visit in the air. Draws a new position error, so later results do not depend on the path.
     fn begin_visit(&mut self) {
         let sent = coordinates(&self.sent);
         let mut key = self.visits.next([sent[0], sent[1]]);
@@ -272,7 +272,7 @@ impl State {
             Some(touch) => touch,
             None => {
                 let [x, y, z] = self.tip_mm;
-                // Above the highest place of the gel, its surface need not be computed.
+                // Above the highest point of the gel, its surface is not computed.
                 if z < -bench.unit().height_max_mm() {
                     return;
                 }

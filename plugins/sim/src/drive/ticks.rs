@@ -4,12 +4,12 @@ use std::time::Duration;
 
 /// A time or a span in whole nanoseconds, like the stamps of the bench.
 ///
-/// A span is therefore equal at every start time, and a run resumed at another hour records the same.
+/// A span is therefore independent of its start time, and a resumed run records the same values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Ticks(u64);
 
 impl Ticks {
-    /// Converts a span, saturating at 584 years.
+    /// Converts a span. Saturates at 584 years.
     pub(super) fn of(span: Duration) -> Ticks {
         Ticks(u64::try_from(span.as_nanos()).unwrap_or(u64::MAX))
     }

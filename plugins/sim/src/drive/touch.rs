@@ -33,7 +33,7 @@ impl Touch {
         self.deepest_mm
     }
 
-    /// Advances to the position of the tip `step_s` later; returns true if it is in the gel.
+    /// Advances to the position of the tip `step_s` later. Returns true if the tip is in the gel.
     pub(super) fn follow(
         &mut self,
         bench: &Bench,

@@ -22,10 +22,10 @@ pub(super) struct Visit {
     pub(super) surface: Option<SurfaceBelow>,
 }
 
-/// Errors of robot and transducer in a visit: drawn once.
+/// Errors of robot and transducer in one visit, drawn once.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct VisitErrors {
-    /// Position error of the robot, which differs between visits and is constant within one.
+    /// Position error of the robot. It differs between visits and is constant within one.
     pub(super) position_mm: [f64; 3],
     /// Drift of the transducer's zero.
     pub(super) zero_n: [f64; 3],
@@ -49,7 +49,7 @@ impl VisitErrors {
     }
 }
 
-/// Height of the gel below a place, computed once a visit.
+/// Height of the gel below a place, computed once per visit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SurfaceBelow {
     mounted: Mounted,
@@ -58,7 +58,7 @@ pub(super) struct SurfaceBelow {
 }
 
 impl SurfaceBelow {
-    /// Surface below `place_mm`; reuses `known` if place and specimen match.
+    /// Surface below `place_mm`. Reuses `known` if place and specimen are the same.
     pub(super) fn at(
         bench: &Bench,
         mounted: Mounted,

@@ -1,7 +1,7 @@
-//! A rig on wall-clock time, which passes without anybody waiting.
+//! A rig on wall-clock time, which passes without waiting calls.
 //!
-//! Devices of a rig advance its clock themselves. An emulated controller cannot: its clients come and go while time passes. Here the caller
-//! sets the time by [`advance`](SimulatedRig::advance), and all else follows.
+//! Devices of a rig advance its clock themselves. An emulated controller cannot: its clients connect and disconnect while time passes. Here the
+//! caller sets the time by [`advance`](SimulatedRig::advance), and the state follows.
 
 use std::time::Duration;
 
@@ -13,7 +13,7 @@ use crate::bench::Bench;
 use crate::optics::{AmbientLight, Camera, Luma, OpticsError};
 
 impl SimulatedRig {
-    /// Installs the gel of `bench` under the tip, in place of the last one; opens no sensor.
+    /// Installs the gel of `bench` under the tip, in place of the last one. Opens no sensor.
     pub fn lay(&self, bench: Bench) {
         self.state().lay(bench);
     }
@@ -30,7 +30,7 @@ impl SimulatedRig {
     /// bench.set_out(target, Speed::try_new(2.0)?);
     /// bench.advance(Duration::from_millis(500));
     /// // Nearly: the robot stands beside its targets by some 0.01 mm.
-    /// assert!(bench.is_moving() && (bench.pose_now().position.z.0 + 19.0).abs() < 0.05);
+    /// Approximate, because the robot has a position error of some 0.01 mm.
     /// bench.advance(Duration::from_secs(2));
     /// assert_eq!((bench.is_moving(), bench.pose_now()), (false, target));
     /// # Ok::<(), taceva_core::SpeedError>(())
@@ -49,7 +49,7 @@ impl SimulatedRig {
         self.state().is_moving()
     }
 
-    /// Advances the clock to `until` and the tip along its motion; a time in the past changes nothing.
+    /// Advances the clock to `until` and the tip along its motion. A time in the past has no effect.
     pub fn advance(&self, until: Duration) {
         self.state().advance(until);
     }
@@ -79,7 +79,7 @@ impl SimulatedRig {
         self.state().light = light;
     }
 
-    /// Renders the current view of `camera`; returns its brightness.
+    /// Renders the current view of `camera` and returns its brightness.
     ///
     /// # Errors
     /// [`OpticsError`] if `into` is not a frame of that camera.

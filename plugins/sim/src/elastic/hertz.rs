@@ -1,8 +1,8 @@
 //! A rigid ball on an elastic half-space.
 //!
 //! # Reference
-//! Hertz (1882); Johnson, *Contact Mechanics* (1985), chapters 3 and 4. The ball counts as a paraboloid, which holds for contact radii up
-//! to a third of the ball's. At half the radius of the ball the exact sphere presses about 10 % less hard.
+//! Hertz (1882); Johnson, *Contact Mechanics* (1985), chapters 3 and 4. The ball counts as a paraboloid, which is valid for contact radii up to a
+//! third of the ball's radius. At half that radius, the force of an exact sphere is about 10 % lower.
 
 use std::f64::consts::PI;
 
@@ -37,7 +37,7 @@ pub fn profile(rho: f64) -> f64 {
     ((2.0 - squared) * libm::asin(1.0 / rho) + (squared - 1.0).sqrt()) / PI
 }
 
-/// Derivative of [`profile`] by ρ, over ρ: finite at the centre.
+/// Derivative of [`profile`] with respect to ρ, divided by ρ: finite at the centre.
 pub fn profile_slope(rho: f64) -> f64 {
     if rho <= 1.0 {
         return -1.0;

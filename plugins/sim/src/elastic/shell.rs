@@ -11,7 +11,7 @@ pub fn decay_length(radius_mm: f64, thickness_mm: f64, poisson_ratio: f64) -> f6
     (radius_mm * thickness_mm).sqrt() / (12.0 * (1.0 - poisson_ratio * poisson_ratio)).sqrt().sqrt()
 }
 
-/// Depth of the dimple at `arc` decay lengths from the load, relative to the depth under it.
+/// Depth of the dimple at `arc` decay lengths from the load, relative to its depth under the load.
 pub fn dimple(arc: f64) -> f64 {
     -kelvin::kei(arc) / FRAC_PI_4
 }

@@ -1,8 +1,8 @@
-//! A band of rows of a picture while it is rendered.
+//! A band of rows of a picture during rendering.
 
 use std::ops::Range;
 
-/// Rows of light in DN, pixel by pixel, with the colours of a pixel together.
+/// Rows of light in DN, pixel by pixel, with the colours of a pixel side by side.
 #[derive(Debug)]
 pub(super) struct Band<'a> {
     /// First row of the band in the frame.
@@ -29,7 +29,7 @@ impl Band<'_> {
         first..rows.end.min(own.end).max(first)
     }
 
-    /// Light of the band's row `position`, counted from its first.
+    /// Light of row `position` of the band, counted from its first row.
     pub(super) fn row_mut(&mut self, position: usize) -> &mut [f32] {
         let length = self.width * self.channels;
         &mut self.light[position * length..][..length]

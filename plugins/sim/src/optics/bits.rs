@@ -2,10 +2,10 @@
 
 use taceva_core::{FrameInfo, PixelFormat};
 
-/// Bits of a sample: 8, one count a DN; or 16, 256 counts a DN.
+/// Bits of a sample: 8, with 1 count per DN; or 16, with 256 counts per DN.
 ///
-/// Eight bits suffice if the noise of a pixel is a good part of a DN. They take a fifth of the space in lossless storage. The additional
-/// bits of sixteen are mostly noise.
+/// Eight bits suffice if the noise of a pixel is a large part of a DN. They need a fifth of the space in lossless storage. The additional bits of
+/// sixteen are mostly noise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bits {
     /// 8 bits.
@@ -26,7 +26,7 @@ impl Bits {
         }
     }
 
-    /// Changes the samples of `info` to this number of bits.
+    /// Format of `info` with this number of bits per sample.
     pub fn of(self, info: FrameInfo) -> FrameInfo {
         let is_gray = info.format.samples() == 1;
         let format = match (self, is_gray) {

@@ -19,9 +19,8 @@ use crate::random::{Purpose, Random};
 
 /// Camera of one unit of a tactile sensor, at one frame size.
 ///
-/// A picture is a function of the sensor, the unit, the seed and the [`View`] only; earlier pictures, thread and processor do not matter.
-/// At full size samples have 8 bits. At a reduced size they have 16, 256 counts a DN, with averaged pixel noise that is not rounded to
-/// whole DN.
+/// A picture depends only on the sensor, the unit, the seed and the [`View`], not on earlier pictures, threads or the processor. Samples have 8 bits
+/// at full size. At a reduced size they have 16 bits, 256 counts per DN, and averaged pixel noise without rounding to whole DN.
 ///
 /// ```
 /// use taceva_core::FrameMut;
@@ -42,7 +41,7 @@ pub struct Camera {
     binning: f64,
     random: Random,
     is_transparent: bool,
-    /// Inputs of the gel, and the gel once it is needed: its tables are expensive.
+    /// Inputs of the gel. The gel is computed when it is needed, because its tables are expensive.
     unmade: (GelSpec, Raster, u32),
     gel: Option<Gel>,
     /// Rows of a band, and its buffer.
@@ -50,14 +49,14 @@ pub struct Camera {
     light: Vec<f32>,
 }
 
-/// Values in a band, which fits the first cache of the processor.
+/// Values in a band: as many as fit into the first-level cache.
 const BAND: usize = 6144;
 
 impl Camera {
-    /// Creates the camera of unit `unit` of a sensor, with frames of `size` pixels, width first, and the noise of `seed`.
+    /// Creates the camera of unit `unit` of a sensor with the noise of `seed`. `size` is width and height of frames, pixels.
     ///
     /// # Errors
-    /// [`OpticsError::Size`] for an empty frame or one larger than that of the sensor.
+    /// [`OpticsError::Size`] for an empty frame or one larger than the sensor's full frame.
     pub fn new(
         spec: &OpticsSpec,
         size: [u32; 2],
@@ -82,7 +81,7 @@ impl Camera {
         })
     }
 
-    /// Changes the bits of a sample; view and noise stay, only the quantisation changes.
+    /// Changes the bits of a sample. View and noise stay; only the quantisation changes.
     pub fn with_bits(mut self, bits: Bits) -> Camera {
         self.info = bits.of(self.info);
         self
@@ -98,7 +97,7 @@ impl Camera {
         self.is_transparent
     }
 
-    /// Computes the tables of the gel, within a second; otherwise the first picture does.
+    /// Computes the tables of the gel, within a second. Otherwise the first picture computes them.
     pub fn prepare(&mut self) {
         noise::prepare();
         self.gel();
@@ -107,7 +106,7 @@ impl Camera {
     /// Renders a picture.
     ///
     /// # Errors
-    /// [`OpticsError::Frame`] for a buffer of another frame, [`OpticsError::Opaque`] for a scene of light that an opaque gel blocks, and
+    /// [`OpticsError::Frame`] for a buffer of another frame format, [`OpticsError::Opaque`] for a light scene that an opaque gel blocks, and
     /// [`OpticsError::Value`] for values out of range. The buffer is then unchanged.
     pub fn render(&mut self, view: &View, mut into: FrameMut<'_>) -> Result<Luma, OpticsError> {
         if into.info() != self.info {
@@ -144,7 +143,7 @@ impl Camera {
         for rows in bytes.chunks_mut(self.band_rows * row_length * sample_bytes) {
             let length = rows.len() / sample_bytes;
             let light = &mut self.light[..length];
-            // The gel was created when the view was posed.
+            // Posing the view has already created the gel.
             if let Some(gel) = &self.gel {
                 gel.paint(&mut Band {
                     first_row,
@@ -251,7 +250,7 @@ mod tests {
             };
             for (fine, coarse) in fine.iter().zip(&coarse) {
                 let fine = f64::from(u16::from_le_bytes(*fine)) / 256.0;
-                // Rounding to a half, plus the rounding of the finer step.
+                // Rounding error of one half, plus that of the finer quantisation.
                 let off = (fine.min(255.0) - f64::from(*coarse)).abs();
                 assert!(off <= 0.5 + 1.0 / 256.0, "{model}: {fine} {coarse}");
             }

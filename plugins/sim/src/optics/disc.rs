@@ -4,7 +4,7 @@ use super::band::Band;
 use super::raster::Raster;
 use crate::number::{count, narrow};
 
-/// Attenuation by a disc, by the squared distance from its centre.
+/// Attenuation by a disc, as a function of the squared distance from its centre.
 #[derive(Clone, Debug)]
 pub(super) struct Disc {
     /// Remaining light, from the centre to the reach.
@@ -16,7 +16,7 @@ pub(super) struct Disc {
 /// Parameters of a disc, in the field's unit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DiscSpec {
-    /// Radius, at which half of its darkness is reached.
+    /// Radius, at which a disc has half of its darkness.
     pub(super) radius: f64,
     /// Absorbed part of the light at its centre: 0 to 1.
     pub(super) darkness: f64,
@@ -25,11 +25,11 @@ pub(super) struct DiscSpec {
 }
 
 const BINS: usize = 256;
-/// Reach of a disc beyond its radius, in edge scales. Its darkness there, 7·10⁻³, is subtracted so that it ends without a step.
+/// Reach of a disc beyond its radius, in edge scales. Its darkness there, 7·10⁻³, is subtracted, so the disc ends without a step.
 const EDGES: f64 = 5.0;
 
 impl Disc {
-    /// Creates a disc for pixels of `raster`; its edge is at least a quarter of a pixel wide.
+    /// Creates a disc for pixels of `raster`. Its edge is at least a quarter of a pixel wide.
     pub(super) fn new(spec: DiscSpec, raster: &Raster) -> Disc {
         let pixel = 0.5 * f64::from(raster.pitch[0] + raster.pitch[1]);
         let edge = (spec.edge * spec.edge + pixel * pixel / 16.0).sqrt();
@@ -73,7 +73,7 @@ impl Disc {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "a square is not negative, and what lies beyond the table is its end"
+            reason = "a square is not negative, and the index is clamped to the table"
         )]
         let bin = (place as usize).min(BINS - 1);
         let fraction = (place - narrow(count(bin))).min(1.0);

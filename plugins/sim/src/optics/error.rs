@@ -5,7 +5,7 @@ use thiserror::Error;
 
 use super::ambient::AmbientLight;
 
-/// Reasons for which a camera cannot be made, or cannot take a picture.
+/// Reasons why a camera cannot be created or cannot render a picture.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum OpticsError {

@@ -1,4 +1,4 @@
-//! GelSight: a coated gel that shows its slopes in the colours of the lamps around it.
+//! GelSight: a coated gel. Its slopes appear in the colours of the lamps around it.
 
 mod dent;
 mod lamp;
@@ -40,7 +40,7 @@ struct Scene {
     spec: GelsightSpec,
     lamps: Vec<Lamp>,
     ambient: [f32; 3],
-    /// Slope of the untouched surface per mm, towards the camera.
+    /// Slope of the untouched surface per mm of distance, towards the camera.
     sag: [f32; 2],
     /// Reflectance of the coating at each pixel.
     reflectance: Vec<f32>,
@@ -218,7 +218,7 @@ impl Scene {
         }
     }
 
-    /// Shades the pixels of a row of the frame; `press` adds to the slopes of the untouched gel.
+    /// Shades the pixels of a row of the frame. `press` adds its slopes to those of the untouched gel.
     #[inline(always)]
     fn shade(
         &self,
@@ -255,7 +255,7 @@ impl Scene {
     }
 }
 
-/// Texel of the coating, mm; six texels, 1.1 mm, are the standard deviation of its smoothing.
+/// Texel of the coating, mm. The standard deviation of its smoothing is six texels, 1.1 mm.
 const TEXEL_MM: f64 = 0.18;
 /// Scale of a marker's edge, mm.
 const MARKER_EDGE_MM: f64 = 0.045;

@@ -1,9 +1,9 @@
 //! Brightness of a frame.
 
-/// Brightness of a frame, summed as integers while the frame is rendered.
+/// Brightness of a frame, summed in integers during rendering.
 ///
 /// # Units
-/// Digital numbers (DN) of an 8-bit camera, 0 to 255, whatever the frame's format.
+/// Digital numbers (DN) of an 8-bit camera, 0 to 255, for any frame format.
 /// # Reference
 /// Luma of ITU-R BT.601: (299 R + 587 G + 114 B) / 1000; gray counts as all three.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -14,7 +14,7 @@ pub struct Luma {
     counts_per_dn: u64,
 }
 
-/// The weights of red, green and blue, in thousandths.
+/// Weights of red, green and blue, in thousandths.
 const WEIGHTS: [u64; 3] = [299, 587, 114];
 
 impl Luma {
@@ -26,7 +26,7 @@ impl Luma {
         }
     }
 
-    /// Adds a row of `pixels` pixels from `sums` by lane; lane i has colour i modulo 3.
+    /// Adds a row of `pixels` pixels from `sums` by lane. Lane i has colour i modulo 3.
     pub(super) fn add_row(&mut self, sums: &[u32], channels: usize, pixels: usize) {
         for (lane, sum) in sums.iter().enumerate() {
             let weight = if channels == 1 {
@@ -41,7 +41,7 @@ impl Luma {
 
     /// Mean over the frame, in DN; 0 for an empty frame.
     ///
-    /// A frame at a reduced size is not rounded to whole DN, so its mean is that of the full-size frame within the noise.
+    /// A reduced frame is not rounded to whole DN, so its mean equals that of the full-size frame within the noise.
     pub fn mean_dn(&self) -> f64 {
         let counts = self.pixels.max(1) * self.counts_per_dn.max(1) * 1000;
         #[expect(

@@ -1,4 +1,4 @@
-//! MagicTac: a clear block that shows the motion of three layers of a lattice.
+//! MagicTac: a clear block. Its picture shows the motion of a lattice in three layers.
 
 mod glow;
 mod lattice;
@@ -66,7 +66,7 @@ enum Touch {
     Board(Relief),
 }
 
-/// Facing of the surface that brightens red, green and blue: along x, along y.
+/// Directions of surface slope that brighten red, green and blue: along x, then along y.
 const FACING: [[f32; 4]; 2] = [[0.7, -0.8, 0.0, 0.0], [-0.5, -0.2, 0.9, 0.0]];
 
 impl Magictac {
@@ -125,7 +125,7 @@ impl Magictac {
         }
     }
 
-    /// Paints a ball. The lattice moves smoothly, so its shift is computed for every other pixel of a row and averaged between.
+    /// Renders a ball. The lattice moves smoothly, so its shift is computed for every other pixel of a row and averaged between them.
     #[inline(always)]
     fn paint_ball(&self, band: &mut Band<'_>) {
         let (scene, raster, shift) = (&*self.scene, &self.scene.raster, &self.shift);
@@ -155,7 +155,7 @@ impl Magictac {
         }
     }
 
-    /// Adds random buckling of the loaded lattice: a part of its shift, in a random direction.
+    /// Adds random buckling of the loaded lattice: a fraction of its shift, in a random direction.
     #[inline(always)]
     fn buckled(&self, mut moved: Moved, x: f32, y: f32) -> Moved {
         let [chance_x, chance_y] = (self.scene.buckling)
@@ -219,7 +219,7 @@ struct Source {
 }
 
 impl Source {
-    /// Light of a pixel with the lattice `pattern`, brightened by the part `brighter`.
+    /// Light of a pixel with the lattice `pattern`, brightened by the fraction `brighter`.
     #[inline(always)]
     fn under(&self, pattern: &[f32; 4], brighter: f32) -> [f32; 3] {
         [0, 1, 2].map(|colour: usize| {
@@ -271,7 +271,7 @@ impl Scene {
         }
     }
 
-    /// Relative change of the light by lattice and surface at `x`, `y`: red, green and blue, around 0.
+    /// Relative change of the light by lattice and surface at `x`, `y`, for red, green and blue, around 0.
     #[inline(always)]
     fn pattern(&self, moved: &Moved, x: f32, y: f32) -> [f32; 4] {
         let [slope_x, slope_y] = [moved.x.to_array()[3], moved.y.to_array()[3]];

@@ -1,8 +1,8 @@
-//! Noise from a tile of normal numbers, which every row enters at its own place.
+//! Noise from a tile of normal numbers. Each row starts at a different place of the tile.
 //!
-//! A normal number for each pixel would cost more than the rest of a frame. So 65,536 are drawn once, and a row is a stretch of the tile
-//! with a random start and sign. Numbers within a row are independent. Overlapping rows repeat each other shifted, which no statistic over
-//! a frame shows, as a test bounds.
+//! A new normal number for each pixel would cost more than the rest of a frame. So 65,536 numbers are drawn once, and a row is a stretch of the tile
+//! with a random start and sign. Numbers within a row are independent. Overlapping rows repeat the same numbers, shifted. A test bounds the effect on
+//! the statistics of a frame.
 
 use std::sync::OnceLock;
 
@@ -11,9 +11,9 @@ use crate::random::{Purpose, Random, Stream};
 
 /// Size of the tile.
 const TILE: usize = 1 << 16;
-/// Longest row: three colours of 16,384 pixels. The tile repeats its start by so much at its end.
+/// Longest row: three colours of 16,384 pixels. This many numbers at the start of the tile are repeated at its end.
 pub(super) const LONGEST_ROW: usize = 3 << 14;
-/// Fixed seed: the tile is a constant of the model.
+/// Fixed seed, because the tile is a constant of the model.
 const TILE_SEED: u64 = 0x7411_e5ee_d0ff_0a15;
 
 /// Noise of one row: a stretch of the tile, and its sign.
@@ -38,13 +38,13 @@ pub(super) fn prepare() {
     tile();
 }
 
-/// 65,536 numbers of mean 0 and standard deviation 1, followed by the first ones again.
+/// 65,536 numbers of mean 0 and standard deviation 1, followed by a copy of the first ones.
 fn tile() -> &'static [f32] {
     static NUMBERS: OnceLock<Vec<f32>> = OnceLock::new();
     NUMBERS.get_or_init(|| {
         let stream = Random::new(TILE_SEED).stream(Purpose::PixelNoise, 0);
         let drawn: Vec<f64> = (0..TILE as u64).map(|index| stream.normal(index)).collect();
-        // Standardised, so that the draw does not shift the mean of a frame.
+        // Standardised, so the draw does not shift the mean of a frame.
         let mean = drawn.iter().sum::<f64>() / count(TILE);
         let variance = drawn.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / count(TILE);
         let scale = 1.0 / variance.sqrt();

@@ -2,9 +2,9 @@
 
 use crate::number::narrow;
 
-/// A pixel grid over a field of view centred on the axis; x to the right, y up, row 0 on top.
+/// A pixel grid over a field of view centred on the axis: x to the right, y up, row 0 at the top.
 ///
-/// A frame of another shape shows the same field, so its pixels need not be square.
+/// A frame with another aspect ratio shows the same field, so its pixels need not be square.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Raster {
     pub(super) width: usize,
@@ -24,13 +24,13 @@ impl Raster {
         }
     }
 
-    /// x of the middle of a column.
+    /// x of the centre of a column.
     #[inline]
     pub(super) fn x(&self, column: usize) -> f32 {
         self.pitch[0] * (whole(column) + 0.5 - 0.5 * whole(self.width))
     }
 
-    /// y of the middle of a row.
+    /// y of the centre of a row.
     #[inline]
     pub(super) fn y(&self, row: usize) -> f32 {
         self.pitch[1] * (0.5 * whole(self.height) - 0.5 - whole(row))
@@ -54,7 +54,7 @@ fn span(middle: f32, reach: f32, count: usize) -> std::ops::Range<usize> {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "clamped to the frame, and a cast of a float saturates"
+            reason = "clamped to the frame, and a float cast saturates"
         )]
         let at = at.clamp(0.0, whole(count)) as usize;
         at

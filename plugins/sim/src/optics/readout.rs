@@ -17,20 +17,20 @@ pub(super) struct Readout {
     pub(super) shot: f32,
     /// s², DN².
     pub(super) read_variance: f32,
-    /// Counts of one DN: 1 in 8 bit, 256 in 16 bit.
+    /// Counts per DN: 1 for 8 bits, 256 for 16 bits.
     pub(super) counts_per_dn: f32,
-    /// The greatest count.
+    /// Greatest count.
     pub(super) full_counts: f32,
 }
 
 /// Samples in one vector step: a multiple of three colours and of every vector width.
 pub(super) const LANES: usize = 24;
 
-/// Magic number: added to a value from 0 to 2¹⁶, it leaves the nearest integer in the low bits, ties to even, without a cast.
+/// Constant for rounding. Added to a value from 0 to 2¹⁶, it leaves the nearest integer in the low bits, ties to even, without a cast.
 const ROUND: f32 = 8_388_608.0;
 
 impl Readout {
-    /// Writes the samples of a row of `light` in DN, `BYTES` bytes each, and returns the sums of their counts by lane.
+    /// Writes the samples of a row of `light` in DN, `BYTES` bytes each. Returns the sums of their counts by lane.
     #[inline(always)]
     pub(super) fn row<const BYTES: usize>(
         &self,

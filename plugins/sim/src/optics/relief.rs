@@ -9,7 +9,7 @@ use super::stimulus::Board;
 use crate::elastic::kernel::Kernel;
 use crate::number::narrow;
 
-/// Layer, lens and pixel between a grating and its picture.
+/// Layer, lens and pixels between a grating and its picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
     /// Thickness of the gel that follows the grating; `None` if the camera sees the board through the gel.
@@ -30,7 +30,7 @@ pub(super) struct Window {
 /// * A pixel of side p passes sin(k p/2) / (k p/2), the same in every direction.
 #[derive(Clone, Debug)]
 pub(super) struct Relief {
-    /// Amplitude of harmonics 1, 3 and 5 along u, for each of those along v; only the first row for lines. Within ±1.
+    /// Amplitude of harmonics 1, 3 and 5 along u, for each harmonic along v, within ±1. Lines use only the first row.
     left: [[f32; 3]; 3],
     kind: GratingKind,
     wave_number: f32,
@@ -48,7 +48,7 @@ const EDGE_MM: f32 = 0.15;
 const HARMONICS: [f64; 3] = [1.0, 3.0, 5.0];
 
 impl Relief {
-    /// Visible part of the grating of `board` through `window`.
+    /// Visible part of the grating of `board`, seen through `window`.
     ///
     /// # Errors
     /// [`OpticsError::Value`] for a pressure or modulus that is not positive, or a place that is not finite.
@@ -98,7 +98,7 @@ impl Relief {
         (HALF_SIDE_MM + 8.0 * EDGE_MM) * std::f32::consts::SQRT_2
     }
 
-    /// Relief at a place, relative to the full one, within ±1; positive towards the camera.
+    /// Relief at a place, relative to the full relief, within ±1; positive towards the camera.
     pub(super) fn at(&self, x: f32, y: f32) -> f32 {
         let [u, v] = self.on_board(x, y);
         let [along, _] = waves(self.wave_number * u);
@@ -106,7 +106,7 @@ impl Relief {
         board_edge(u) * board_edge(v) * self.sum(&along, &across)
     }
 
-    /// Slope towards the camera at a place, along x and along y.
+    /// Slope towards the camera at a place, along x and y.
     pub(super) fn slope(&self, x: f32, y: f32) -> [f32; 2] {
         let [u, v] = self.on_board(x, y);
         let [along, along_slope] = waves(self.wave_number * u);
@@ -153,14 +153,14 @@ fn square_wave(m: f64) -> f64 {
     libm::cos((m - 1.0) * FRAC_PI_2).signum() / (FRAC_PI_4 * m)
 }
 
-/// Part of a wave's amplitude that the layer follows.
+/// Fraction of a wave's amplitude that the layer follows.
 fn followed(board: &Board, amplitude_mm: f64, k: f64, thickness_mm: f64) -> f64 {
     let kernel = Kernel::of_layer(k * thickness_mm, 0.5);
     let needed = amplitude_mm * k * board.young_modulus_mpa / (1.5 * kernel.normal);
     (board.pressure_mpa / needed).min(1.0)
 }
 
-/// Part of a wave's amplitude that lens and pixel pass.
+/// Fraction of a wave's amplitude that passes lens and pixel.
 fn resolved(window: &Window, k: f64) -> f64 {
     let blur = k * window.blur_mm;
     let half_pixel = 0.5 * k * window.pixel_mm;
@@ -172,7 +172,7 @@ fn resolved(window: &Window, k: f64) -> f64 {
     libm::exp(-0.5 * blur * blur) * pixel
 }
 
-/// cos φ, cos 3φ, cos 5φ and their derivatives by φ, from one sine and cosine.
+/// cos φ, cos 3φ, cos 5φ and their derivatives with respect to φ, from one sine and cosine.
 fn waves(phase: f32) -> [[f32; 3]; 2] {
     let (s, c) = libm::sincosf(phase);
     let square = c * c;
@@ -190,7 +190,7 @@ fn waves(phase: f32) -> [[f32; 3]; 2] {
     ]
 }
 
-/// Weight of a place along one axis of the board: 1 on it, 0 outside.
+/// Weight of a place along one axis of the board: 1 on the board, 0 outside.
 fn board_edge(along: f32) -> f32 {
     let beyond = (along.abs() - HALF_SIDE_MM) / EDGE_MM;
     if beyond > 8.0 {
@@ -265,7 +265,7 @@ mod tests {
 
     #[test]
     fn the_layer_follows_as_much_as_the_table_of_pressures_says() {
-        // Simulated bench, gratings: 0.2 mm needs 0.55, 0.27, 0.14, 0.08 MPa at 0.25, 0.5, 1, 1.75 mm on the GelSight gel.
+        // Pressures of the simulated bench for gratings: 0.2 mm needs 0.55, 0.27, 0.14, 0.08 MPa at 0.25, 0.5, 1, 1.75 mm on the GelSight gel.
         for (spacing, needed) in [(0.25, 0.55), (0.5, 0.27), (1.0, 0.14), (1.75, 0.08)] {
             let part = followed(&board(GratingKind::Line, 250_000), 0.2, PI / spacing, 4.25);
             let expected = (0.1_f64 / needed).min(1.0);

@@ -16,15 +16,15 @@ pub struct OpticsSpec {
     pub native: [u32; 2],
     /// Width and height of the visible field, in the gel's unit: mm, or radii of the dome's rim.
     pub field: [f64; 2],
-    /// The camera.
+    /// Camera of the sensor.
     pub camera: CameraSpec,
     /// True if ambient light reaches the camera.
     pub is_transparent: bool,
-    /// The gel.
+    /// Gel of the sensor.
     pub gel: GelSpec,
 }
 
-/// The noise of a camera at full size.
+/// Noise of a camera at full size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraSpec {
     /// Variance of the shot noise per DN of light.
@@ -61,13 +61,13 @@ fn pixels(count: f64) -> u32 {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "a cast of a float saturates, and parameters are checked to lie between 16 and 16,384"
+        reason = "a float cast saturates, and parameters are checked to be 16 to 16,384"
     )]
     let count = count.round() as u32;
     count
 }
 
-/// The gel in front of a camera.
+/// Gel in front of a camera.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum GelSpec {
@@ -87,10 +87,10 @@ impl GelSpec {
 }
 
 impl OpticsSpec {
-    /// Optics of the sensor with `parameters`: a dome is a ViTacTip, a layer with a lattice a MagicTac, and any other layer a GelSight,
-    /// with markers if it has them.
+    /// Optics of the sensor with `parameters`. A dome is a ViTacTip, and a layer with a lattice is a MagicTac. Any other layer is a GelSight, with
+    /// markers if it has them.
     ///
-    /// The longer side of the frame follows the longer side of the gel; a dome's frame is cut to a square.
+    /// The longer side of the frame is that of the gel. The frame of a dome is cropped to a square.
     pub fn new(parameters: &Parameters) -> OpticsSpec {
         let camera = &parameters.camera;
         let [longer, shorter] = {
@@ -130,7 +130,7 @@ impl OpticsSpec {
     /// Size and format of a frame of `size` pixels: 8 bits at full size, 16 below it.
     ///
     /// # Errors
-    /// [`OpticsError::Size`] for an empty frame, or one with more rows or columns than the sensor has.
+    /// [`OpticsError::Size`] for an empty frame, or one with more rows or columns than the full-size frame.
     pub fn frame_info(&self, size: [u32; 2]) -> Result<FrameInfo, OpticsError> {
         let [width, height] = size;
         let [native_width, native_height] = self.native;
@@ -157,7 +157,7 @@ impl OpticsSpec {
         })
     }
 
-    /// Full-size pixels in one pixel of a frame of `size`.
+    /// Number of full-size pixels in one pixel of a frame of `size`.
     pub(super) fn binning(&self, size: [u32; 2]) -> f64 {
         let pixels = |size: [u32; 2]| f64::from(size[0]) * f64::from(size[1]);
         pixels(self.native) / pixels(size)

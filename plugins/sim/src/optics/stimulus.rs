@@ -10,7 +10,7 @@ pub enum Stimulus {
     /// Nothing.
     #[default]
     Nothing,
-    /// A ball, in the contact of the bench.
+    /// A ball, with its contact on the bench.
     Ball(Contact),
     /// A board with a grating.
     Board(Board),
@@ -25,7 +25,7 @@ pub struct Board {
     pub pose: GratingPose,
     /// Pressure over its whole area.
     pub pressure_mpa: f64,
-    /// Depth in a dome, by which it is nearer to the camera.
+    /// Depth in a dome, which brings the board nearer to the camera.
     pub depth_mm: f64,
     /// Effective modulus of the gel.
     pub young_modulus_mpa: f64,

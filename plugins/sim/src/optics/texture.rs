@@ -1,24 +1,24 @@
-//! Smooth random patterns that repeat: speckle, unevenness of a coating, buckling of a lattice.
+//! Smooth periodic random patterns: speckle, unevenness of a coating, buckling of a lattice.
 
 use super::simd::Lanes;
 use crate::number::{count, narrow};
 use crate::random::Stream;
 
-/// A pattern on a torus of texels, four values each; linear between them.
+/// A pattern on a torus of texels, with four values each and linear interpolation between them.
 #[derive(Clone, Debug)]
 pub(super) struct Texture {
     cells: Box<[Cell; SIDE * SIDE]>,
     texels_per_unit: f32,
 }
 
-/// Interpolation data of a place between four texels, in one cache line. It holds the first texel, its differences to the next in the row
-/// and to the one above, and the mixed difference.
+/// Interpolation data of a place between four texels, in one cache line: the first texel, its differences to the next one in the row and to the one
+/// above, and the mixed difference.
 type Cell = [[f32; 4]; 4];
 
 /// Side of a texture in texels; a power of two.
 pub(super) const SIDE: usize = 1 << SIDE_BITS;
 const SIDE_BITS: i32 = 7;
-/// Magic number: added to a value from −2²¹ to 2²¹, it leaves the nearest integer in the low bits.
+/// Constant for rounding. Added to a value from −2²¹ to 2²¹, it leaves the nearest integer in the low bits.
 const ROUND: f32 = 12_582_912.0;
 
 impl Texture {
@@ -37,7 +37,7 @@ impl Texture {
             })
             .collect();
         Texture {
-            cells: cells.try_into().expect("as many as were asked for"),
+            cells: cells.try_into().expect("as many cells as requested"),
             texels_per_unit: narrow(1.0 / pitch),
         }
     }
@@ -49,7 +49,7 @@ impl Texture {
         self.between(&places, 0).to_array()
     }
 
-    /// Sum of three textures of one pitch, each at the place in its lane; ignores the fourth lane of the places.
+    /// Sum of three textures with the same pitch, each at the place in its lane. Ignores the fourth lane of the places.
     #[inline(always)]
     pub(super) fn sum_at(layers: &[Texture; 3], x: Lanes, y: Lanes) -> Lanes {
         let places = Places::of(x, y, layers[0].texels_per_unit);
@@ -79,7 +79,7 @@ impl Texture {
 
     #[inline(always)]
     fn cell(&self, index: u32) -> &Cell {
-        // The index has no more bits than there are cells; the mask shows the compiler.
+        // The index has no more bits than there are cells. The mask tells this to the compiler.
         &self.cells[index as usize & (SIDE * SIDE - 1)]
     }
 }
@@ -108,7 +108,7 @@ impl Places {
     #[inline(always)]
     fn of(x: Lanes, y: Lanes, texels_per_unit: f32) -> Places {
         let [x, y] = [x, y].map(|places| places.times(Lanes::splat(texels_per_unit)));
-        // The nearest integer to place − ½ is the one before it; a tie makes the fraction 0 or 1, which is the same point.
+        // The nearest integer to place − ½ is the one below the place. A tie makes the fraction 0 or 1, which is the same point.
         let round = Lanes::splat(ROUND);
         let [column, row] = [x, y].map(|places| places.minus(Lanes::splat(0.5)).plus(round));
         Places {
@@ -121,7 +121,7 @@ impl Places {
 
 /// Pattern of mean 0 and standard deviation 1 that varies over `sigma` texels, row by row.
 ///
-/// White noise smoothed by a Gaussian window of that standard deviation, periodic.
+/// White noise, smoothed by a periodic Gaussian window of that standard deviation.
 pub(super) fn smooth_noise(stream: &Stream, layer: u64, sigma: f64) -> Vec<f32> {
     let first = layer * (SIDE * SIDE) as u64;
     let white: Vec<f64> = (first..first + (SIDE * SIDE) as u64)
@@ -138,7 +138,7 @@ pub(super) fn smooth_noise(stream: &Stream, layer: u64, sigma: f64) -> Vec<f32> 
         .collect()
 }
 
-/// Gaussian window from its middle outwards.
+/// Gaussian window, from its centre outwards.
 fn window(sigma: f64) -> Vec<f64> {
     (0..SIDE / 2)
         .map(count)
@@ -209,7 +209,7 @@ mod tests {
         let product: f32 = (0..SIDE * SIDE)
             .map(|index| layer[index] * layer[index - index % SIDE + (index + 2) % SIDE])
             .sum();
-        // The correlation of Gaussian windows a distance d apart: exp(−d²/4σ²).
+        // Correlation of Gaussian windows at a distance d: exp(−d²/4σ²).
         let expected = libm::exp(-0.25 * (2.0 / sigma) * (2.0 / sigma));
         let found = f64::from(product) / count(SIDE * SIDE);
         assert!((found - expected).abs() < 0.05, "{found} {expected}");

@@ -1,4 +1,4 @@
-//! ViTacTip: a clear dome with moving markers, which shows the object through its skin.
+//! ViTacTip: a clear dome with moving markers. Its picture shows the object through the skin.
 
 mod dome;
 mod lens;
@@ -44,7 +44,7 @@ struct Scene {
     disc: Disc,
     /// Skin under its own lamps, without markers.
     skin: Vec<f32>,
-    /// Places of the markers on the untouched dome, in mm from its centre, and in the picture.
+    /// Places of the markers on the untouched dome, in mm from its centre; then their places in the picture.
     markers: Vec<[f64; 3]>,
     seen: Vec<[f32; 2]>,
 }
@@ -63,7 +63,7 @@ enum Touch {
     Board { relief: Relief, depth_mm: f64 },
 }
 
-/// Image of the ball through the skin: a bell of light.
+/// Image of the ball through the skin: a bell-shaped light.
 #[derive(Clone, Copy, Debug)]
 struct Ball {
     middle: [f32; 2],
@@ -71,11 +71,11 @@ struct Ball {
     brightness: f32,
 }
 
-/// Reach of the bell in widths, where its height is four millionths.
+/// Reach of the bell, in widths. Its height there is four millionths.
 const WIDTHS: f32 = 5.0;
 /// Scale of the edges of markers and dome: a quarter of a pixel at 96 pixels.
 const EDGE: f64 = 0.25 / 46.0;
-/// Texel of the skin's unevenness; three texels are its correlation length.
+/// Texel of the skin's unevenness. The correlation length is three texels.
 const TEXEL: f64 = 1.0 / 46.0;
 
 impl Vitactip {

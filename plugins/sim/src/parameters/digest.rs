@@ -23,7 +23,7 @@ impl ParameterDigest {
                 origin,
                 ..
             } = entry;
-            // The bits of the value are unambiguous.
+            // The bits identify the value without rounding.
             let bits = value.to_bits();
             hash.update(format!("{section}.{key} {bits:016x} {unit} {origin}\n"));
         }

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-/// Error of a rejected parameter table, with the line at fault.
+/// Error of a rejected parameter table, with the line of the fault.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("line {line}: {kind}")]
 pub struct ParameterError {
@@ -25,7 +25,7 @@ pub enum ParameterErrorKind {
     Unknown {
         /// Kind of word: a section, a key, or a part of a value.
         what: &'static str,
-        /// Word as written.
+        /// Word in the table.
         key: String,
         /// Nearest known word.
         nearest: Option<String>,
@@ -65,7 +65,7 @@ impl ParameterError {
         ParameterError { line, kind }
     }
 
-    /// Line of the table, from 1; the last one for missing parts.
+    /// Line of the table, from 1. The last line for missing parts.
     pub fn line(&self) -> usize {
         self.line
     }

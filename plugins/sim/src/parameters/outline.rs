@@ -33,7 +33,7 @@ impl Parameters {
 }
 
 impl Outline {
-    /// True if a place is on the outline, edge included.
+    /// True if a place is within the outline, edge included.
     #[inline]
     pub fn contains(&self, [x, y]: [f64; 2]) -> bool {
         match *self {
@@ -42,7 +42,7 @@ impl Outline {
         }
     }
 
-    /// Place at `across` and `along`, each 0 to 1; uniform inputs cover the outline uniformly.
+    /// Place for `across` and `along`, each 0 to 1. Uniform inputs cover the outline uniformly.
     pub fn place(&self, across: f64, along: f64) -> [f64; 2] {
         match *self {
             Outline::Disc { radius_mm } => {

@@ -1,4 +1,4 @@
-//! A bench without random errors, for the comparison of ways to press one gel.
+//! A bench without random errors, to compare methods of pressing one gel.
 
 use super::{ParameterError, Parameters};
 
@@ -13,12 +13,12 @@ const SILENCED: [(&str, &str); 8] = [
     ("camera", "read_noise"),
     ("camera", "flicker"),
 ];
-/// Noise of a quiet transducer, in N; without any, its signal would count as frozen.
+/// Noise of a quiet transducer, in N. Without any noise, its signal would count as frozen.
 const HISS_N: f64 = 0.000_001;
 
 impl Parameters {
-    /// Parses the parameters in `text` without random errors and time-dependent effects: a reading or a picture depends on the position of
-    /// the tip only, within 1 µN. Variation between units and places stays.
+    /// Parses the parameters in `text` without random errors and time-dependent effects. A reading or a picture then depends only on the position of
+    /// the tip, within 1 µN. Variation between units and places stays.
     ///
     /// ```
     /// use taceva_sim::{Model, Parameters};

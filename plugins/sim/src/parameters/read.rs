@@ -1,4 +1,4 @@
-//! Parser from TOML to sections: every key is known, every value has its unit and range, and errors name the line.
+//! Parser from TOML to sections. Every key is known, every value has its unit and range, and errors name the line.
 
 use std::ops::Range;
 use taceva_core::shown;
@@ -9,7 +9,7 @@ use toml::de::{DeTable, DeValue};
 use super::error::{ParameterError, ParameterErrorKind};
 use super::section::{Entry, Origin, Row, Section};
 
-/// Greatest length of a table, in bytes; a usual one has some thousand.
+/// Greatest length of a table, bytes. Typical tables have some thousand.
 const LENGTH_MAX: usize = 1 << 20;
 
 /// A table being parsed.
@@ -84,7 +84,7 @@ impl<'t> Document<'t> {
         Ok(Some(S::from_values(&values)))
     }
 
-    /// Rejects unknown sections; returns all values ordered by section and key.
+    /// Rejects unknown sections. Returns all values, ordered by section and key.
     pub(super) fn finish(mut self) -> Result<Vec<Entry>, ParameterError> {
         self.refuse_unknown(&self.root, "section", "", self.known.iter().copied())?;
         self.entries.sort_by_key(|entry| (entry.section, entry.key));
@@ -181,7 +181,7 @@ impl<'t> Document<'t> {
             return Err(self.form(value.span(), name, value.get_ref(), "a decimal number"));
         };
         if (row.least..=row.most).contains(&number) {
-            // −0 and 0 are one parameter and have one digest.
+            // −0 and 0 are equal parameters and have one digest.
             return Ok(number + 0.0);
         }
         let kind = ParameterErrorKind::Range {

@@ -1,4 +1,4 @@
-//! Sections of a parameter table: structs of values, with keys, units and ranges declared once.
+//! Sections of a parameter table: structs of values. Keys, units and ranges are declared in one place.
 
 use std::fmt;
 
@@ -53,7 +53,7 @@ pub struct Entry {
     pub section: &'static str,
     /// Key of the value.
     pub key: &'static str,
-    /// Value, in the unit below.
+    /// Value, in the unit of `unit`.
     pub value: f64,
     /// Unit of the value.
     pub unit: &'static str,

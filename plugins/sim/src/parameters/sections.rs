@@ -1,4 +1,4 @@
-//! The sections of a parameter table.
+//! Sections of a parameter table.
 
 use super::section::{Row, Section, section};
 use crate::elastic::layer;
@@ -10,7 +10,7 @@ section! {
         thickness_mm: "mm", 1.0 ..= 100.0;
         /// Young's modulus of the gel.
         young_modulus_mpa: "MPa", 0.001 ..= 100.0;
-        /// Poisson's ratio; the force law is made for incompressible gels.
+        /// Poisson's ratio. The force law is valid only for incompressible gels.
         poisson_ratio: "1", 0.5 ..= 0.5;
         /// Relative stiffening of a closing lattice per millimetre of depth.
         stiffening_per_mm: "1/mm", 0.0 ..= 10.0;
@@ -18,7 +18,7 @@ section! {
 }
 
 impl Layer {
-    /// Greatest depth at which the force law holds for a ball of `radius_mm`, mm.
+    /// Greatest depth for which the force law is valid with a ball of `radius_mm`, mm.
     pub(super) fn greatest_depth_mm(thickness_mm: f64, radius_mm: f64) -> f64 {
         (layer::CHI_MAX * thickness_mm).powi(2) / radius_mm
     }
@@ -29,13 +29,13 @@ section! {
     Dome, "dome", {
         /// Radius of the dome.
         radius_mm: "mm", 5.0 ..= 200.0;
-        /// Linear stiffness of the skin, buckled under the load.
+        /// Linear stiffness of the skin, which buckles under the load.
         skin_n_per_mm: "N/mm", 0.0 ..= 100.0;
-        /// Coefficient of depth to the power of 3/2 of the gel under it, for a ball of 2 mm.
+        /// Coefficient of depth^(3/2) of the gel under the skin, for a ball of 2 mm.
         gel_n_per_mm_3_2: "N/mm^1.5", 0.0001 ..= 100.0;
         /// Thickness of the skin.
         skin_thickness_mm: "mm", 0.05 ..= 10.0;
-        /// Tangential over normal stiffness.
+        /// Ratio of tangential to normal stiffness.
         tangential_ratio: "1", 0.0 ..= 1.0;
         /// Sway of the whole dome per lateral force.
         sway_mm_per_n: "mm/N", 0.0 ..= 10.0;
@@ -69,7 +69,7 @@ section! {
         relaxation_time_s: "s", 0.001 ..= 100000.0;
         /// Fraction of the force that a gel loses below a depth of earlier presses.
         conditioning_fraction: "1", 0.0 ..= 0.5;
-        /// Number of presses that bring the loss within 1/e of its limit.
+        /// Number of presses after which the remaining loss is 1/e of its limit.
         conditioning_presses: "1", 0.1 ..= 1000.0;
     }
 }
@@ -87,7 +87,7 @@ section! {
         depth_max_mm: "mm", 0.01 ..= 50.0;
         /// Greatest shear along x and along y.
         shear_max_mm: "mm", 0.0 ..= 50.0;
-        /// Normal force at which a press stops.
+        /// Normal force that ends a press.
         force_max_n: "N", 0.01 ..= 1000.0;
     }
 }
@@ -97,9 +97,9 @@ section! {
     Variation, "variation", {
         /// Relative standard deviation of the stiffness between places.
         stiffness: "1", 0.0 ..= 0.5;
-        /// Relative standard deviation of the modulus between units; unit 0 is nominal.
+        /// Relative standard deviation of the modulus between units. Unit 0 is nominal.
         modulus: "1", 0.0 ..= 0.5;
-        /// Relative standard deviation of the sag between units; unit 0 is nominal.
+        /// Relative standard deviation of the sag between units. Unit 0 is nominal.
         sag: "1", 0.0 ..= 0.5;
         /// Root mean square of the waves on the surface of a unit.
         gap_mm: "mm", 0.0 ..= 1.0;
@@ -121,9 +121,9 @@ section! {
         channels: "1", 1.0 ..= 3.0;
         /// 1 if ambient light reaches the camera, 0 if the gel is opaque.
         transparency: "1", 0.0 ..= 1.0;
-        /// Mean of an undisturbed picture in the dark, in steps of an 8-bit camera.
+        /// Mean of an untouched picture in the dark, DN of an 8-bit camera.
         mean_gray: "DN", 0.0 ..= 255.0;
-        /// Variance of the shot noise per step of brightness, in a picture 96 pixels wide.
+        /// Variance of the shot noise per DN of brightness, in a picture 96 pixels wide.
         shot_gain: "DN", 0.0 ..= 10.0;
         /// Standard deviation of the read noise, in a picture 96 pixels wide.
         read_noise: "DN", 0.0 ..= 50.0;
@@ -139,7 +139,7 @@ section! {
         pitch_mm: "mm", 0.1 ..= 50.0;
         /// Diameter of a marker.
         diameter_mm: "mm", 0.05 ..= 20.0;
-        /// Standard deviation of the places of a unit's markers.
+        /// Standard deviation of the marker places of a unit.
         jitter_mm: "mm", 0.0 ..= 1.0;
         /// Markers in a row; on a dome, rings of a hexagon around the central one.
         columns: "1", 1.0 ..= 200.0;
@@ -149,7 +149,7 @@ section! {
 }
 
 section! {
-    /// The layers of a printed lattice.
+    /// Layers of a printed lattice.
     Lattice, "lattice", {
         /// Depth of the first layer.
         first_depth_mm: "mm", 0.05 ..= 50.0;
@@ -169,7 +169,7 @@ section! {
     Gratings, "gratings", {
         /// Standard deviation of the blur between relief and camera.
         blur_mm: "mm", 0.0 ..= 5.0;
-        /// Contrast of a coarse grating over the noise of a pixel.
+        /// Contrast of a coarse grating, relative to the noise of a pixel.
         contrast: "1", 0.0 ..= 1000.0;
     }
 }
@@ -177,7 +177,7 @@ section! {
 section! {
     /// Robot that moves the indenter.
     Robot, "robot", {
-        /// Standard deviation of its position along each axis.
+        /// Standard deviation of the position along each axis.
         positioning_mm: "mm", 0.0 ..= 1.0;
         /// Speed of approach and indentation.
         speed_mm_per_s: "mm/s", 0.001 ..= 1000.0;
@@ -185,7 +185,7 @@ section! {
 }
 
 section! {
-    /// Search for contact.
+    /// Search for first contact.
     Search, "search", {
         /// Step between two readings.
         step_mm: "mm", 0.001 ..= 5.0;
@@ -205,7 +205,7 @@ section! {
         press_drift_n: "N", 0.0 ..= 10.0;
         /// Greatest fraction of one component that appears in another.
         cross_talk: "1", 0.0 ..= 0.2;
-        /// Greatest force that it measures.
+        /// Greatest measurable force.
         range_n: "N", 0.1 ..= 100000.0;
     }
 }

@@ -2,7 +2,7 @@
 
 use taceva_core::{Millimetre, Newton, Point, Pose, Wrench};
 
-/// Label of a press, with the errors of the rig, in the signs of the project.
+/// Label of a press, with the errors of the rig, in the sign convention of the project.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Label {
     /// Px, Py: target of the robot, shear included; Pz: its travel after detected contact, positive into the gel.
@@ -21,7 +21,7 @@ impl Label {
         }
     }
 
-    /// Force as a wrench; torques are 0, since they are not measured.
+    /// Force as a wrench. Torques are 0, because they are not measured.
     pub fn wrench(&self) -> Wrench {
         Wrench {
             force: self.force_n.map(Newton),

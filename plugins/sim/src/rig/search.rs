@@ -1,15 +1,15 @@
-//! Search for contact: down in steps until the force exceeds a threshold.
+//! Search for contact: moves down in steps until the force exceeds a threshold.
 //!
-//! Contact is found late, by up to a step beyond the depth of the threshold, or sometimes early, by noise. Depth zero of the rig is
-//! therefore not the surface, and no sensor can measure the offset.
+//! Contact is detected late, by up to one step beyond the depth of the threshold, or sometimes early, by noise. Depth zero of the rig is therefore
+//! not the surface, and no sensor can measure the offset.
 
 use crate::parameters::Search;
 use crate::random::Stream;
 
-/// Contact found at a point.
+/// Contact detected at a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Touch {
-    /// Depth of the ball below first touch at detection; negative if noise triggered it early.
+    /// Depth of the ball below first touch at detection; negative if noise triggered it too early.
     pub late_mm: f64,
     /// Number of readings.
     pub steps: u32,
@@ -18,7 +18,7 @@ pub struct Touch {
 /// Greatest number of steps of a search.
 const STEPS_MAX: u32 = 200;
 
-/// Searches from a random phase above the surface. `force_n` is the true force at a depth, `error_n` the error of the transducer at a step.
+/// Searches from a random phase above the surface. `force_n` gives the true force at a depth, and `error_n` the error of the transducer at a step.
 pub(crate) fn search(
     search: &Search,
     phase: Stream,

@@ -36,13 +36,13 @@ impl TransducerModel {
         normals(stream, 0, self.transducer.point_drift_n)
     }
 
-    /// Further drift of the zero at a press.
+    /// Additional drift of the zero at a press.
     pub(crate) fn press_zero_n(&self, press: u64) -> [f64; 3] {
         let stream = self.random.stream(Purpose::PressDrift, press);
         normals(stream, 0, self.transducer.press_drift_n)
     }
 
-    /// Reading of `force_n` with zero `zero_n`; `noise` and `reading` select its noise.
+    /// Reading of `force_n` with the zero `zero_n`. `noise` and `reading` select its noise.
     pub(crate) fn read(
         &self,
         force_n: [f64; 3],
@@ -62,7 +62,7 @@ impl TransducerModel {
         })
     }
 
-    /// Noise of the normal component alone, for a search.
+    /// Noise of the normal component only, for a search.
     pub(crate) fn normal_noise_n(&self, noise: Stream, reading: u64) -> f64 {
         self.transducer.noise_n * noise.normal(reading)
     }

@@ -1,4 +1,4 @@
-//! The bench as a whole: what it refuses, what it repeats, and where it stops.
+//! The bench as a whole: rejected presses, repeatability, and the force limit.
 
 use std::thread;
 
@@ -8,7 +8,7 @@ fn bench(model: Model) -> Bench {
     Bench::new(model.parameters(), 0, 7)
 }
 
-/// Presses all over a sensor, two a point.
+/// Presses over the whole surface of a sensor, two per point.
 fn presses(model: Model) -> Vec<Press> {
     let parameters = model.parameters();
     let outline = parameters.outline();
@@ -47,7 +47,7 @@ fn order_and_threads_change_no_bit() {
             .map(|press| record(&one, press))
             .collect();
         backward.reverse();
-        // Debug writes the shortest digits that read back to the same bits.
+        // `Debug` writes the shortest digits that parse back to the same bits.
         assert_eq!(format!("{forward:?}"), format!("{backward:?}"));
         let threaded: Vec<_> = thread::scope(|scope| {
             let workers: Vec<_> = presses
@@ -178,7 +178,7 @@ fn a_press_that_meets_the_force_limit_stops_there_and_says_so() {
 
 #[test]
 fn contact_is_found_late_by_the_published_amounts() {
-    // Mean and tolerance in mm, over many points.
+    // Expected mean and tolerance in mm, over many points.
     for (model, expected) in [
         (Model::GelSight, 0.12),
         (Model::MagicTac, 0.16),

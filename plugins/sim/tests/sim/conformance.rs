@@ -1,4 +1,4 @@
-//! Every device of the bench keeps the contract that every driver must keep.
+//! Every device of the bench passes the conformance checks for drivers.
 
 use taceva_conformance::{self as conformance, Trial};
 use taceva_core::DriverKind;

@@ -1,4 +1,4 @@
-//! The bench as devices: a press made with them from the air to the label.
+//! The bench as devices: one press from the air to the label.
 
 use std::time::Duration;
 
@@ -13,7 +13,7 @@ use taceva_sim::{
 
 const DEADLINE: Deadline = Deadline::after(Duration::from_secs(60));
 
-/// A sensor with its robot and its transducer on one bench.
+/// A sensor with its robot and transducer on one bench.
 struct Station {
     rig: SimulatedRig,
     sensor: Box<dyn Sensor>,
@@ -56,7 +56,7 @@ impl Station {
         wrench.force[2].0
     }
 
-    /// Goes over a place, tares, and down in steps until 0.02 N are felt; where that is.
+    /// Moves over a place, tares, and moves down in steps until the force exceeds 0.02 N. Returns that depth.
     fn search(&mut self, x: f64, y: f64) -> f64 {
         self.go(x, y, -3.0);
         self.force
@@ -184,7 +184,7 @@ fn light_of_the_lamps_brightens_a_clear_gel() {
         let mut bytes = vec![0; info.byte_len().expect("small")];
         let frame = FrameMut::new(info, &mut bytes).expect("its own length");
         sensor.capture(frame, DEADLINE).expect("a frame");
-        // The high bytes of little-endian samples.
+        // High bytes of the little-endian samples.
         bytes
             .iter()
             .skip(1)
@@ -273,7 +273,7 @@ fn a_table_of_one_s_own_takes_the_place_of_the_compiled_in_one() {
     assert!(
         error
             .to_string()
-            .contains("the table of parameters, line 1: `name`: found 3"),
+            .contains("invalid `table`: line 1: `name`: found 3"),
         "{error}"
     );
 }

@@ -1,7 +1,7 @@
-//! The bench against the published figures of the four sensors: the paper's protocol, its definitions, its numbers.
+//! The bench compared with the published figures of the four sensors, with the paper's protocol and definitions.
 //!
-//! What was tuned to which number stands in `docs/validation.md`; `cargo test -p taceva-sim --test sim figures -- --nocapture` prints the
-//! table of that file.
+//! `docs/validation.md` states which numbers were used for tuning. `cargo test -p taceva-sim --test sim figures -- --nocapture` prints the table of
+//! that file.
 
 #![expect(
     clippy::print_stdout,

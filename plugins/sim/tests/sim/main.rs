@@ -1,4 +1,4 @@
-//! The simulated bench: its model, its pictures, its devices and whole studies on it.
+//! The simulated bench: its model, pictures and devices, and whole studies on it.
 
 mod bench;
 mod conformance;

@@ -1,8 +1,8 @@
-//! Tables of parameters that are refused, each with its line and what would be accepted; and what a digest tells apart.
+//! Rejected parameter tables, each with its line and the expected value, and differences that a digest detects.
 
 use taceva_sim::{Model, Origin, ParameterErrorKind, Parameters};
 
-/// The message for the GelSight table with `from` replaced by `to`.
+/// Message for the GelSight table with `from` replaced by `to`.
 fn refused(from: &str, to: &str) -> String {
     let table = Model::GelSight.table();
     assert!(table.contains(from), "{from}");
@@ -46,7 +46,7 @@ fn an_unknown_key_is_refused_with_the_nearest_one() {
 #[test]
 fn an_unknown_section_is_refused_with_the_nearest_one() {
     let message = refused("[robot]", "[robots]");
-    // What is missing is found first; the table has no `robot` any more.
+    // Missing sections are reported first, and this table has no `robot`.
     assert!(
         message.contains("`robot`: missing, expected a section of this name"),
         "{message}"

@@ -1,4 +1,4 @@
-//! What the pictures of the simulated sensors promise.
+//! Properties of the pictures of the simulated sensors.
 
 #![expect(
     clippy::print_stdout,

@@ -1,4 +1,4 @@
-//! A whole study planned by `taceva-protocol` and run on the bench, under its supervisor.
+//! A whole study planned by `taceva-protocol`, run on the bench under its supervisor.
 
 use taceva_core::{
     Deadline, DriverError, DriverKey, ErrorKind, FrameInfo, FrameMut, Nanometre, Phase,
@@ -52,7 +52,7 @@ units = [\"1\", \"2\"]
     )
 }
 
-/// Readings of force have errors: more than any of those here has.
+/// Upper bound of the error of a force reading.
 const NOISE_N: f64 = 0.05;
 
 #[test]
@@ -65,7 +65,7 @@ fn every_part_of_a_study_runs_to_its_end_on_every_sensor() {
         }
         assert_eq!(log.records.len(), trial.plan.presses.len(), "{model}");
         for kind in PhaseKind::ALL {
-            // Light does not reach the camera behind a coated gel.
+            // Ambient light does not reach the camera behind a coated gel.
             let is_left_out = kind == PhaseKind::LightSweep
                 && matches!(model, Model::GelSight | Model::GelSightWm);
             let presses: Vec<&PlannedPress> = trial.plan.presses_of(kind).collect();
@@ -77,7 +77,7 @@ fn every_part_of_a_study_runs_to_its_end_on_every_sensor() {
     }
 }
 
-/// Whether a record keeps what its press promised.
+/// Checks that a record is complete for its press.
 fn check(trial: &Trial, planned: &PlannedPress, log: &Log) {
     let mut records = log.records.iter();
     let record = records
@@ -87,7 +87,7 @@ fn check(trial: &Trial, planned: &PlannedPress, log: &Log) {
     let (samples, wanted) = (&record.samples, planned.press.samples());
     match record.outcome {
         PressOutcome::Complete => assert_eq!(samples.len(), wanted, "{name}"),
-        // Waypoints that a limit kept out of reach are left out; the first of them is seen where the tip stopped.
+        // Waypoints beyond a limit are omitted. The first of them is captured at the place where the tip stopped.
         PressOutcome::Limited(_) => {
             assert!(limited(record) > 0 && samples.len() <= wanted, "{name}");
         }
@@ -117,19 +117,19 @@ fn check(trial: &Trial, planned: &PlannedPress, log: &Log) {
     check_forces(trial, planned, record);
 }
 
-/// Samples that a limit kept from their waypoint.
+/// Number of samples that a limit kept from their waypoint.
 fn limited(record: &PressRecord) -> usize {
     let samples = record.samples.iter();
     samples.filter(|sample| sample.limited_by.is_some()).count()
 }
 
-/// The number of a sample in its press.
+/// Number of a sample in its press.
 fn number(sample: &Sample) -> usize {
     let (_, number) = sample.id.split_once('/').expect("press and number");
     number.parse().expect("a number")
 }
 
-/// Whether a gel that is pressed deeper presses back harder, and one that is left presses back less.
+/// Checks that the force grows with depth and decreases during retraction.
 fn check_forces(trial: &Trial, planned: &PlannedPress, record: &PressRecord) {
     let mut channels = trial.plan.channels.iter();
     let channel = channels
@@ -197,7 +197,7 @@ fn presses_that_a_limit_ends_come_out_of_the_gel_by_their_stations_and_are_resum
     }
 }
 
-/// A sensor of which every so many frames have another size, as a driver refuses them.
+/// A sensor in which every n-th frame has a wrong size, so the driver rejects it.
 struct Short {
     inner: Box<dyn Sensor>,
     every: u32,
@@ -230,7 +230,7 @@ impl Sensor for Short {
     }
 }
 
-/// What comes of a run whose sensor gives every so many frames in another size: its log, and how many were taken again.
+/// Result of a run in which every n-th frame has a wrong size: its log, and the number of repeated frames.
 fn with_short(every: u32) -> (Log, Result<usize, RunError>) {
     let trial = Trial::new(Model::GelSight, &scene(Model::GelSight));
     let mut log = Log::default();
@@ -265,14 +265,14 @@ fn a_frame_of_a_wrong_size_now_and_then_is_taken_again_and_counted() {
     assert_eq!(again.records.len(), whole.records.len());
 }
 
-/// The log of a run of unit 1 without interruption, after it was compared with one in pieces.
+/// Log of an uninterrupted run of unit 1, compared with the log of an interrupted one.
 fn interrupted_and_whole(trial: &Trial) -> Log {
     let (mut whole, mut pieces) = (Log::default(), Log::default());
     trial.run("1", &mut whole, usize::MAX);
     for most in [3, 8, 10, usize::MAX] {
         trial.run("1", &mut pieces, most);
     }
-    // One picture of the untouched gel, however often a run begins; no press resembles it.
+    // The log has one picture of the untouched gel for any number of restarts, and it differs from all presses.
     let pressed = whole.records.iter().flat_map(|record| &record.samples);
     let mut pressed = pressed.filter_map(|sample| sample.frame.as_ref());
     if let Some(first) = pressed.next() {
@@ -285,7 +285,7 @@ fn interrupted_and_whole(trial: &Trial) -> Log {
         assert_eq!((one.press, one.outcome), (other.press, other.outcome));
         assert_eq!(one.samples.len(), other.samples.len());
         for (one, other) in one.samples.iter().zip(&other.samples) {
-            // The time of day differs, and nothing else.
+            // Only the time of day differs.
             assert_eq!(one.truth, other.truth, "{}", one.id);
             assert_eq!(one.frame, other.frame, "{}", one.id);
             assert_eq!(one.limited_by, other.limited_by, "{}", one.id);

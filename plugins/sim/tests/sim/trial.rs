@@ -15,7 +15,7 @@ use taceva_sim::{
     ForceTransducerFactory, LightingFactory, Model, RobotFactory, SensorFactory, SimulatedRig,
 };
 
-/// The clock of a simulated rig, which also changes its specimens.
+/// Clock of a simulated rig. It also changes specimens.
 struct BenchClock(SimulatedRig);
 
 impl Timekeeper for BenchClock {
@@ -34,7 +34,7 @@ impl SpecimenChanger for BenchClock {
     }
 }
 
-/// A log in memory.
+/// Log in memory.
 #[derive(Default)]
 pub(crate) struct Log {
     finished: BTreeSet<ContentId>,
@@ -64,7 +64,7 @@ fn open<D: Device + ?Sized>(factory: &dyn Factory<D>, text: &str, rig: &mut Rig)
     factory.open(&args, rig).expect("opens")
 }
 
-/// A bench with a study of `model` planned on it.
+/// A bench with a planned study of `model`.
 pub(crate) struct Trial {
     pub(crate) model: Model,
     pub(crate) plan: Plan,
@@ -75,7 +75,7 @@ pub(crate) struct Trial {
 }
 
 impl Trial {
-    /// The first study of a scene, which is of `model`.
+    /// Plans the first study of a scene for `model`.
     pub(crate) fn new(model: Model, scene: &str) -> Trial {
         let sensors = SensorFactory::new(model).expect("a driver");
         let robots = RobotFactory::new().expect("a driver");
@@ -99,7 +99,7 @@ impl Trial {
         }
     }
 
-    /// Runs what `log` does not have of a unit on a new bench, but no more than `most` presses.
+    /// Runs the presses of a unit that `log` lacks, at most `most`, on a new bench.
     pub(crate) fn run(&self, unit: &str, log: &mut Log, most: usize) {
         match self.run_seen_by(unit, log, most, |sensor| sensor) {
             Ok(_) => {}
@@ -108,7 +108,7 @@ impl Trial {
         }
     }
 
-    /// The same with another sensor in the place of the bench's; how many frames were taken again.
+    /// As `run`, with another sensor in place of the bench's. Returns the number of repeated frames.
     pub(crate) fn run_seen_by(
         &self,
         unit: &str,
@@ -161,7 +161,7 @@ impl Trial {
     }
 }
 
-/// A number that names a press.
+/// Number that names a press.
 fn name(press: ContentId) -> u64 {
     let text = press.to_string();
     u64::from_str_radix(&text[..16], 16).expect("a digest is written in hexadecimal")

@@ -1,5 +1,5 @@
-//! The model against references that were worked out elsewhere: closed forms at high precision, a boundary-element solution, published
-//! polynomials and the algebra of symmetry. Each test says which property it holds to which tolerance.
+//! The model compared with independent references: closed forms at high precision, a boundary-element solution, published polynomials, and
+//! symmetries. Each test states the property and the tolerance.
 
 mod contact;
 mod displacement;

@@ -1,4 +1,4 @@
-//! A rig at the time of a wall clock: the same gel, whether its robot moves in one call or in slices of a millisecond.
+//! A rig on wall-clock time: the gel is in the same state whether the robot moves in one call or in slices of a millisecond.
 
 use std::time::Duration;
 
@@ -6,7 +6,7 @@ use taceva_core::{Deadline, Factory, FrameMut, Millimetre, Pose, Rig, Speed};
 use taceva_sim::optics::{Camera, OpticsSpec};
 use taceva_sim::{Bench, Model, Parameters, RobotFactory, SimulatedRig};
 
-/// A gel in a rig that errs nowhere, so that two ways to the same place differ by rounding alone.
+/// Parameters of a rig without errors, so two paths to the same place differ only by rounding.
 fn parameters() -> Parameters {
     let table = Model::GelSight.table().replace(
         "positioning_mm = { value = 0.01",
@@ -22,7 +22,7 @@ fn at_mm([x, y, z]: [f64; 3]) -> Pose {
     pose
 }
 
-/// Over a place beside the middle, then into the gel, then sideways.
+/// Path over a place beside the centre, then into the gel, then sideways.
 const WAY_MM: [[f64; 3]; 3] = [[1.5, -2.0, -3.0], [1.5, -2.0, 0.45], [1.9, -2.0, 0.45]];
 
 fn speed(mm_per_s: f64) -> Speed {
@@ -57,7 +57,7 @@ fn slices_of_a_millisecond_press_as_one_motion_does() {
     assert_eq!(whole.0.map(f64::to_bits), sliced.0.map(f64::to_bits));
     for axis in 0..3 {
         let [one, other] = [whole.1.force_n[axis], sliced.1.force_n[axis]];
-        // The gel relaxes a little more in what a slice rounds up to.
+        // Rounding a slice up gives the gel slightly more time to relax.
         assert!((one - other).abs() < 1e-3, "{one} N, {other} N");
     }
     assert!(whole.1.force_n[2] > 0.3, "{:?}", whole.1.force_n);
@@ -75,7 +75,7 @@ fn a_tip_that_stops_on_its_way_stands_where_it_is_and_believes_so() {
     bench.advance(Duration::from_secs(5));
     assert_eq!(bench.pose_now(), stopped);
     assert!((bench.tip_mm()[2] + 16.5).abs() < 1e-6);
-    // A time that has passed turns nothing back.
+    // A time in the past has no effect.
     bench.advance(Duration::from_secs(1));
     assert_eq!(bench.now(), Duration::from_secs(5));
 }

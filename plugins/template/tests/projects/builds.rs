@@ -1,4 +1,4 @@
-//! A new project builds without a network, its own tests pass, and what it makes keeps the contract of its kind.
+//! A new project builds without a network, its tests pass, and its driver keeps the contract of its kind.
 
 #![cfg(target_os = "linux")]
 
@@ -15,7 +15,7 @@ use taceva_core::{
 use taceva_host::{FitRequest, PluginConfig, PluginDriver, PluginHost, Plugins, Saved, SearchPath};
 use taceva_template::{Kind, Name, Sources, project};
 
-/// Writes and builds a project of `kind`, for this very processor and without a network; all kinds share what they are built from.
+/// Writes and builds a project of `kind` for this processor, without a network. All kinds share the build products of dependencies.
 fn build(folder: &Path, kind: Kind) -> PathBuf {
     let name: Name = format!("my-{kind}").parse().expect("a name");
     let root = folder.join(name.as_str());
@@ -39,14 +39,14 @@ fn build(folder: &Path, kind: Kind) -> PathBuf {
         let said = String::from_utf8_lossy(&done.stderr);
         assert!(done.status.success(), "{kind}: {said}");
     }
-    // Where the manifest says it is, which holds unless the target folder lies elsewhere.
+    // Copies the library to the path in the manifest, because the target folder is elsewhere.
     let library = format!("target/release/lib{}.so", name.as_crate());
     fs::create_dir_all(root.join("target/release")).expect("room");
     fs::copy(folder.join(&library), root.join(&library)).expect("it was built");
     root
 }
 
-/// The plugin in `folder`, in this process.
+/// Plugin in `folder`, trusted to run in this process.
 fn trusted(folder: &Path) -> Arc<PluginHost> {
     let plugins = Plugins::search(SearchPath::empty().given([folder.to_owned()]), &[]);
     assert_eq!(plugins.len(), 1, "{:?}", plugins.rejections);
@@ -57,7 +57,7 @@ fn trusted(folder: &Path) -> Arc<PluginHost> {
     PluginHost::new(plugins, config, Arc::new(|_, _, _, _| ()))
 }
 
-/// Whether the one driver of kind `D` keeps its contract.
+/// Asserts that the only driver of kind `D` keeps its contract.
 fn keeps<D>(host: &Arc<PluginHost>, suite: fn(&dyn Factory<D>, &Trial) -> Report)
 where
     D: Device + ?Sized,
@@ -69,7 +69,7 @@ where
     assert!(report.passed(), "{report}");
 }
 
-/// Whether the estimator learns, and predicts the same once it was kept and loaded.
+/// Asserts that the estimator learns, and predicts the same after saving and loading.
 fn learns(host: &Arc<PluginHost>) {
     let key = DriverKey::fixed("org.example.my-estimator/my-estimator");
     let (plugin, info) = host.estimators().next().expect("one");

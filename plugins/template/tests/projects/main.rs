@@ -1,4 +1,4 @@
-//! The projects that the template writes: built, held to every promise, and written by the crate as it is published.
+//! Projects of the template: built, tested for every promise, and written by the published crate.
 
 mod builds;
 mod package;

@@ -1,4 +1,4 @@
-//! The crate as it is published: packed, unpacked where no sibling lies beside it, and built.
+//! The published crate: packed, unpacked away from the workspace, and built.
 
 #![cfg(target_os = "linux")]
 
@@ -8,7 +8,7 @@ use std::process::Command;
 
 use taceva_template::{Kind, Sources, headers, project};
 
-/// Writes every file that the library gives, behind its path and its length.
+/// Writes every file of the crate, with its path and its length.
 const PRINTER: &str = r#"
 use taceva_template::{Kind, Sources, headers, project};
 
@@ -44,7 +44,7 @@ fn the_published_crate_builds_alone_and_embeds_the_same_bytes() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     run(Command::new(env!("CARGO"))
         .args(["package", "--no-verify", "--allow-dirty", "--offline"])
-        // It would name the crates that the tests use, as the registry has them.
+        // The lockfile would name dependencies of the tests, which the registry lacks.
         .arg("--exclude-lockfile")
         .arg("--target-dir")
         .arg(folder.path().join("packed"))
@@ -65,7 +65,7 @@ fn the_published_crate_builds_alone_and_embeds_the_same_bytes() {
     fs::create_dir_all(printer.join("src")).expect("room");
     fs::write(printer.join("src/main.rs"), PRINTER).expect("room");
     fs::write(printer.join("Cargo.toml"), PRINTER_MANIFEST).expect("room");
-    // The versions that are there without a network.
+    // Uses the versions that are available without a network.
     fs::copy(here.join("../../Cargo.lock"), printer.join("Cargo.lock")).expect("room");
     let printed = run(Command::new(env!("CARGO"))
         .args(["run", "--offline", "--quiet", "--target-dir"])

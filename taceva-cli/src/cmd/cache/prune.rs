@@ -3,6 +3,7 @@
 use std::time::SystemTime;
 
 use anyhow::Context as _;
+use taceva_core::counted;
 use taceva_evaluate::{Pruning, cache_entries, pruned, remove_entry};
 
 use crate::amount::bytes;
@@ -44,9 +45,9 @@ pub(super) fn run(args: &CachePrune, context: &Context) -> anyhow::Result<u8> {
     output::write(None, |out| {
         writeln!(
             out,
-            "{verb} {} of {} entries, which frees {}; {} are left in {}",
+            "{verb} {} of {}, which frees {}; {} are left in {}",
             going.len(),
-            entries.len(),
+            counted(entries.len(), "entry"),
             bytes(freed),
             bytes(staying),
             taceva_core::shown(&folder)

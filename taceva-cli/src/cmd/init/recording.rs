@@ -5,7 +5,7 @@ use std::path::Path;
 
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::quoted;
-use taceva_import::{ImportMap, MapDraft};
+use taceva_import::{ImportError, ImportMap, MapDraft};
 
 use super::{Interview, finish, target};
 use crate::args::InitTarget;
@@ -120,7 +120,9 @@ fn filled(draft: &str, path: &Path, interview: &mut Interview) -> anyhow::Result
 /// The reason why an import would refuse line `at` of a map, if it would.
 fn refusal(path: &Path, text: &str, at: usize) -> Option<String> {
     match ImportMap::parse(path, text) {
-        Err(DatasetError::Toml { place, problem }) if place.line == Some(at as u64 + 1) => {
+        Err(ImportError::Dataset(DatasetError::Text { place, problem }))
+            if place.line == Some(at as u64 + 1) =>
+        {
             // Another place of the same line may still be open.
             (!problem.contains('?')).then_some(problem)
         }
@@ -164,6 +166,9 @@ impl Place {
             ("unit", None) => "unit of these times, such as s, ms, us or ns".to_owned(),
             ("from", Some(subject)) => format!("column that holds {subject}"),
             ("model", None) => "name of the sensor".to_owned(),
+            ("cut", _) => {
+                "keep, to read the messages before the cut of the recording, or refuse".to_owned()
+            }
             (key, Some(subject)) => format!("{key} of {subject}"),
             (key, None) => key.to_owned(),
         }
@@ -215,6 +220,8 @@ mod tests {
             question("model = \"?\"").as_deref(),
             Some("name of the sensor")
         );
+        let cut = question("table = { file = \"a.bag\", cut = \"?\", rows = \"/ft\" }   # 8 rows");
+        assert!(cut.is_some_and(|cut| cut.starts_with("keep, to read")));
         assert_eq!(
             question("# Replace every \"?\": an import refuses it"),
             None

@@ -53,6 +53,10 @@ driver = {sensor:?}
 Pz_max_mm = {depth:?}
 Fz_max_N = {normal:?}
 speed_max_mm_s = {speed:?}
+
+# An enabling switch that a person holds while the robot moves; `taceva devices` lists its arguments:
+# [operator]
+# enable = \"hid/pedal:usb=0c45:7403\"
 "
     );
     RigFile::parse(&path.display().to_string(), &text)?;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use taceva_core::shown;
+use taceva_core::{counted, shown};
 use taceva_dataset::internal::shell_word;
 use taceva_sweep::{
     SlurmSpec, Submitted, SweepFolder, TaskList, collect, queue_of, scripts,
@@ -12,7 +12,6 @@ use taceva_sweep::{
 use super::super::{Context, Usage};
 use super::summary::{folder_of, latest, print};
 use crate::args::SweepRun;
-use crate::report::counted;
 use crate::{exit, output};
 
 /// Submits the tasks at `wanted` that have no result yet.

@@ -3,7 +3,7 @@
 mod acquire;
 
 use taceva_acquire::{PlannedScene, SceneText};
-use taceva_core::shown;
+use taceva_core::{counted, shown};
 use taceva_drivers::Drivers;
 use taceva_models::Suggestion;
 use taceva_protocol::BuiltinScene;
@@ -115,11 +115,7 @@ impl SweepScene {
     /// The work for the scene and its duration, estimated from the times in `folder`.
     pub(super) fn words(&self, folder: &SweepFolder) -> String {
         let name = shown(&self.planned.scene.name);
-        let count = self.planned.studies.len();
-        let recordings = match count {
-            1 => "1 recording".to_owned(),
-            count => format!("{count} recordings"),
-        };
+        let recordings = counted(self.planned.studies.len(), "recording");
         if self.is_acquired {
             return format!("{name}: {recordings}, already acquired");
         }
@@ -135,7 +131,8 @@ impl SweepScene {
                 )
             }
         };
-        format!("{name}: {recordings} to be acquired, {presses} presses, {time}")
+        let presses = counted(presses, "press");
+        format!("{name}: {recordings} to be acquired, {presses}, {time}")
     }
 }
 

@@ -1,5 +1,6 @@
 //! Comparisons of results, of runs and of the catalogue.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::process::{Command, Stdio};
 
@@ -148,6 +149,77 @@ fn published_numbers_are_compared_and_chosen_from() {
 }
 
 #[test]
+fn names_of_metrics_and_of_margins_that_no_result_has_are_refused_with_the_nearest() {
+    let bench = Bench::new();
+    for format in ["text", "md", "json"] {
+        bench.refused(
+            &format!("compare ViTacTip GelSight --metrics mae,smap --format {format}"),
+            2,
+            "--metrics `smap`: unknown metric, did you mean `smape`? Known are mae, ",
+        );
+    }
+    bench.refused(
+        "compare ViTacTip GelSight --margin mea.Fz=0.01",
+        2,
+        "--margin `mea`: unknown metric, did you mean `mae`?",
+    );
+    bench.refused(
+        "compare ViTacTip GelSight --margin mae.Fq=0.01",
+        2,
+        "--margin mae.Fq: no result has such a score; expected mae or one of mae.Fxy, mae.Fz, ",
+    );
+    bench.refused(
+        "compare ViTacTip GelSight --margin drift=0.01",
+        2,
+        "--margin drift: no result has such a score; they have ",
+    );
+    let ran = bench.run("compare ViTacTip GelSight --metrics mae,drift --format csv");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(
+        ran.err
+            .contains("--metrics drift: no result has such a score; they have "),
+        "{}",
+        ran.err
+    );
+    let metrics = |words: &str| {
+        let compared = bench.json(&format!("compare ViTacTip GelSight {words}"));
+        let answers = compared["answers"].as_array().expect("a list").iter();
+        let names: BTreeSet<String> = answers.map(|answer| answer["metric"].to_string()).collect();
+        names
+    };
+    let group = ["mae", "r2", "smape"].map(|name| format!("{name:?}"));
+    assert_eq!(metrics("--metrics accuracy"), BTreeSet::from(group));
+    assert_eq!(metrics("--metrics all"), metrics(""));
+}
+
+#[test]
+fn one_result_by_two_names_is_no_comparison() {
+    let bench = Bench::new();
+    bench.refused(
+        "compare GelSight gelsight",
+        2,
+        "gelsight: given twice, first as GelSight; expected different results",
+    );
+    bench.refused(
+        "compare DIGIT DIGIT",
+        2,
+        "DIGIT: given twice; expected different results",
+    );
+    fs::create_dir(bench.path("run")).expect("a folder");
+    bench.write("run/results.json", "{}");
+    bench.refused(
+        "compare run run/results.json",
+        2,
+        "run/results.json: given twice, first as run; expected different results",
+    );
+    bench.refused(
+        "choose --need shear --results run --results run",
+        2,
+        "run: given twice; expected different results",
+    );
+}
+
+#[test]
 fn values_stand_first_and_then_what_can_be_compared() {
     let bench = Bench::new();
     bench.record("data", 40);
@@ -176,7 +248,7 @@ fn values_stand_first_and_then_what_can_be_compared() {
     }
     let none = bench.ok("compare DIGIT TacTip -q");
     assert!(none.contains("not published"), "{none}");
-    order(&none, ["availability", "compared"]);
+    order(&none, ["availability", "Nothing to compare"]);
     assert!(none.contains(
         "Nothing to compare: no two results share a requested score with a better direction"
     ));
@@ -195,6 +267,7 @@ fn on_a_terminal_of_forty_columns_one_sensor_stands_below_the_other() {
     for words in [
         "compare GelSight MagicTac -q",
         "compare GelSight MagicTac --all -q",
+        "compare GelSight MagicTac --table main -q",
         "choose --need shear -q",
     ] {
         let typed = format!("stty cols 40 rows 24; '{program}' {words}");

@@ -52,6 +52,7 @@ fn reports_of_a_run_are_written_again_without_acquiring() {
         "figures/labels.svg",
         "like-taceva/tables.md",
         "like-taceva/tables.tex",
+        "like-taceva/figures.md",
     ] {
         let [first, again] = ["run", "again"].map(|folder| read(&bench.path(folder).join(file)));
         assert_eq!(first, again, "{file}");

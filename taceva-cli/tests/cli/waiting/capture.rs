@@ -102,7 +102,9 @@ fn a_sensor_alone_is_recorded_as_its_files_came() {
 #[test]
 fn simulated_and_recorded_sensors_are_captured_in_their_own_time() {
     let bench = Bench::new();
-    bench.ok("capture drawn --sensor sim/gelsight:seed=3 --frames 5 -q");
+    let ran = bench.run("capture drawn --sensor sim/gelsight:seed=3 --frames 5");
+    let said = "nothing here is measured: the devices are simulated";
+    assert!(ran.code == 0 && ran.err.contains(said), "{}", ran.err);
     let dataset = Dataset::open(&bench.path("drawn")).expect("whole");
     assert_eq!(dataset.header().source, Source::Simulated);
     assert_eq!(dataset.header().stream.expect("a stream").lost(), 0);

@@ -1,4 +1,4 @@
-//! What a descriptor refuses, and what it says of a device.
+//! Checks of a descriptor, and its facts.
 
 use super::*;
 use crate::driver::Axes;

@@ -10,7 +10,7 @@
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct LightingFacts {
-    /// Names of its scenes, that of the calibration first.
+    /// Names of its scenes; the scene of the calibration is first.
     pub scenes: Vec<String>,
 }
 

@@ -21,7 +21,7 @@ pub struct RobotFacts {
     pub speed_max: Option<Speed>,
     /// Repeatability of a pose: one standard deviation per axis.
     pub repeatability: Option<Millimetre>,
-    /// Noise of a reported pose about its target: one standard deviation per axis. If unknown, the repeatability is taken for a real robot,
+    /// Noise of a reported pose about its target: one standard deviation per axis. If unknown, the repeatability is used for a real robot,
     /// and 0 for a simulated one.
     pub pose_noise: Option<Millimetre>,
     /// Deceleration when it is halted, mm/s².

@@ -22,7 +22,7 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 /// - A saturated gage is `OutOfRange`; every other error of the box is `DeviceFault`.
 /// - Zero is the mean of 0.25 s, subtracted by the driver. The bias of the box stays unchanged.
 ///
-/// # What confirmed it
+/// # Verification
 /// The driver passes its suite on an emulated box, which the public client `NetFT` 2.0.1 reads too. **Not verified without the device**:
 /// the status bits, of which the driver reads two, and devices of other makers that send the same records.
 ///

@@ -4,7 +4,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use taceva_core::{
-    Deadline, DriverError, ErrorKind, FrameInfo, FrameMut, Interrupt, Sensor, Stamp,
+    Deadline, DriverError, ErrorKind, FrameInfo, FrameMut, Interrupt, Sensor, Stamp, by_count,
+    counted,
 };
 
 use super::KEY;
@@ -141,7 +142,12 @@ impl Sensor for Camera {
         self.given = None;
         let (missed, broken) = (self.missed, seen.what.broken);
         self.frames.decode(&seen.what.bytes, into, || {
-            format!("{missed} frames were missed and {broken} were broken")
+            format!(
+                "{} {} missed and {broken} {} broken",
+                counted(missed, "frame"),
+                by_count(missed, "was", "were"),
+                by_count(broken, "was", "were")
+            )
         })?;
         self.given = Some(seen.what.bytes);
         Ok(Stamp::new(seen.what.began, Some(seen.at)))

@@ -35,7 +35,7 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(V4l2Factory::new()?)));
 /// - A camera serves one program. A second program gets an error that the camera is in use.
 /// - The sensor's lighting stays unchanged.
 ///
-/// # What confirmed it
+/// # Verification
 /// The kernel's emulated camera `vivid` in a virtual machine (`taceva-wire`, test `kernel`): YUYV pixels against its colour bars, the
 /// suite, gain, a second program, unplugging. `vivid` gives only uncompressed pixels and, of the fixed controls, only gain and automatic
 /// gain. The test checks that it rejects `pixels=mjpeg`, `exposure_ms`, `white_balance_k` and `focus`. **Not verified without the device**:

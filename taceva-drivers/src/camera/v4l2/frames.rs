@@ -1,7 +1,7 @@
 //! Conversion of camera images, rows of pixels or files, to frames.
 
 use super::kernel::{FourCc, GivenFormat, PictureFormat};
-use taceva_core::{DriverError, ErrorKind, FrameInfo, FrameMut, PixelFormat};
+use taceva_core::{DriverError, ErrorKind, FrameInfo, FrameMut, PixelFormat, by_count, counted};
 
 use super::error::{START, failed};
 use super::reader::Picture;
@@ -78,7 +78,14 @@ impl Frames {
         mut into: FrameMut<'_>,
     ) -> Result<(), DriverError> {
         let damaged = picture.damaged;
-        let losses = || format!("{missed} pictures were missed and {damaged} were damaged");
+        let losses = || {
+            format!(
+                "{} {} missed and {damaged} {} damaged",
+                counted(missed, "picture"),
+                by_count(missed, "was", "were"),
+                by_count(damaged, "was", "were")
+            )
+        };
         match self {
             Frames::Files(pictures) => pictures.decode(&picture.bytes, into, losses),
             Frames::Rows {

@@ -23,7 +23,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(GrblFactory::new()?)));
 /// - A halt is the byte `!`, on which the machine decelerates at once. `clear_halt` resets the machine once it is at rest, which keeps its
 ///   position.
 ///
-/// # What confirmed it
+/// # Verification
 /// The driver passes its suite on an emulated machine on a pseudo-terminal. The emulated dialect follows GRBL's documents; no firmware has
 /// been tested. **Not verified without the device**: how soon it stops, and boards that reset otherwise.
 ///

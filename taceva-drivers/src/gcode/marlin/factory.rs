@@ -27,7 +27,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(MarlinFactory::new()?)));
 ///   position. Move slowly, and home it after a halt at speed. `clear_halt` sends no motion.
 /// - An `Error:` of the firmware ends a move with `DeviceFault`; a person resets it.
 ///
-/// # What confirmed it
+/// # Verification
 /// The driver passes its suite on an emulated printer on a pseudo-terminal. The virtual printer of OctoPrint 1.11.8 answers `M114`, `M115`,
 /// `M118`, `G1` and `M400`. It does not know `M410` and makes its moves in a tenth of their time, so it confirms only the dialect. **Not
 /// verified without the device**: all timing, how a printer stops after `M410`, and its position afterwards.

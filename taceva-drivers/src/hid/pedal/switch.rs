@@ -26,14 +26,14 @@ use crate::{OpenError, Selector};
 ///   the switch of the robot's own safety circuit is.
 /// - Pedals that act as keyboards keep typing their letter into the focused window.
 ///
-/// # What confirmed it
+/// # Verification
 /// The HID layer of Linux: a pedal emulated by `uhid` in a virtual machine (`taceva-wire`, test `kernel`). **Not verified without the
 /// device**: the bits that a model sets.
 ///
 /// ```
 /// use taceva_core::EnablingSwitch;
 /// use taceva_drivers::hid::pedal::Pedal;
-/// /// Whether the pedal is there and held.
+/// /// True if the pedal is connected and held.
 /// fn is_held() -> bool {
 ///     let opened = "hid/pedal:usb=0c45:7403".parse().map(|selector| Pedal::open(&selector));
 ///     opened.is_ok_and(|pedal| pedal.is_ok_and(|pedal| pedal.is_held().unwrap_or(false)))

@@ -24,7 +24,7 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(ScaleFactory::new()?)));
 ///   `Disconnected` and must be reopened.
 /// - Zero is the mean of the weights within 0.25 s, subtracted by the driver. The scale's own key zeroes it too.
 ///
-/// # What confirmed it
+/// # Verification
 /// The HID layer of Linux: the driver passes its suite on a scale emulated by `uhid` in a virtual machine (`taceva-wire`, test `kernel`).
 /// Numbers of states and units are from the HID usage tables. **Not verified without the device**: how often a scale sends, how long it
 /// filters, and whether it sends other units than it displays.
@@ -109,7 +109,7 @@ mod tests {
             let described = factory.describe(&args).expect("no contradiction");
             *described.force().expect("of a force transducer")
         };
-        // Three periods without a weight, 1.5 s, are 0.25 mm at 0.17 mm/s: no robot presses so slowly.
+        // Three periods without a weight last 1.5 s, or 0.25 mm at 0.17 mm/s: no robot presses so slowly.
         assert_eq!(described("").rate, Some(Hertz(2.0)));
         let measured = described("rate=10 Hz;force_max_n=49;resolution_n=0.0196");
         assert_eq!(measured.rate, Some(Hertz(10.0)));

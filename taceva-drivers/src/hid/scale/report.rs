@@ -28,7 +28,7 @@ impl Weight {
     }
 }
 
-/// Cause for a report without a valid weight.
+/// Reason why a report has no valid weight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub(super) enum WeightError {
     #[error("the scale reports a fault")]

@@ -33,7 +33,7 @@ impl Timeline {
         let round = frame / self.times_s.len();
         #[expect(
             clippy::cast_precision_loss,
-            reason = "2^53 rounds take longer than anybody has"
+            reason = "a replay never reaches 2^53 rounds"
         )]
         let begins_s = self.shift_s + round as f64 * self.round_s();
         (self.repeat || round == 0).then(|| begins_s + self.times_s[self.position(frame)])
@@ -52,7 +52,7 @@ impl Timeline {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "not negative, and a cast of what is too large gives the largest"
+            reason = "not negative, and the cast saturates"
         )]
         let rounds = round as usize;
         rounds

@@ -26,7 +26,7 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
 /// - Zero is the mean of 0.25 s, subtracted by the driver. With `zero=box` the box zeroes itself, which takes seconds.
 /// - `force_max_n` from the certificate makes a clipped force an error. Without it, clipping goes undetected.
 ///
-/// # What confirmed it
+/// # Verification
 /// Two published frames, whose values and checksums are tested, and an emulated box on which the driver passes its suite. There is no
 /// public client. **Not verified without the device**: the answer to a stop, zero in the box, the unit of torque (N·m unless `torque=N
 /// mm`), and frames with CRC32. The CRC's polynomial and byte order come from a single public driver.

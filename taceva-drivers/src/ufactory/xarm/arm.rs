@@ -30,7 +30,7 @@ pub(super) struct Arm {
     pub(super) options: XarmOptions,
 }
 
-/// Unknown firmware, for which only commands that never changed are sent.
+/// Unknown firmware: only commands that never changed are sent to it.
 const UNKNOWN: Firmware = Firmware::new(0, 0, 0);
 
 impl Arm {

@@ -28,7 +28,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
 ///   an error.
 /// - The emergency stop, a collision, the safety boundary and every other error of the controller end a move with `DeviceFault`.
 ///
-/// # What confirmed it
+/// # Verification
 /// Frames match those of the public client `xarm-python-sdk` 1.18.4, for both layouts of a straight line (before and since firmware
 /// 1.11.100). The driver passes its suite on an emulated controller, which serves that client too. **Not verified without the device**: how
 /// fast an arm stops, how exactly it keeps a velocity and reaches its end, and how long a controller keeps an idle connection. Also whether

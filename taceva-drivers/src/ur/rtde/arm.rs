@@ -134,7 +134,7 @@ pub(super) fn failed(
 
 /// Maximum age of a state for a first look.
 const FRESH: Duration = Duration::from_millis(50);
-const M_A_MM: f64 = 1e-3;
+pub(super) const M_A_MM: f64 = 1e-3;
 
 impl Arm {
     /// Connects to an arm. Nothing moves and no state changes.

@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use taceva_core::{Deadline, DriverError, EXPIRES, ErrorKind, ExpiringMotion, Pose, Speed, Stamp};
 
-use super::arm::{Arm, failed, numbered_pose};
+use super::arm::{Arm, M_A_MM, failed, numbered_pose};
 use super::message::ArmState;
-use super::motion::{DOING, M_A_MM, halted};
+use super::motion::{DOING, halted};
 use super::safety::ArmFault;
 use super::script::cruise;
 use crate::link::course::{Course, LINE, RENEWED};

@@ -26,7 +26,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 /// - Emergency, protective and safeguard stops end a move with `DeviceFault`.
 /// - During a move, the states that the arm sends are watched; they report these stops too.
 ///
-/// # What confirmed it
+/// # Verification
 /// The driver passes its suite on an emulated controller, whose poses the public client `ur-rtde` 1.6.5 reads too. Only this driver has
 /// sent it script. **Not verified without the device**: how soon a program begins and `stopl` ends one, and bits of the safety status,
 /// which are from the documents. Also whether an arm keeps its speed when a `speedl` program of 0.2 s replaces another every 50 ms.

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use taceva_core::{Deadline, DriverError, ErrorKind, Pose, Speed, Stamp};
 
-use super::arm::{Arm, failed};
+use super::arm::{Arm, M_A_MM, failed};
 use super::message::ArmState;
 use super::rotation::{numbers_of, pose_of};
 use super::safety::ArmFault;
@@ -26,7 +26,6 @@ const SETTLED: Duration = Duration::from_millis(200);
 const BRAKED: Duration = Duration::from_millis(400);
 /// Time to wait until a stopped arm is at rest.
 const STOPPING: Duration = Duration::from_millis(400);
-pub(super) const M_A_MM: f64 = 1e-3;
 /// Runtime state without a program.
 const STOPPED: u32 = 1;
 

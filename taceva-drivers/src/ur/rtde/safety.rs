@@ -8,7 +8,7 @@ use super::arm::failed;
 
 use super::message::ArmState;
 
-/// Cause for an arm not moving.
+/// Reason why an arm does not move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ArmFault {
     EmergencyStop,

@@ -40,7 +40,7 @@ impl ErasedSums {
         ErasedSums(Box::new(sums))
     }
 
-    /// The sums, whose type is that of the family they belong to.
+    /// The sums, of the type of their family.
     pub(super) fn sums<S: 'static>(&self) -> &Vec<S> {
         typed(&*self.0)
     }

@@ -52,7 +52,7 @@ enum Draws {
 }
 
 impl Resampling {
-    /// Empty resampling of `numbers`, those of all clusters, with a value in `range`.
+    /// Empty resampling for the `numbers` of all clusters, with a value in `range`.
     pub(super) fn new(numbers: &Numbers, range: Range) -> Resampling {
         let variants = numbers.variants.iter();
         let names = variants.map(|variant| (Some(variant.name.clone()), variant.range));
@@ -62,7 +62,7 @@ impl Resampling {
         }
     }
 
-    /// True if any of the numbers has an interval; greatest values have none.
+    /// True if any of the numbers has an interval; maxima have none.
     pub(super) fn is_needed(&self) -> bool {
         let mut ranges = self.names.iter().map(|(_, range)| range);
         ranges.any(|range| *range != Range::Greatest)

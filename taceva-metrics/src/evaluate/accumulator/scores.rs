@@ -6,8 +6,10 @@ use super::resampling::{Cell, Resampling, each_left_out};
 use crate::evaluate::entry::Entry;
 use crate::evaluate::family::{Details, Numbers, Output};
 use crate::evaluate::metric::Metric;
+use crate::score::flag::Flag;
 use crate::score::standing::Standing;
 use crate::score::value::{UndefinedReason, Value};
+use crate::score::verdict_rule::VerdictRule;
 use crate::score::{Interval, Score, Variant};
 use crate::stats::IntervalMethod;
 
@@ -192,8 +194,15 @@ impl Accumulator {
         variants.extend(details.variants);
         let mut parameters = (metric.constants)(output.unit);
         parameters.extend(details.parameters);
+        let interval = interval(&value, None);
+        let mut flags = details.flags;
+        let has_no_width = interval.ends().is_some_and(|[low, high]| high <= low);
+        // The skill of a constant prediction is 0 by its definition.
+        if has_no_width && metric.verdict != VerdictRule::Skill {
+            flags.push(Flag::EqualClusters);
+        }
         Score {
-            interval: interval(&value, None),
+            interval,
             value,
             unit: metric.unit.of(output.unit),
             n: n.unwrap_or_default(),
@@ -201,7 +210,7 @@ impl Accumulator {
             definition: metric.definition,
             parameters,
             counts: details.counts,
-            flags: details.flags,
+            flags,
             standing: Standing::default(),
             bounded_share: None,
             of: output.of,

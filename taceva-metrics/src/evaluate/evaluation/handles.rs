@@ -38,7 +38,7 @@ handles! {
     rmse: "the root mean square error, in the unit of the channel",
     bias: "the mean of truth − prediction, in the unit of the channel",
     r2: "the coefficient of determination, the share of the variance of the truth that is explained, without unit",
-    skill: "the share by which the squared error is less than that of the best constant prediction, without unit",
+    skill: "the share by which the squared error is less than that of a constant prediction, without unit",
     smape: "the symmetric relative error as a fraction, without unit",
     smape_gated: "the symmetric relative error of samples in contact, without unit",
     tolerance: "the share of predictions within 0.05 mm or 0.05 N of the truth",

@@ -33,19 +33,19 @@ impl Avx2 {
         fn with_instructions<J: Job>(proof: Avx2, job: J) -> J::Output {
             job.run::<Four>(proof)
         }
-        // SAFETY: `self` is made by `detect` alone, which found the instructions.
+        // SAFETY: only `detect` makes `self`, after it found the instructions.
         unsafe { with_instructions(self, job) }
     }
 }
 
-/// Four numbers; made from a proof or from others of its kind.
+/// Four numbers, made from a proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Four(__m256d);
 
 /// One instruction on values whose existence proves that the machine has it.
 macro_rules! with_avx2 {
     ($instruction:expr) => {
-        // SAFETY: a `Four` or an `Avx2` is at hand, which only machines with AVX2 and FMA have; no memory is touched.
+        // SAFETY: a `Four` or an `Avx2` exists only on machines with AVX2 and FMA; no memory is accessed.
         unsafe { $instruction }
     };
 }
@@ -83,7 +83,7 @@ impl Vector for Four {
 
     #[inline(always)]
     fn plus_aside(self, other: Four, _one: Four) -> Four {
-        // None of the sixteen registers is left for the ones, and loading them each time costs more than it saves.
+        // No register is free for the ones, and loading them each time costs more than it saves.
         self.plus(other)
     }
 

@@ -29,19 +29,19 @@ impl Avx512 {
         fn with_instructions<J: Job>(proof: Avx512, job: J) -> J::Output {
             job.run::<Eight>(proof)
         }
-        // SAFETY: `self` is made by `detect` alone, which found the instructions.
+        // SAFETY: only `detect` makes `self`, after it found the instructions.
         unsafe { with_instructions(self, job) }
     }
 }
 
-/// Eight numbers; made from a proof or from others of its kind.
+/// Eight numbers, made from a proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Eight(__m512d);
 
 /// One instruction on values whose existence proves that the machine has it.
 macro_rules! with_avx512 {
     ($instruction:expr) => {
-        // SAFETY: an `Eight` or an `Avx512` is at hand, which only machines with AVX-512F have; no memory is touched.
+        // SAFETY: an `Eight` or an `Avx512` exists only on machines with AVX-512F; no memory is accessed.
         unsafe { $instruction }
     };
 }

@@ -27,19 +27,19 @@ impl Neon {
         fn with_instructions<J: Job>(proof: Neon, job: J) -> J::Output {
             job.run::<Two>(proof)
         }
-        // SAFETY: `self` is made by `detect` alone, which found the instructions.
+        // SAFETY: only `detect` makes `self`, after it found the instructions.
         unsafe { with_instructions(self, job) }
     }
 }
 
-/// Two numbers; made from a proof or from others of its kind.
+/// Two numbers, made from a proof or from other vectors.
 #[derive(Clone, Copy)]
 struct Two(float64x2_t);
 
 /// One instruction on values whose existence proves that the machine has it.
 macro_rules! with_neon {
     ($instruction:expr) => {
-        // SAFETY: a `Two` or a `Neon` is at hand, which only machines with NEON have; no memory is touched.
+        // SAFETY: a `Two` or a `Neon` exists only on machines with NEON; no memory is accessed.
         unsafe { $instruction }
     };
 }
@@ -72,7 +72,7 @@ impl Vector for Two {
 
     #[inline(always)]
     fn prefetch(_values: &[f64]) {
-        // There is no instruction for it in the stable library.
+        // The stable library has no prefetch instruction.
     }
 
     #[inline(always)]

@@ -1,4 +1,4 @@
-//! Two numbers per vector in plain Rust, for machines without an instruction set of ours.
+//! Two numbers per vector in plain Rust, for machines without a supported instruction set.
 
 use crate::exact::vector::{Job, Vector};
 

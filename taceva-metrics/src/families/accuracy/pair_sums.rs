@@ -117,7 +117,7 @@ impl PairSums {
         self.kept.gated_sum()
     }
 
-    /// The gate, if the sum behind it is kept.
+    /// The gate, if the gated sum is kept.
     pub fn gate(&self) -> Option<f64> {
         gate(self.spec)
     }
@@ -198,7 +198,7 @@ impl Merge for PairSums {
     }
 }
 
-/// The gate, if the terms behind it are summed.
+/// The gate, if the gated terms are summed.
 fn gate(spec: PairSpec) -> Option<f64> {
     let wanted = spec.streams.contains(Stream::Symmetric);
     spec.gate.filter(|_| wanted)

@@ -28,7 +28,7 @@ pub(crate) static PAIRS: FamilyKind = FamilyKind {
 pub(crate) const PAIR_NEEDS: Needs =
     Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction)).with_least_samples(1);
 
-/// Formula of a metric that is finished from the sums of pairs.
+/// Formula of a metric that is computed from the sums of pairs.
 pub(crate) struct PairFormula {
     /// The sums it reads.
     pub(crate) streams: Streams,

@@ -25,7 +25,7 @@ pub(crate) struct PlaneAxes {
 }
 
 impl PlaneAxes {
-    /// The plane's score, finished from its own sums at position 0.
+    /// The plane's score, computed from its own sums at position 0.
     pub(crate) fn output(&self) -> Output {
         Output {
             label: self.label.to_owned(),
@@ -36,11 +36,23 @@ impl PlaneAxes {
     }
 }
 
-/// The planes there are: their names, axes and units.
-const PLANES: [(&str, [&str; 2], Unit); 2] = [
+/// Planes of two channels, which scores have and models do not predict: name, axes and unit.
+pub const PLANES: [(&str, [&str; 2], Unit); 2] = [
     ("Pxy", ["Px", "Py"], Unit::Millimetre),
     ("Fxy", ["Fx", "Fy"], Unit::Newton),
 ];
+
+/// Axes of the plane called `name`; `None` for a channel.
+pub fn plane_axes(name: &str) -> Option<[&'static str; 2]> {
+    let mut planes = PLANES.into_iter();
+    planes.find_map(|(plane, axes, _)| (plane == name).then_some(axes))
+}
+
+/// Plane of which `channel` is an axis.
+pub fn plane_of(channel: &str) -> Option<&'static str> {
+    let mut planes = PLANES.into_iter();
+    planes.find_map(|(plane, axes, _)| axes.contains(&channel).then_some(plane))
+}
 
 /// The planes that `channels` span.
 pub(crate) fn planes(channels: &Channels) -> Vec<PlaneAxes> {
@@ -55,7 +67,7 @@ pub(crate) fn planes(channels: &Channels) -> Vec<PlaneAxes> {
     spanned.collect()
 }
 
-/// Formula of a metric that is finished from the distances in a plane.
+/// Formula of a metric that is computed from the distances in a plane.
 pub(crate) struct PlaneFormula(pub(crate) fn(&PlaneSums) -> Finished);
 
 /// Family of distances in planes of two channels.
@@ -100,7 +112,7 @@ impl Plane {
 }
 
 impl Plane {
-    /// Missing axis, if `channels` span no plane: the second of a plane whose first is there, or else the first of all.
+    /// Missing axis, if `channels` span no plane: the second axis of a plane with its first, else the first axis of all.
     fn missing_axis(channels: &Channels) -> Option<&'static str> {
         if !planes(channels).is_empty() {
             return None;
@@ -154,7 +166,7 @@ impl Family for Plane {
             for (x, y) in pairs(0).zip(pairs(2)) {
                 match PlaneSums::distance_of(x, y).filter(|distance| is_valid(*distance)) {
                     Some(distance) => self.distances.push(distance),
-                    // An unusable distance is skipped, and one beyond the range of columns is added on its own.
+                    // An unusable distance is skipped. A distance beyond the range of columns is added alone.
                     None => sums.add(x, y),
                 }
             }
@@ -201,8 +213,18 @@ impl Family for Plane {
 mod tests {
     use taceva_core::Channel;
 
+    use super::{PLANES, plane_axes, plane_of};
     use crate::evaluate::{Evaluator, Rows};
     use crate::pair::GREATEST;
+
+    #[test]
+    fn an_axis_names_its_plane_and_a_plane_its_axes() {
+        for (plane, axes, _) in PLANES {
+            assert_eq!(plane_axes(plane), Some(axes));
+            assert!(axes.iter().all(|axis| plane_of(axis) == Some(plane)));
+        }
+        assert_eq!((plane_axes("Pz"), plane_of("Fz")), (None, None));
+    }
 
     #[test]
     fn a_distance_beyond_usable_numbers_is_summed_all_the_same() {

@@ -5,7 +5,7 @@ use crate::exact::FixedSum;
 use crate::exact::level::millionths;
 use crate::pair::Paired;
 
-/// Most levels of the window; wider ranges of truth use a lookup.
+/// Most levels of the window; a wider range of truth uses a lookup.
 const LEVELS: usize = 1 << 12;
 
 /// Placeholder for the level of a pair without one.

@@ -17,8 +17,8 @@ impl Leaks {
     /// Fits y_i = a_i + Σ_j b_ij x_j and gives b_ij range_j / range_i, range the full scale of a truth.
     ///
     /// The products of deviations are exact and rounded once. The normal equations are scaled to correlations and solved by Cholesky's
-    /// method, whose error grows with the collinearity of the truths. Slopes are Σ y_i x_j / Σ x_j² of deviations instead if a truth is a
-    /// linear function of the others up to 10⁻⁸ of its variance, or without more samples than unknowns.
+    /// method, whose error grows with the collinearity of the truths. Slopes are Σ y_i x_j / Σ x_j² of deviations instead if samples are not
+    /// more than unknowns. The same applies if a truth is a linear function of the others up to 10⁻⁸ of its variance.
     ///
     /// # Errors
     /// [`UndefinedReason`] for fewer than three samples, one channel, or no truth that varies.
@@ -220,7 +220,7 @@ mod tests {
         let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let leaks = Leaks::of(&sums(together, identity)).expect("varied truths");
         assert!(!leaks.joint);
-        // y₀ = x₀ = x₁ / 2: all of its full scale over all of the other's.
+        // y₀ = x₀ = x₁ / 2: its full-scale motion per full-scale motion of x₁ is 1.
         assert_eq!(leaks.shares[0][1], Some(1.0));
     }
 

@@ -248,7 +248,7 @@ impl Merge for LoopSums {
     }
 }
 
-/// Returns the reason of the points that came further, which is the first to fix.
+/// Returns the reason of the later step, which is the first to fix.
 fn further(left: UndefinedReason, right: UndefinedReason) -> UndefinedReason {
     let came = |reason: &UndefinedReason| match reason {
         UndefinedReason::ShortBranch => 0,

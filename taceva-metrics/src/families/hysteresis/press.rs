@@ -6,7 +6,7 @@ use crate::exact::single::{exactly, magnitude, sign};
 use crate::exact::{Dyadic, ExactSum};
 use crate::score::value::UndefinedReason;
 
-/// Force over depth of one branch: corners `[depth in mm, force in N]`, depths strictly ascending, two at least.
+/// Force over depth of one branch: at least two corners `[depth in mm, force in N]`, depths strictly ascending.
 pub(crate) type Branch<'a> = &'a [[f64; 2]];
 
 /// Hysteresis of one press.

@@ -39,7 +39,7 @@ impl Gap {
     }
 }
 
-/// RN of the mean distance from the points of `from` within the hull of `to` to the nearest of `to`, and the number of these points.
+/// RN of the mean distance to the nearest point of `to`, over the points of `from` within the hull of `to`. Also returns their number.
 fn mean_distance(from: &[Point], to: &[Point]) -> Result<(f64, u64), UndefinedReason> {
     let seen_from_above = |&[x, y, _]: &Point| [x, y];
     let hull = Hull::of(to.iter().map(seen_from_above));

@@ -22,7 +22,7 @@ struct UnitPair {
 }
 
 impl UnitGaps {
-    /// Compares each unit with each later one in the order of names, which is moved onto it.
+    /// Moves each later unit, in the order of names, onto each earlier one and compares them.
     ///
     /// # Errors
     /// [`UndefinedReason`] if there is no sample or one unit only.

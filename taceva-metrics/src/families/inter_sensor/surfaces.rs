@@ -28,7 +28,7 @@ struct Places {
     units: SortedMap<String, PlaceSet>,
 }
 
-/// The surface of one unit: points in a defined order, those of a location under its number.
+/// Surface of one unit: points in a fixed order, each with the number of its location.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Cloud {
     /// The points.

@@ -12,7 +12,7 @@ use taceva_core::random::fnv_1a;
 
 /// Time of every frame, and the hull of the places of contact.
 ///
-/// The frames are a set: one in several samples counts once. Eight bytes of each digest are kept, enough to distinguish neighbours.
+/// The frames are a set: a frame in several samples counts once. Eight bytes of each digest are kept, enough to distinguish neighbours.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct IntrinsicSums {
     n_invalid: u64,

@@ -11,7 +11,7 @@ pub(super) struct Intervals {
 }
 
 /// Longest median interval of a stream of frames, s. One picture every few seconds is the pace of a robot, not of a camera.
-const STREAM_S: f64 = 1.0;
+pub const STREAM_S: f64 = 1.0;
 /// Medians beyond which an interval is a gap.
 const GAP: f64 = 1.5;
 
@@ -52,7 +52,7 @@ impl Intervals {
         Ok(1.0 / self.median())
     }
 
-    /// RN of the standard deviation (over n − 1) of the intervals that are no gap, s.
+    /// RN of the standard deviation (over n − 1) of the intervals that are not gaps, s.
     pub(super) fn jitter(&self) -> Finished {
         let regular: Moments = self.regular().iter().copied().collect();
         regular
@@ -68,7 +68,7 @@ impl Intervals {
         Dyadic::from(gaps).over(&Dyadic::from(all))
     }
 
-    /// The intervals that are no gap.
+    /// The intervals that are not gaps.
     fn regular(&self) -> &[f64] {
         let limit = GAP * self.median();
         let regular = self.sorted.partition_point(|interval| *interval <= limit);

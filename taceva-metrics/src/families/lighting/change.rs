@@ -1,4 +1,4 @@
-//! One scene beside the reference scene.
+//! One scene compared with the reference scene.
 
 use super::sums::SceneSums;
 use crate::exact::Dyadic;
@@ -33,7 +33,7 @@ impl Change {
         })
     }
 
-    /// The same with b = max(0, MAEc/MAEo − 1): a smaller error is no lack of robustness.
+    /// The same with b = max(0, MAEc/MAEo − 1): a smaller error is not a lack of robustness.
     pub(super) fn robustness_plus(self) -> Finished {
         self.share(|difference| {
             if difference.is_negative() {
@@ -150,7 +150,7 @@ mod tests {
                 "{error}: {slope}"
             );
         }
-        // Without more error R is 1, and no more certain than beyond the bend.
+        // If the error did not grow, R is 1, but no more certain than beyond the bend.
         assert_eq!(
             at(0.5).slope(true),
             at(0.5).slope(false).map(|slope| -slope)

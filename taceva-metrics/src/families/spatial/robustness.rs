@@ -11,6 +11,7 @@ use crate::exact::sorted_map::SortedMap;
 use crate::families::clustered_excess::{self, WithEnds};
 use crate::families::spatial::KIND;
 use crate::score::direction::Better;
+use crate::score::least::WELL_SAMPLED;
 use crate::score::range::Range;
 use crate::score::sensor_facts::Fact;
 use crate::score::theme::Theme;
@@ -29,8 +30,9 @@ pub(crate) static R_SPATIAL: Metric = Metric {
     range: Range::Positive,
     definition: "r_spatial/2",
     reference: "TacEva, equation (7)",
-    documentation: "Variation of the mean absolute error between places: the standard deviation of the means of a hundred bins of \
-                    distance from the axis, and of depth, and the mean of both. Bins with few samples differ by chance; `noise_floor` is \
+    documentation: "Variation of the mean absolute error between places: the mean of two standard deviations (over n), one of the \
+                    means of a hundred bins of distance from the axis, one of those of a hundred bins of depth. Bins without samples do \
+                    not count. Bins with few samples differ by chance; `noise_floor` is \
                     the size of that difference. `excess` is the remainder, where samples of one contact point are dependent, and \
                     verdicts use it. A score takes part in them only if its excess is shown to exceed 0. `n_min_5` omits bins with fewer \
                     than five samples. `smooth` uses the rolling mean that plots show. `within` is the other reading of the paper: the \
@@ -47,9 +49,6 @@ pub(crate) static R_SPATIAL: Metric = Metric {
 
 /// Variant that decides verdicts.
 pub(super) const EXCESS: &str = "excess";
-
-/// Least samples of a bin for the variant `n_min_5`; the paper's least is one.
-const WELL_SAMPLED: u64 = 5;
 
 /// R = RN((σ_distance + σ_depth) / 2), σ the population STD of the bin means; variants are means of both axes too.
 pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) -> Numbers {

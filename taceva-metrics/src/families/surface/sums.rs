@@ -69,7 +69,7 @@ pub(crate) enum Place {
 }
 
 impl SurfaceSums {
-    /// Adds a press; one below `gate_n` is counted as gated.
+    /// Adds a press; a press below `gate_n` newtons is counted as gated.
     pub(crate) fn add(&mut self, press: Press, gate_n: f64, without_shear: bool, place: Place) {
         let Press { depth_mm, force_n } = press;
         if !is_valid(depth_mm) || !is_valid(force_n) {

@@ -1,4 +1,4 @@
-//! Errors that are equal everywhere, and errors that are not.
+//! Coverage of the excess for errors that are equal everywhere, and for errors that differ between places.
 
 use super::*;
 use taceva_core::random::SplitMix64;

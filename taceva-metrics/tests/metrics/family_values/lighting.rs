@@ -1,4 +1,4 @@
-//! Robustness to light from outside.
+//! Robustness to external light.
 
 use super::*;
 
@@ -53,11 +53,15 @@ fn robustness_to_lighting_by_hand() {
     let factor = (2.776_445_105_f64 * standard_error / (2.0 / 9.0)).exp();
     close(low, 2.0 / (2.0 + factor));
     close(high, 2.0 * factor / (1.0 + 2.0 * factor));
-    let scene = score.variant("scene:S1").expect("a scene");
-    assert_eq!(
-        (&scene.value, scene.interval),
-        (&score.value, Some(score.interval))
-    );
+    // Every error grew, so that `plus` is the same quantity.
+    for name in ["scene:S1", "plus"] {
+        let variant = score.variant(name).expect("a variant");
+        assert_eq!(
+            (&variant.value, variant.interval),
+            (&score.value, Some(score.interval)),
+            "{name}"
+        );
+    }
     assert_eq!(
         (
             score.count("scenes"),
@@ -125,7 +129,7 @@ fn little_light_and_smaller_errors_are_flagged() {
     let evaluation = evaluate(&["r_light"], &samples);
     let score = evaluation.score("r_light", "Fz").expect("a score");
     assert_eq!(score.flags, [Flag::LowStimulus, Flag::ImprovedError]);
-    // The light of a plane is that of its axes.
+    // The light of a plane equals that of its axes.
     let plane = evaluation.score("r_light", "Fxy").expect("a plane");
     assert_eq!(plane.flags, score.flags);
     assert_eq!(

@@ -1,4 +1,4 @@
-//! States and reports: what is refused, and what is written.
+//! States and reports: rejected states, and written reports.
 
 use super::*;
 

@@ -10,7 +10,7 @@ fn spacing_sample(row: usize, truth: Nanometre, predicted: Nanometre) -> Sample 
         .with_predicted_spacing(predicted)
 }
 
-/// The share of `samples` within `tolerance`, which must be the same in every way.
+/// Share of `samples` within `tolerance`, computed in every way; all results must be equal.
 fn success_rates(samples: &[Sample], tolerance: Nanometre) -> Vec<(&'static str, Evaluation)> {
     let plan = plan(&["sr"], &[], SensorFacts::default());
     let settings = Settings::default().with_resolution_tolerance(tolerance);

@@ -1,11 +1,11 @@
 //! Reads golden cases: fixed inputs, runs of fixed inputs, and recipes of a seeded generator.
 //!
-//! Whatever is not understood is a panic, because a case that is skipped proves nothing.
+//! An unknown entry causes a panic, because a skipped case proves nothing.
 
 use serde_json::{Map, Value};
 use taceva_metrics::bench::{Kind, Order};
 
-/// A case's inputs in its own order, and what must come of them.
+/// Inputs of a case in their own order, and the expected results.
 pub(crate) struct Case {
     pub(crate) name: String,
     pub(crate) truth: Vec<f64>,
@@ -13,10 +13,10 @@ pub(crate) struct Case {
     pub(crate) expected: Expected,
 }
 
-/// What must come of a case.
+/// Expected results of a case.
 pub(crate) struct Expected {
     pub(crate) n: u64,
-    /// Name and bits, or none where there is no value.
+    /// Name and bits; `None` for a missing value.
     pub(crate) canonical: Vec<(String, Option<f64>)>,
     /// Metric and status.
     pub(crate) status: Vec<(String, String)>,

@@ -1,7 +1,7 @@
-//! Reads golden vectors of scores by place, scene and grating, and evaluates samples in every way that must not matter.
+//! Reads golden vectors of scores by place, scene and grating, and evaluates the samples in different orders and parts.
 //!
-//! Whatever is not understood is a panic, because a case that is skipped proves nothing. `TACEVA_GOLDEN` names a folder with
-//! another `structured.json` of the same schema.
+//! An unknown entry causes a panic, because a skipped case proves nothing. `TACEVA_GOLDEN` names a folder with another `structured.json` of
+//! the same schema.
 
 use std::path::PathBuf;
 
@@ -29,7 +29,7 @@ pub(crate) fn section(name: &str, known: &[&str]) -> Value {
     section
 }
 
-/// Refuses a key that the reader does not know.
+/// Rejects a key that the reader does not know.
 pub(crate) fn check_keys(object: &Value, known: &[&str]) {
     let keys = object.as_object().expect("an object").keys();
     let unknown: Vec<&String> = keys.filter(|key| !known.contains(&key.as_str())).collect();
@@ -43,31 +43,31 @@ pub(crate) fn check_keys(object: &Value, known: &[&str]) {
 pub(crate) fn whole(value: &Value) -> u64 {
     value
         .as_u64()
-        .unwrap_or_else(|| panic!("{value} is no count"))
+        .unwrap_or_else(|| panic!("{value} is not a count"))
 }
 
 /// A signed whole number.
 pub(crate) fn signed(value: &Value) -> i64 {
     value
         .as_i64()
-        .unwrap_or_else(|| panic!("{value} is no whole number"))
+        .unwrap_or_else(|| panic!("{value} is not a whole number"))
 }
 
 /// A binary64 number as JSON writes it.
 pub(crate) fn real(value: &Value) -> f64 {
     value
         .as_f64()
-        .unwrap_or_else(|| panic!("{value} is no number"))
+        .unwrap_or_else(|| panic!("{value} is not a number"))
 }
 
 /// A text.
 pub(crate) fn text(value: &Value) -> &str {
     value
         .as_str()
-        .unwrap_or_else(|| panic!("{value} is no text"))
+        .unwrap_or_else(|| panic!("{value} is not text"))
 }
 
-/// A binary64 number by its bits: `"0x3ff…"`, or an object whose `bits` or `rn` are that.
+/// A binary64 number by its bits: `"0x3ff…"`, or an object with such a text in `bits` or `rn`.
 pub(crate) fn exact(value: &Value) -> f64 {
     let digits = value
         .as_str()
@@ -78,7 +78,7 @@ pub(crate) fn exact(value: &Value) -> f64 {
     f64::from_bits(u64::from_str_radix(digits, 16).expect("64 bits"))
 }
 
-/// The generator of the recipes.
+/// Generator of the recipes.
 pub(crate) struct Random(SplitMix64);
 
 impl Random {
@@ -96,23 +96,23 @@ impl Random {
         i64::try_from(self.next() % bound).expect("below an i64")
     }
 
-    /// A position in a list of `length`.
+    /// Index into a list of `length`.
     fn index(&mut self, length: usize) -> usize {
         usize::try_from(self.next() % length as u64).expect("below a usize")
     }
 
-    /// `u()`.
+    /// `u()` of the recipes: uniform from 0 to below 1.
     pub(crate) fn unit(&mut self) -> f64 {
         self.0.unit()
     }
 
-    /// `g()`.
+    /// `g()` of the recipes: approximately normal.
     pub(crate) fn bell(&mut self) -> f64 {
         (1..12).fold(self.unit(), |sum, _| sum + self.unit()) - 6.0
     }
 }
 
-/// The scores of `samples` in order, backwards, and shuffled over random parts whose states travel as JSON and merge.
+/// The scores of `samples`: in order, backwards, and shuffled into random parts whose states are written as JSON and merged.
 pub(crate) fn in_every_way(
     plan: &MetricPlan,
     samples: &[Sample],
@@ -147,14 +147,14 @@ pub(crate) fn in_every_way(
     ]
 }
 
-/// Counts what was compared and says so where a value is another.
+/// Counts comparisons and reports values that differ.
 #[derive(Default)]
 pub(crate) struct Comparison {
     compared: usize,
 }
 
 impl Comparison {
-    /// Both must be the same bits.
+    /// Asserts that both have the same bits.
     pub(crate) fn bits(&mut self, what: &str, found: Option<f64>, expected: f64) {
         let found = found.unwrap_or_else(|| panic!("{what}: no number, expected {expected:e}"));
         assert_eq!(
@@ -165,21 +165,20 @@ impl Comparison {
         self.compared += 1;
     }
 
-    /// Both must be the same count.
+    /// Asserts that both counts are equal.
     pub(crate) fn count(&mut self, what: &str, found: Option<u64>, expected: u64) {
         assert_eq!(found, Some(expected), "{what}");
         self.compared += 1;
     }
 
-    /// How many values were compared; never none.
+    /// Number of compared values; never zero.
     pub(crate) fn done(self) -> usize {
         assert!(self.compared > 0, "nothing was compared");
         self.compared
     }
 }
 
-/// Runs the other tests of `module` in a process of its own for each instruction set, as which one is used is decided once a
-/// process.
+/// Runs the other tests of `module` in a separate process for each instruction set, because a process selects one once.
 pub(crate) fn again_on_every_instruction_set(module: &str) {
     let program = std::env::current_exe().expect("this program");
     for isa in taceva_metrics::Isa::available() {

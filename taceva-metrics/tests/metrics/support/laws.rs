@@ -1,26 +1,26 @@
-//! The laws of merging, for whoever makes evaluators of samples of some kind.
+//! Laws of merging, for any kind of samples.
 
 use taceva_metrics::{Evaluator, State};
 
-/// What an evaluator keeps.
+/// States of an evaluator.
 pub(crate) fn states(mut evaluator: Evaluator) -> Vec<State> {
     evaluator.states().expect("the plan's channels")
 }
 
-/// What it reports, as JSON and as a table.
+/// Report of an evaluator, as JSON and as a table.
 pub(crate) fn report(evaluator: Evaluator) -> String {
     let evaluation = evaluator.finish().expect("the plan's channels");
     let json = serde_json::to_string(&evaluation).expect("a report");
     format!("{json}\n{evaluation:#}")
 }
 
-/// Both together.
+/// Merges `right` into `left`.
 pub(crate) fn merged(mut left: Evaluator, right: Evaluator) -> Evaluator {
     left.merge(right).expect("one plan");
     left
 }
 
-/// `whole` is what its parts are together, whichever comes first.
+/// Asserts that `whole` equals its merged parts, in either order.
 pub(crate) fn a_whole_equals_its_merged_parts<T>(
     samples: &[T],
     cut: usize,
@@ -35,7 +35,7 @@ pub(crate) fn a_whole_equals_its_merged_parts<T>(
     assert_eq!(report(merged(of(right), of(left))), expected);
 }
 
-/// Order and brackets do not matter, and nothing is the identity.
+/// Asserts that order and grouping do not matter, and that an empty evaluator is the identity.
 pub(crate) fn merging_is_commutative_and_associative_and_nothing_is_its_identity<T>(
     samples: [&[T]; 3],
     of: impl Fn(&[T]) -> Evaluator,
@@ -51,7 +51,7 @@ pub(crate) fn merging_is_commutative_and_associative_and_nothing_is_its_identity
     assert_eq!(states(merged(nothing(), a())), states(a()));
 }
 
-/// A state survives its text, and an evaluator that takes it in reports the same.
+/// Asserts that a state survives its text, and that an evaluator that merges it gives the same report.
 pub(crate) fn a_state_that_was_written_and_read_is_the_same<T>(
     samples: &[T],
     of: impl Fn(&[T]) -> Evaluator,

@@ -1,9 +1,9 @@
-//! Samples with everything that scores by place, scene and grating read.
+//! Samples with all fields of scores by place, scene and grating.
 
 use taceva_core::{Channel, Channels, Field, FieldSet, Footprint, Readings, Sample, SampleSink};
 use taceva_metrics::{Evaluation, Evaluator, MetricPlan, SensorFacts, catalogue};
 
-/// The metrics by place, scene and grating.
+/// Metrics by place, scene and grating.
 pub(crate) const METRICS: [&str; 5] = ["sr", "sensitivity", "uniformity", "r_spatial", "r_light"];
 
 /// A disc of 12.5 mm that is pressed up to 1 mm deep.
@@ -33,7 +33,7 @@ pub(crate) fn press(point: usize, place: [f64; 3], force_n: f64, error: f64) -> 
         .with_prediction(Readings::from_values(truth.map(|value| value + error)))
 }
 
-/// An evaluator that has taken in `samples` one by one.
+/// An evaluator with `samples`, added one by one.
 pub(crate) fn evaluator<'a>(
     plan: &MetricPlan,
     samples: impl IntoIterator<Item = &'a Sample>,

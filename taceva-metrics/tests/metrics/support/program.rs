@@ -1,12 +1,12 @@
-//! Bytes read as a program of batches, merges and states, written and read back, whole and damaged.
+//! Interprets bytes as a program of batches, merges and states, which are written, damaged and read back.
 //!
-//! Shared by a test that runs on any compiler and by the fuzzer. Nothing in a program may panic; what it gives may only be an
-//! error or scores that do not depend on how it got there.
+//! Shared by a test that runs on any compiler and by the fuzzer. No program may panic. Its result is an error, or scores that do not depend
+//! on the path.
 
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet, Labels};
 use taceva_metrics::{Evaluator, MetricPlan, State, catalogue};
 
-/// Bytes from the first to the last; zeros once there are no more.
+/// Reads bytes in order, then zeros.
 struct Tape<'a> {
     bytes: &'a [u8],
 }
@@ -22,7 +22,7 @@ impl Tape<'_> {
         }
     }
 
-    /// Any binary64, with those of an everyday magnitude and the odd ones more frequent than among all patterns.
+    /// Any binary64; typical magnitudes and special values are more frequent than among all patterns.
     fn number(&mut self) -> f64 {
         let everyday = |byte: u8| f64::from(byte) / 16.0 - 8.0;
         match self.byte() % 8 {
@@ -62,7 +62,7 @@ impl Tape<'_> {
     }
 }
 
-/// Runs the program that `bytes` describe; the number of batches, merges and states that were read back.
+/// Runs the program in `bytes`. Returns the numbers of batches, of merges and of states read back.
 pub(crate) fn run(bytes: &[u8]) -> [usize; 3] {
     let mut tape = Tape { bytes };
     let channels = Channels::new([Channel::FX, Channel::FY]).expect("two channels");
@@ -101,7 +101,7 @@ pub(crate) fn run(bytes: &[u8]) -> [usize; 3] {
     done
 }
 
-/// Writes the states, perhaps damages the text, and merges what can still be read.
+/// Writes the states, sometimes damages the text, and merges the states that can still be read.
 fn read_back(tape: &mut Tape<'_>, evaluator: &mut Evaluator) -> usize {
     let states = evaluator.states().expect("nothing is left to collect");
     let mut read = 0;
@@ -116,7 +116,7 @@ fn read_back(tape: &mut Tape<'_>, evaluator: &mut Evaluator) -> usize {
         }
         if let Ok(damaged) = serde_json::from_slice::<State>(&text) {
             read += 1;
-            // An error is as good as a merge; both leave an evaluator that can be finished.
+            // An error is as good as a merge: both leave a usable evaluator.
             let _outcome = evaluator.merge_states(&[damaged]);
         }
     }

@@ -1,4 +1,4 @@
-//! What several test files build: samples in, evaluators out.
+//! Rows and evaluators of two channels.
 
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet, Labels};
 use taceva_metrics::{Evaluation, Evaluator, MetricPlan, catalogue};
@@ -12,7 +12,7 @@ pub(crate) struct Row {
 }
 
 impl Row {
-    /// A sample whose two channels agree.
+    /// A sample with equal values in both channels.
     pub(crate) fn same(truth: f64, prediction: f64, point: u32) -> Row {
         Row {
             truth: [Some(truth); 2],

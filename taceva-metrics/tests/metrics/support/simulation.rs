@@ -1,4 +1,4 @@
-//! Simulated presses whose scores are known before they are made: how often does an interval hold them?
+//! Simulated presses with known scores, to measure the coverage of intervals.
 
 use std::f64::consts::FRAC_2_PI;
 use std::ops::{AddAssign, Range};
@@ -15,7 +15,7 @@ use taceva_metrics::{
 
 /// Correlation of the sizes |d| of two errors at one location.
 pub(crate) const CORRELATION: f64 = 0.3;
-/// The scores whose intervals are tried, each with its label.
+/// Scores with tested intervals, each with its label.
 pub(crate) const METRICS: [(&str, &str); 9] = [
     ("mae", "Fz"),
     ("rmse", "Fz"),
@@ -27,47 +27,47 @@ pub(crate) const METRICS: [(&str, &str); 9] = [
     ("sr", "line"),
     ("uniformity", "Fz"),
 ];
-/// A number for each of [`METRICS`].
+/// One number for each of [`METRICS`].
 pub(crate) type Each<T> = [T; METRICS.len()];
 
-/// The standard deviation of errors at a location of the mean spread.
+/// Mean standard deviation of errors at a location, N.
 const DEVIATION_N: f64 = 0.1;
-/// Between which true forces lie.
+/// Range of true forces, N.
 const FORCES_N: Range<f64> = 0.5..2.0;
-/// The spacing of the grating, and how wrong its prediction is where a force is wrong by a newton.
+/// Spacing of the grating, nm, and error of its prediction, nm per newton of force error.
 const SPACING_NM: i64 = 1_000_000;
 const SPACING_ERROR_NM: f64 = 350_000.0;
-/// How wrong the prediction of a spacing may be: 0.05 mm.
+/// Tolerance of a predicted spacing, nm: 0.05 mm.
 const TOLERANCE_NM: f64 = 50_000.0;
-/// Between which compliances of locations lie.
+/// Range of compliances of locations, mm/N.
 const COMPLIANCES_MM_PER_N: Range<f64> = 0.2..0.4;
-/// Places lie as far to either side, all presses of a location at one; a model tells them short by a share, and the constant that it is
-/// measured by is not their mean.
+/// Half the range of places, mm; all presses of a location are at one place. A model underestimates places by a share. Its constant is not
+/// their mean.
 const HALF_SPAN_MM: f64 = 3.0;
 const SHORT_BY: f64 = 0.35;
 const PLACE_ERROR_MM_PER_N: f64 = 5.0;
 const CONSTANT_MM: f64 = 0.3;
-/// Cells along each side of the surface, 1 mm wide; a location has a cell of its own.
+/// Cells along each side of the surface, 1 mm wide; each location has its own cell.
 const CELLS: u32 = 20;
 
-/// How many locations are pressed how often.
+/// Number of locations, and of presses at each.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Design {
     pub(crate) locations: u32,
     pub(crate) presses: u32,
 }
 
-/// A way to an interval.
+/// Method for an interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Method {
     Jackknife,
-    /// As if every press were a location of its own.
+    /// Jackknife with every press as its own location.
     JackknifeBySample,
     Bootstrap(BootstrapEnds),
 }
 
 impl Method {
-    /// The plans of the scores of forces, of places and of the surface.
+    /// Plans for the scores of forces, of places and of the surface.
     fn plans(self) -> [(Kind, MetricPlan); 3] {
         let place = Channels::new([Channel::PX]).expect("one channel");
         let force = Channels::new([Channel::FZ]).expect("one channel");
@@ -113,7 +113,7 @@ impl Method {
     }
 }
 
-/// What samples say.
+/// Kind of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
     Force,
@@ -131,7 +131,7 @@ impl Kind {
     }
 }
 
-/// How many intervals there were, and how many held the expected score.
+/// Number of intervals, and of those that contain the expected score.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Coverage {
     pub(crate) intervals: u32,
@@ -139,7 +139,7 @@ pub(crate) struct Coverage {
 }
 
 impl Coverage {
-    /// The share of intervals that held it; 0 of none.
+    /// Share of intervals that contain it; 0 without intervals.
     pub(crate) fn share(self) -> f64 {
         f64::from(self.held) / f64::from(self.intervals.max(1))
     }
@@ -152,9 +152,9 @@ impl AddAssign for Coverage {
     }
 }
 
-/// The coverage of each metric's interval, over the given runs of a design.
+/// Coverage of each metric's interval, over the given runs of a design.
 ///
-/// A run is a function of its number: whoever computes which of them, the sum over all is the same.
+/// A run is a function of its number, so the sum over all runs is the same for any number of threads.
 pub(crate) fn coverage(design: Design, method: Method, runs: Range<u32>) -> Each<Coverage> {
     let (plans, expected) = (method.plans(), expected());
     let mut coverage = Each::<Coverage>::default();
@@ -196,7 +196,7 @@ struct Press {
 }
 
 impl Press {
-    /// Force, its prediction, and the spacing that is predicted of a grating.
+    /// Force, its prediction, and the predicted spacing of a grating.
     fn force(&self) -> Sample {
         #[expect(clippy::cast_possible_truncation, reason = "a few millimetres")]
         let predicted = SPACING_NM + (self.error_n * SPACING_ERROR_NM).round() as i64;
@@ -209,7 +209,7 @@ impl Press {
             .with_prediction(Readings::from_values([self.force_n - self.error_n]))
     }
 
-    /// A place, and where it is predicted to be.
+    /// A place and its prediction.
     fn place(&self) -> Sample {
         let error_mm = SHORT_BY * self.place_mm + PLACE_ERROR_MM_PER_N * self.error_n;
         Sample::default()
@@ -230,7 +230,7 @@ impl Press {
 }
 
 impl Design {
-    /// The presses of one run: Gaussian errors, whose spread is a location's own, as its compliance is.
+    /// Presses of one run: Gaussian errors; each location has its own spread and compliance.
     fn presses(self, run: u32, by_sample: bool) -> Vec<Press> {
         let mut random = Random::new(u64::from(run) << 32 | u64::from(self.locations));
         let mut presses = Vec::new();
@@ -258,8 +258,8 @@ impl Design {
     }
 }
 
-/// The spread S of a location, uniform about 1: with E|e| = √(2/π) of Gaussian e the sizes |S e| and |S e'| correlate by
-/// (2/π) Var S / (1 + Var S − 2/π).
+/// Spread S of a location, uniform about 1. With E|e| = √(2/π) of Gaussian e, the magnitudes |S e| and |S e'| correlate by (2/π) Var S / (1
+/// + Var S − 2/π).
 fn relative_spread(uniform: f64) -> f64 {
     between(
         1.0 - (3.0 * spread_variance()).sqrt()..1.0 + (3.0 * spread_variance()).sqrt(),
@@ -275,9 +275,9 @@ fn between(range: Range<f64>, uniform: f64) -> f64 {
     range.start + (range.end - range.start) * uniform
 }
 
-/// The scores of infinitely many samples: σ √(2/π), σ √(1 + Var S), 0, 1 − σ² (1 + Var S) / (width² / 12), the same of places, about their mean and about
-/// the constant, the means of sMAPE's
-/// terms and of hits by the midpoint rule over forces, spreads, and errors up to 8 σ, and 1 / (1 + σ/μ) of the compliances.
+/// Scores of infinitely many samples, in the order of [`METRICS`]: σ √(2/π), σ √(1 + Var S), 0 and 1 − σ² (1 + Var S) / (width² / 12). The
+/// skill of places is relative to their mean and to the constant. sMAPE's terms and hits are means by the midpoint rule over forces,
+/// spreads and errors up to 8 σ. The uniformity is 1 / (1 + σ/μ) of the compliances.
 pub(crate) fn expected() -> Each<f64> {
     let midpoints = |count: u32| (0..count).map(move |at| (f64::from(at) + 0.5) / f64::from(count));
     let (mut terms, mut hits, mut weights) = (0.0, 0.0, 0.0);
@@ -326,13 +326,13 @@ impl Random {
         Random(SplitMix64::new(seed))
     }
 
-    /// In 0..1, neither end included.
+    /// Uniform number in 0..1, both ends excluded.
     fn unit(&mut self) -> f64 {
         let high = u32::try_from(self.0.next_u64() >> 32).expect("32 bits are left");
         (f64::from(high) + 0.5) / 4_294_967_296.0
     }
 
-    /// Of mean 0 and variance 1 (Box and Muller 1958).
+    /// Normal number of mean 0 and variance 1 (Box and Muller 1958).
     fn gaussian(&mut self) -> f64 {
         let radius = (-2.0 * self.unit().ln()).sqrt();
         radius * (std::f64::consts::TAU * self.unit()).cos()

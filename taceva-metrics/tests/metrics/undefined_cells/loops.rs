@@ -1,4 +1,4 @@
-//! Presses into the gel and out again: branches out of order, apart, or not there.
+//! Loading and unloading: branches out of order, disjoint, or missing.
 
 use super::*;
 

@@ -28,7 +28,7 @@ fn the_noise_equivalent_force_and_the_error_at_zero_come_from_samples_without_co
     );
     close(
         variant("critical").expect("a number"),
-        1.833_112_932_653_633_6 * 1.1_f64.sqrt() * deviation,
+        1.833_112_932_656_237_2 * 1.1_f64.sqrt() * deviation,
     );
     let few = evaluate("noise_equivalent_force", &["Fz"], &idle(9));
     assert_eq!(

@@ -1,4 +1,4 @@
-//! What a recording tells of the sensor, and what it cannot.
+//! Properties of the sensor that a recording shows, and those that it cannot show.
 
 use super::*;
 

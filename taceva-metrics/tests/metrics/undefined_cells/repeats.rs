@@ -1,4 +1,4 @@
-//! Presses that are repeated: cells that lack repeats, and predictors without a signal.
+//! Repeated presses: cells without repeats, and predictors without a signal.
 
 use super::*;
 
@@ -89,7 +89,7 @@ fn a_constant_predictor_has_no_signal_and_perfect_repeats_no_ratio() {
         said(&perfect, "signal_to_repeatability", "Px"),
         "repeats do not differ"
     );
-    // Means 1, 3, 5, …, 15 with variance 24, of which repeats 0, 1, 2 about them, of variance 1, give a third.
+    // Means 1, 3, 5, …, 15 have the variance 24. The repeats 0, 1, 2 about them have the variance 1; a third of it is subtracted.
     let usual = presses(|point, turn| f64::from(2 * point + turn));
     close(
         scalar(&usual, "signal_to_repeatability", "Px"),

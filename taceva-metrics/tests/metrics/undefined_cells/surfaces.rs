@@ -1,4 +1,4 @@
-//! Surfaces of units, laid onto each other.
+//! Surfaces of units, registered onto each other.
 
 use super::*;
 

@@ -98,7 +98,7 @@ mod tests {
         let position = |name: &str| found.iter().position(|found| *found == name);
         assert_eq!(found[0], "baseline");
         assert_eq!(found.last(), Some(&"resnet34"));
-        // All but itself, and the ensemble of what it tries.
+        // All models but `auto` itself and the ensemble.
         assert_eq!(found.len(), ALL.len() - 2);
         assert!(position("ridge") < position("cnn"), "{found:?}");
         assert!(position("cnn") < position("random-forest"), "{found:?}");

@@ -51,7 +51,7 @@ mod tests {
         let better = plain.map(|loss| loss - 0.1);
         assert!(Excess::of(&plain, &better).is_beyond(CLEARLY));
         assert!(!Excess::of(&better, &plain).is_beyond(0.0));
-        // As large on average, and by chance.
+        // The same mean, by chance.
         let scattered = [0.1, 0.9, 0.0, 0.8];
         assert!(Excess::of(&plain, &scattered).is_beyond(0.0));
         assert!(!Excess::of(&plain, &scattered).is_beyond(BEYOND_CHANCE));

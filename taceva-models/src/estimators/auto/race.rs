@@ -24,7 +24,7 @@ pub(super) struct Race<'a> {
     pub(super) budget_s: f64,
     pub(super) make: &'a dyn Fn(&ModelInfo) -> Made,
     pub(super) folds: Folds,
-    /// Training part with the features of networks, and with those of other models.
+    /// Training part with the features of networks, and with the features of other models.
     pub(super) pictures: TrainingSet<'a>,
     pub(super) training: TrainingSet<'a>,
     pub(super) progress: &'a dyn Progress,

@@ -89,7 +89,7 @@ impl Race<'_> {
         Ok(())
     }
 
-    /// True if one model is left, or one beside the baseline and clearly ahead of it.
+    /// True if one model is left, or the baseline and one model that is clearly ahead of it.
     fn is_decided(&self) -> bool {
         let going = self.entrants.iter().filter(|own| own.left.is_none());
         let going: Vec<&Entrant> = going.collect();
@@ -188,7 +188,7 @@ mod tests {
     use crate::settings::ModelSettings;
     use crate::training::card::Untried;
 
-    /// A model that takes `fold_s` a fold and has those losses on the units of the first.
+    /// A model whose fold takes `fold_s` s of work, with `losses` on the units of the first fold.
     fn entrant(name: &str, fold_s: f64, losses: [f64; 4]) -> Entrant {
         let info = find(name).expect("registered");
         let estimator = info.estimator(&ModelSettings::default());

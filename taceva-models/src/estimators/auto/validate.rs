@@ -1,4 +1,4 @@
-//! Cross-validation on five folds, each scored by a model that never saw it.
+//! Cross-validation on five folds, each scored by a model fitted without it.
 
 use std::collections::BTreeMap;
 

@@ -106,7 +106,7 @@ mod tests {
     use super::*;
     use taceva_core::random::SplitMix64;
 
-    /// Samples of two classes along x, with a scatter along the diagonal that is far wider than their distance.
+    /// Samples of two classes along x, with a diagonal scatter far wider than their distance.
     fn tilted(samples: usize, seed: u64) -> (Vec<Vec<f64>>, Vec<usize>) {
         let mut random = SplitMix64::new(seed);
         let mut uniform = || {

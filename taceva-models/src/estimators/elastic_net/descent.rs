@@ -99,7 +99,7 @@ mod tests {
     use taceva_core::random::SplitMix64;
     use taceva_core::{FeatureShape, Features, SilentProgress};
 
-    /// Samples of twelve features, and labels that two of them make.
+    /// Samples of twelve features, with labels computed from two of them.
     fn problem(samples: usize) -> (Features, Vec<f64>) {
         let mut random = SplitMix64::new(9);
         let mut next = || f32::from(random.next_u64().to_le_bytes()[0]) / 255.0 - 0.5;
@@ -152,7 +152,7 @@ mod tests {
                 let residual = Residual::new(&gram, target, weights);
                 for (feature, weight) in weights.iter().enumerate() {
                     let gradient = residual.along(feature);
-                    // ∂/∂w = 0 where w is not; within the penalty where it is.
+                    // ∂/∂w is 0 for a nonzero weight, and within the penalty for a zero weight.
                     let slack = if weight.abs() > 0.0 {
                         (gradient - size * weight - size * weight.signum()).abs()
                     } else {

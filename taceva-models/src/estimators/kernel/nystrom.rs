@@ -134,7 +134,7 @@ impl Nystrom {
 
     fn features(&self, values: Vec<Vec<f32>>) -> Features {
         Features::new(FeatureShape::flat(self.len()), values.concat())
-            .expect("a value a landmark for every sample")
+            .expect("one value per landmark for every sample")
     }
 }
 

@@ -38,7 +38,7 @@ mod tests {
         let factor = reach(misses.clone());
         let inside = |miss: &&f64| miss.abs() <= factor * NORMAL_95;
         assert_eq!(misses.iter().filter(inside).count(), 96);
-        // One of the nineteen that there must be, and none where there is nothing to count.
+        // Nineteen samples are enough, an empty list is not.
         assert!((reach(vec![3.0; 19]) - 3.0 / NORMAL_95).abs() < 1e-12);
         for nothing in [vec![3.0; 18], vec![0.0; 40], vec![f64::NAN; 40]] {
             assert!((reach(nothing) - 1.0).abs() < 1e-12);

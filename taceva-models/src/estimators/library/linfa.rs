@@ -27,7 +27,7 @@ pub(crate) const ALL: &[&LibraryModel] = &[
 fn matrix(values: &[f64], rows: usize) -> Result<Array2<f64>, ModelError> {
     let columns = values.len() / rows.max(1);
     Array2::from_shape_vec((rows, columns), values.to_vec()).map_err(|error| {
-        ModelError::new(ErrorKind::Internal, "a task of broken rows").because(error)
+        ModelError::new(ErrorKind::Internal, "rows of unequal length").because(error)
     })
 }
 
@@ -44,7 +44,7 @@ fn columns(task: &LibraryTask<'_>) -> Result<Array2<f64>, ModelError> {
         own.step_by(features).copied()
     });
     Array2::from_shape_vec((samples, features).f(), by_column.collect()).map_err(|error| {
-        ModelError::new(ErrorKind::Internal, "a task of broken rows").because(error)
+        ModelError::new(ErrorKind::Internal, "rows of unequal length").because(error)
     })
 }
 

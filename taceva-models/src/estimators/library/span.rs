@@ -116,7 +116,7 @@ mod tests {
         let weights = [0.3, -0.7];
         let (of_features, bias) = span.weights(&weights);
         for (row, own) in rows.chunks_exact(3).zip(span.rows.chunks_exact(2)) {
-            // What coordinates say of a row is what the weights of features say of it.
+            // A row has the same prediction from its coordinates as from its features.
             let found = dot(row, &of_features) + bias;
             assert!((found - dot(own, &weights)).abs() < 1e-12);
         }

@@ -227,7 +227,7 @@ mod tests {
         // From 0.5: 0.0, 1.0 and 1.0 are all 0.5 away.
         let near = nearest(&[0.5], &rows, 1);
         assert!((weighted(&near, 1, label) - 16.0 / 3.0).abs() < 1e-14);
-        // 3.0 is 2.5 away, weighted a fifth of the others.
+        // 3.0 is 2.5 away; its weight is a fifth of the others.
         let near = nearest(&[0.5], &rows, 4);
         assert!((weighted(&near, 4, label) - (16.0 + 8.0 / 5.0) / 3.2).abs() < 1e-14);
     }

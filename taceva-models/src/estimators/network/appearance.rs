@@ -10,7 +10,7 @@ use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Appearance {
     /// Moving markers: subtracts a local mean, divides each picture by its standard deviation, and shifts training pictures.
-    /// Widths are those of [`USUAL`], in proportion to the picture's width.
+    /// Widths are taken from [`USUAL`], in proportion to the picture's width.
     Markers,
     /// Light and position: pictures are unchanged.
     Light,
@@ -182,7 +182,7 @@ fn markers(width: usize) -> Prepared {
 mod tests {
     use super::*;
 
-    /// Local mean, contrast, jitter and noise of pictures so wide and deep.
+    /// Local mean, contrast, jitter and noise of pictures of this width and depth.
     fn of(words: &[&str], width: usize, depth: usize) -> (f64, bool, usize, f64) {
         let settings = ModelSettings::parse(words.iter().copied()).expect("pairs");
         let preparation = Preparation::from_settings(&settings).expect("valid");

@@ -220,7 +220,7 @@ impl Regressor for NetworkRegressor {
         }
         if into.len() != features.samples() * channels {
             return Err(invalid(format!(
-                "{} places for {} samples of {channels} channels",
+                "a buffer of {} values for {} samples of {channels} channels",
                 into.len(),
                 features.samples()
             )));
@@ -245,7 +245,8 @@ impl Regressor for NetworkRegressor {
                 *place = match constant {
                     Some(label) => *label,
                     None => {
-                        let (output, value) = outputs.next().expect("an output a varying channel");
+                        let (output, value) =
+                            outputs.next().expect("one output per varying channel");
                         self.card.scale.unscaled(output, *value)
                     }
                 };

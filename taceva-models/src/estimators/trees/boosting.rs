@@ -65,7 +65,7 @@ const SHARE: SettingInfo = SettingInfo {
     key: "share",
     accepts: "a number above 0 and at most 1",
     default: "0.1",
-    about: "the share of the features that a split looks at",
+    about: "the share of the features that a split considers",
 };
 const DEPTH: SettingInfo = SettingInfo {
     key: "depth",

@@ -196,7 +196,7 @@ mod tests {
         }
     }
 
-    /// Lines of `cycles` a pixel, turned by `turn` degrees and moved by `offset` pixels.
+    /// Lines of `cycles` cycles per pixel, turned by `turn` degrees and shifted by `offset` pixels.
     fn lines(cycles: f64, turn: f64, offset: f64) -> Frame {
         let (sin, cos) = turn.to_radians().sin_cos();
         let pixel = |place: u32| {

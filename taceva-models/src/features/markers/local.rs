@@ -92,7 +92,7 @@ mod tests {
         let row = [[-10.0, 0.0], [-20.0, 0.0], [-30.0, 0.0]];
         let moved: Vec<Moved> = row.iter().map(|place| (*place, shear(*place))).collect();
         let found = displacement([0.0; 2], 10.0, &moved).expect("neighbours");
-        // Nearer to the truth, 0, than to the nearest neighbour, which moves by -2.
+        // Closer to the truth, 0, than to the nearest neighbour, which moves by -2.
         assert!(found[0].abs() < 0.7, "{found:?}");
     }
 }

@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn noise_is_recognised_by_its_standard_deviation() {
-        // Bytes that are all as likely have a standard deviation of 256 / √12 levels.
+        // Uniformly distributed bytes have a standard deviation of 256 / √12 levels.
         let found = Plane::of(&noise(200, 200, PixelFormat::Gray8, 1)).noise();
         let truth = 256.0 / 12.0_f32.sqrt() / 255.0;
         assert!((found / truth - 1.0).abs() < 0.3, "{found} for {truth}");

@@ -21,7 +21,7 @@ fn features(frame: &Frame, spec: FeatureSpec) -> Vec<f32> {
     values
 }
 
-/// The definition, written as slowly and plainly as possible: areas of overlap in f64.
+/// The definition in its plainest form: areas of overlap in f64.
 fn by_definition(frame: &Frame, spec: FeatureSpec) -> Vec<f64> {
     let info = frame.info();
     let samples: Vec<f64> = frame.samples().map(f64::from).collect();
@@ -74,7 +74,7 @@ fn features_are_area_averages_for_every_format_and_ratio() {
                 .iter()
                 .zip(by_definition(&frame, spec))
             {
-                // The definition above rounds in f64; a feature is rounded to f32, half an ulp of 1.
+                // The definition above rounds in f64; a feature is rounded to f32, by half an ulp of 1.
                 assert!(
                     (f64::from(*found) - expected).abs() < 6.1e-8,
                     "{format:?} to {spec}: {found} for {expected}"

@@ -81,7 +81,7 @@ mod tests {
         assert_eq!(sum.value().to_bits(), tiny.to_bits());
         let third = Double::new(1.0 / 3.0, 0.0);
         let rest = Double::new(1.0, 0.0) - third * Double::new(3.0, 0.0);
-        // 1/3 rounded down by a third of 2⁻⁵⁴.
+        // 1/3 is rounded down by a third of 2⁻⁵⁴.
         assert_eq!(rest.value().to_bits(), 2_f64.powi(-54).to_bits());
     }
 }

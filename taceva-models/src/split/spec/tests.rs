@@ -50,7 +50,7 @@ fn a_value_with_the_marks_of_a_split_in_it_stands_behind_backslashes() {
     let names: Vec<&str> = parts.keys().map(String::as_str).collect();
     assert_eq!(names, ["a,b", "c\\", "run;1"]);
     assert_eq!(spec.to_string().parse(), Ok(spec));
-    // Before any other letter it is one itself.
+    // Before any other letter, `\` is an ordinary character.
     let plain: SplitSpec = r"by-column:path=train:a\b;test:c".parse().expect("a split");
     let SplitKind::ByColumn(split) = &plain.kind else {
         panic!("{plain:?}");

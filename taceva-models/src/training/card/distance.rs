@@ -16,7 +16,7 @@ use crate::features::FeatureDistance;
 pub struct DistanceCard {
     /// Limit along the directions of the training part, in its standard deviations.
     pub along: f64,
-    /// Limit beside the directions, in units of the features.
+    /// Limit orthogonal to the directions, in units of the features.
     pub beside: f64,
 }
 

@@ -13,7 +13,7 @@ pub(crate) struct Identity {
     pub(super) of: Origin,
 }
 
-/// Origin of a checkpoint, beside its summary.
+/// Origin of a checkpoint, without its summary.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Origin {
     /// Digest of all labels and of the preprocessed pictures.

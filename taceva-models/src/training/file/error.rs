@@ -107,7 +107,7 @@ pub enum FormatError {
         expected: String,
     },
     /// A network tensor has the wrong type.
-    #[error("tensor `{name}` is {found}, those of a network are F32", name = taceva_core::shown(name))]
+    #[error("tensor `{name}` is {found}, expected F32 in a network", name = taceva_core::shown(name))]
     Type {
         /// Name of the tensor.
         name: String,

@@ -1,8 +1,8 @@
-//! Random numbers that depend on what they are for, not on what was drawn before.
+//! Random numbers that depend on their purpose, not on earlier draws.
 
 use taceva_core::random::{Draws, STEP, finalise, mix};
 
-/// The number at `index` of the stream that `seed` and `purpose` name.
+/// Number at `index` of the stream of `seed` and `purpose`.
 pub(super) fn draw(seed: u64, purpose: u64, index: u64) -> u64 {
     let stream = mix(seed).wrapping_add(finalise(purpose.wrapping_mul(STEP)));
     Draws::new(stream).bits(index)

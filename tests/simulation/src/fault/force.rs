@@ -1,4 +1,4 @@
-//! A force transducer that goes wrong.
+//! Faulty force transducer.
 
 use taceva_core::{
     Axes, Deadline, DriverError, DriverKey, ForceTransducer, Newton, Stamp, Tare, Wrench,
@@ -8,7 +8,7 @@ use super::link::Link;
 use super::{FaultKind, FaultPlan};
 use taceva_drivers::Pace;
 
-/// A force transducer whose readings go wrong as a plan says.
+/// Force transducer whose readings fail according to a plan.
 pub struct FaultyForce {
     inner: Box<dyn ForceTransducer>,
     link: Link,
@@ -17,8 +17,8 @@ pub struct FaultyForce {
 }
 
 impl FaultyForce {
-    /// `inner`, called `driver`, behind a link that fails as `plan` says and waits in the time of `pace`; saturated, its normal force
-    /// reads `full_scale`.
+    /// Wraps `inner`, called `driver`, behind a link with the faults of `plan` and the clock of `pace`. Saturated, its normal force is
+    /// `full_scale`.
     pub fn new(
         inner: Box<dyn ForceTransducer>,
         driver: DriverKey,

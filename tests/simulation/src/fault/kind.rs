@@ -1,24 +1,24 @@
-//! What can go wrong.
+//! Kinds of faults.
 
 use std::fmt;
 
-/// A way in which a device goes wrong.
+/// Kind of fault of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum FaultKind {
-    /// It does not answer within the deadline.
+    /// No answer within the deadline.
     Silence,
-    /// It gives the last value again, with a new stamp.
+    /// The last value again, with a new stamp.
     Freeze,
-    /// It gives NaN: in a force, in a coordinate, and in the stamp of a frame, whose pixels cannot be NaN.
+    /// NaN: in a force, in a coordinate, and in the stamp of a frame, whose pixels cannot be NaN.
     NotANumber,
-    /// It gives full scale and no error. A robot has none; there this does nothing.
+    /// Full scale without an error. No effect on a robot, which has no full scale.
     Saturation,
-    /// It gives a new value with the last stamp.
+    /// A new value with the last stamp.
     StaleStamp,
-    /// A value is lost on the way, and the next one comes; a command to move is lost, and nothing moves.
+    /// A value is lost, and the next one arrives. A lost motion command moves nothing.
     Drop,
-    /// The answer comes late; beyond the deadline it does not come.
+    /// The answer is late. Beyond the deadline it is lost.
     SlowLink,
 }
 
@@ -34,7 +34,7 @@ impl FaultKind {
         FaultKind::SlowLink,
     ];
 
-    /// How the kind is written in reports.
+    /// Name in reports.
     pub const fn name(self) -> &'static str {
         match self {
             FaultKind::Silence => "silence",

@@ -1,4 +1,4 @@
-//! The link between the caller and a device, where most faults occur; shared by the wrappers.
+//! Link between the caller and a device, with most of the faults; shared by the wrappers.
 
 use std::time::Duration;
 
@@ -7,7 +7,7 @@ use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Stamp};
 use super::{FaultKind, FaultPlan};
 use taceva_drivers::Pace;
 
-/// The link to a device.
+/// Link to a device.
 pub(super) struct Link {
     plan: FaultPlan,
     pace: Box<dyn Pace>,
@@ -27,14 +27,14 @@ impl Link {
         }
     }
 
-    /// Counts a call and says what goes wrong in it.
+    /// Counts a call and returns its fault.
     pub(super) fn next_fault(&mut self) -> Option<FaultKind> {
         let fault = self.plan.at(self.calls);
         self.calls += 1;
         fault
     }
 
-    /// A value that `read` gives over the link, and the fault of the call; of two readings in a row where one is dropped, the second.
+    /// Reads a value over the link, with the fault of the call. If a reading is dropped, returns the next one.
     pub(super) fn read<T>(
         &mut self,
         doing: &'static str,
@@ -54,7 +54,7 @@ impl Link {
         Ok((read(deadline)?, fault))
     }
 
-    /// Counts a fault that did happen.
+    /// Counts a fault that occurred.
     pub(super) fn note(&self, kind: FaultKind) {
         self.plan.note(kind);
     }
@@ -70,7 +70,7 @@ impl Link {
         Err(self.timeout(doing, deadline))
     }
 
-    /// Waits as long as the slow link takes, and gives what is left of the deadline.
+    /// Waits for the delay of the slow link and returns the rest of the deadline.
     pub(super) fn slow(
         &mut self,
         doing: &'static str,
@@ -85,7 +85,7 @@ impl Link {
         Ok(deadline.less(delay))
     }
 
-    /// The stamp of a value that came over the link, changed by `fault`.
+    /// Stamp of a received value, changed by `fault`.
     pub(super) fn stamped(&mut self, stamp: Stamp, fault: Option<FaultKind>) -> Stamp {
         match (fault, self.last_stamp) {
             (Some(FaultKind::StaleStamp), Some(last)) => {

@@ -1,17 +1,17 @@
-//! The faults that occurred.
+//! Counts of faults that occurred.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::FaultKind;
 
-/// How often each kind of fault has happened; shared by a wrapper and whoever watches it.
+/// Counts of each kind of fault, shared by a wrapper and its observer.
 #[derive(Debug, Default)]
 pub struct FaultLog {
     counts: [AtomicU64; FaultKind::ALL.len()],
 }
 
 impl FaultLog {
-    /// How often `kind` has happened.
+    /// Number of faults of `kind` so far.
     pub fn count(&self, kind: FaultKind) -> u64 {
         self.counts[kind as usize].load(Ordering::Relaxed)
     }

@@ -1,4 +1,4 @@
-//! When faults occur: a function of the seed and of the number of the call alone.
+//! Times of faults: a function of the seed and the call number only.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::draw::draw;
 use super::{FaultKind, FaultLog};
 
-/// The faults of one device.
+/// Faults of one device.
 ///
 /// ```
 /// use taceva_simulation::fault::{FaultKind, FaultPlan, Likelihood};
@@ -37,12 +37,12 @@ enum Fault {
     },
 }
 
-/// How often a fault begins by chance, and how long it lasts.
+/// Probability and duration of a random fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Likelihood {
-    /// Of 1,000 calls, this many begin a fault.
+    /// Number of 1,000 calls in which a fault begins.
     pub per_thousand: u32,
-    /// How many calls it lasts.
+    /// Duration, calls.
     pub calls: u32,
 }
 
@@ -56,14 +56,14 @@ impl FaultPlan {
         }
     }
 
-    /// The same plan; `kind` during the calls counted `calls`, from 0.
+    /// The same plan, with `kind` during the calls numbered `calls`, from 0.
     #[must_use]
     pub fn during(mut self, kind: FaultKind, calls: Range<u64>) -> FaultPlan {
         self.faults.push(Fault::During { kind, calls });
         self
     }
 
-    /// The same plan; `kind` by chance, drawn from `seed`.
+    /// The same plan, with `kind` at random, drawn from `seed`.
     #[must_use]
     pub fn drawn(mut self, seed: u64, kind: FaultKind, likelihood: Likelihood) -> FaultPlan {
         self.faults.push(Fault::Drawn {
@@ -81,12 +81,12 @@ impl FaultPlan {
         self
     }
 
-    /// What goes wrong in the call counted `call`; of several faults the one that was planned first.
+    /// Fault of call number `call`; of several faults, the one planned first.
     pub fn at(&self, call: u64) -> Option<FaultKind> {
         self.faults.iter().find_map(|fault| fault.at(call))
     }
 
-    /// The faults so far, of every device that follows this plan or a clone of it.
+    /// Counts of faults of all devices with this plan or a clone of it.
     pub fn log(&self) -> Arc<FaultLog> {
         Arc::clone(&self.log)
     }

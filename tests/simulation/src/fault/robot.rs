@@ -1,4 +1,4 @@
-//! A robot that goes wrong.
+//! Faulty robot.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::link::Link;
 use super::{FaultKind, FaultPlan};
 use taceva_drivers::Pace;
 
-/// A robot whose poses and motions go wrong as a plan says. A halt always reaches it.
+/// Robot whose poses and motions fail according to a plan. A halt always reaches it.
 pub struct FaultyRobot {
     inner: Box<dyn Robot>,
     link: Link,
@@ -19,7 +19,7 @@ pub struct FaultyRobot {
 }
 
 impl FaultyRobot {
-    /// `inner`, called `driver`, behind a link that fails as `plan` says and waits in the time of `pace`.
+    /// Wraps `inner`, called `driver`, behind a link with the faults of `plan` and the clock of `pace`.
     pub fn new(
         inner: Box<dyn Robot>,
         driver: DriverKey,
@@ -61,7 +61,7 @@ impl Robot for FaultyRobot {
         const DOING: &str = "move";
         let fault = self.link.next_fault();
         match fault {
-            // The answer is lost, not the command: the robot moves, and nobody hears of it.
+            // The answer is lost, not the command: the robot moves, but the caller gets no answer.
             Some(FaultKind::Silence) => {
                 self.inner.move_to(target, speed, deadline)?;
                 return self.link.silence(DOING, deadline);

@@ -1,4 +1,4 @@
-//! A sensor that goes wrong.
+//! Faulty sensor.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::link::Link;
 use super::{FaultKind, FaultPlan};
 use taceva_drivers::Pace;
 
-/// A sensor whose captures go wrong as a plan says.
+/// Sensor whose captures fail according to a plan.
 pub struct FaultySensor {
     inner: Box<dyn Sensor>,
     link: Link,
@@ -16,7 +16,7 @@ pub struct FaultySensor {
 }
 
 impl FaultySensor {
-    /// `inner`, called `driver`, behind a link that fails as `plan` says and waits in the time of `pace`.
+    /// Wraps `inner`, called `driver`, behind a link with the faults of `plan` and the clock of `pace`.
     pub fn new(
         inner: Box<dyn Sensor>,
         driver: DriverKey,
@@ -86,7 +86,7 @@ impl Sensor for FaultySensor {
     }
 }
 
-/// The same frame once more, to be lent out a second time.
+/// Reborrows the frame for a second call.
 fn again<'a>(frame: &'a mut FrameMut<'_>) -> FrameMut<'a> {
     let info = frame.info();
     FrameMut::new(info, frame.bytes_mut()).expect("it had this size before")

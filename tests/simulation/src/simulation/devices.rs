@@ -1,4 +1,4 @@
-//! The devices of the world, behind the traits that drivers implement.
+//! Devices of the simulated world, behind the driver traits.
 
 use std::sync::Arc;
 
@@ -16,24 +16,24 @@ const ROBOT: DriverKey = DriverKey::fixed("faults/robot");
 const FORCE: DriverKey = DriverKey::fixed("faults/force");
 const SENSOR: DriverKey = DriverKey::fixed("faults/sensor");
 
-/// A frame carries what was true when it was exposed: the time, the height of the tip and the normal force.
+/// A frame encodes the truth at its exposure: time, height of the tip and normal force.
 pub(super) const FRAME: FrameInfo = FrameInfo {
     width: 24,
     height: 1,
     format: PixelFormat::Gray8,
 };
 
-/// Moves the tip.
+/// Robot that moves the tip.
 pub(super) struct SimulatedRobot(pub(super) Shared);
 
-/// Stops it.
+/// Halt handle of the robot.
 struct SimulatedHalt(Shared);
 
 impl Halt for SimulatedHalt {
     fn halt(&self) -> Result<(), DriverError> {
         let mut world = self.0.world();
         world.link();
-        // One that is halted already stands: a guard that halts again and again costs it no time.
+        // A halted robot already stands still: a guard that halts again loses no time.
         if world.sabotage == Sabotage::SlowHalt && !world.halted {
             world.pass(0.06);
         }
@@ -121,16 +121,16 @@ fn faulty(doing: &'static str, fault: Fault) -> DriverError {
 }
 
 impl Shared {
-    /// Whether the robot makes a motion from now on.
+    /// Records the start or the end of a motion.
     fn is_moving(&self, is_moving: bool) {
         if let Some(guard) = &mut self.world().guard {
             guard.is_moving = is_moving;
         }
     }
 
-    /// Moves the tip while threads look on, which may halt it wherever it is.
+    /// Moves the tip while threads monitor it, which may halt it anywhere.
     fn glide_under_guard(&self, to: [f64; 3], speed_mm_s: f64) -> Result<(), DriverError> {
-        // One that is stuck says after the time of its motion that it arrived.
+        // A stuck robot reports arrival after the time of its motion.
         let (began_s, until_s) = {
             let world = self.world();
             (world.now_s, world.arrival_s(to, speed_mm_s))
@@ -147,7 +147,7 @@ impl Shared {
             };
             if is_end || at_s > world.now_s {
                 world.glide(next, speed_mm_s);
-                // A way that binary64 does not see takes its time all the same.
+                // A path below the resolution of binary64 takes its time all the same.
                 let left_s = at_s - world.now_s;
                 world.pass(left_s.max(0.0));
             }
@@ -168,13 +168,13 @@ impl Shared {
     }
 }
 
-/// What binary64 makes of times, in s.
+/// Rounding error of times in binary64, s.
 const INSTANT_S: f64 = 1e-9;
 
-/// Measures the force.
+/// Transducer of the force.
 pub(super) struct SimulatedForce {
     shared: Shared,
-    /// How many readings of the thread that reads were there when one was taken last.
+    /// Number of readings of the reader thread at the last take.
     taken: u64,
 }
 
@@ -183,7 +183,7 @@ impl SimulatedForce {
         SimulatedForce { shared, taken: 0 }
     }
 
-    /// The newest reading that a thread has left and nobody has taken, as a run under guard finds it.
+    /// The newest reading of the reader thread that was not yet taken, for a monitored run.
     fn take(&mut self, deadline_s: f64) -> Option<(Wrench, Stamp)> {
         let began_s = self.shared.world().now_s;
         let until_s = began_s + deadline_s;
@@ -251,7 +251,7 @@ impl Tare for SimulatedForce {
     }
 }
 
-/// Gives frames that hold the true height and force of their exposure.
+/// Sensor whose frames encode the true height and force at their exposure.
 pub(super) struct SimulatedSensor(pub(super) Shared);
 
 impl Sensor for SimulatedSensor {

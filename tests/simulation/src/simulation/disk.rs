@@ -1,11 +1,11 @@
-//! A disk that keeps what was synced, and an arbitrary part of the rest.
+//! Disk that keeps synced data and an arbitrary part of the rest.
 
 use super::draws::Draws;
 use super::fault::FaultKind;
 use super::world::Sabotage;
 use super::world_handle::Shared;
 
-/// One file that only grows.
+/// A file that only grows.
 pub(super) struct Disk {
     shared: Shared,
     draws: Draws,
@@ -14,12 +14,12 @@ pub(super) struct Disk {
     crashes: u64,
 }
 
-/// The disk took no more.
+/// The disk is full.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no space left on the simulated disk")]
 pub(super) struct Full;
 
-/// How long a write takes until it is durable, in s.
+/// Time of a sync, s.
 const SYNC_S: f64 = 0.000_2;
 
 impl Disk {
@@ -33,16 +33,16 @@ impl Disk {
         }
     }
 
-    /// What a process that opens the file reads: everything written, durable or not.
+    /// Content for a process that opens the file: everything written, durable or not.
     pub(super) fn read(&self) -> Vec<u8> {
         [self.durable.as_slice(), self.pending.as_slice()].concat()
     }
 
-    /// Writes at the end; on a full disk, some of it.
+    /// Appends bytes; on a full disk, only some of them.
     pub(super) fn write(&mut self, bytes: &[u8]) -> Result<(), Full> {
         let mut world = self.shared.world();
         let now_s = world.now_s;
-        // Disks are full at the next write after the moment, however short that was.
+        // A full disk strikes at the next write, even if the fault has ended.
         let is_full = world.faults.strike_once(FaultKind::FullDisk, now_s);
         drop(world);
         let taken = if is_full {
@@ -54,7 +54,7 @@ impl Disk {
         if is_full { Err(Full) } else { Ok(()) }
     }
 
-    /// Makes durable what was written.
+    /// Makes all written bytes durable.
     pub(super) fn sync(&mut self) {
         self.shared.survive();
         let mut world = self.shared.world();
@@ -66,13 +66,13 @@ impl Disk {
         self.shared.survive();
     }
 
-    /// Forgets what stands behind `length`.
+    /// Truncates the file to `length` bytes.
     pub(super) fn cut(&mut self, length: usize) {
         self.durable.append(&mut self.pending);
         self.durable.truncate(length);
     }
 
-    /// The power goes: of what was not synced, a beginning of any length is left, its last byte perhaps another.
+    /// Power cut: of the unsynced bytes a prefix of any length remains, perhaps with a changed last byte.
     pub(super) fn crash(&mut self) {
         self.crashes += 1;
         #[expect(

@@ -9,7 +9,7 @@ pub(super) struct Draws {
 }
 
 impl Draws {
-    /// The numbers that `seed` gives for `purpose`.
+    /// Numbers of `seed` for `purpose`.
     pub(super) fn new(seed: u64, purpose: &str) -> Draws {
         Draws {
             key: mix(seed ^ fnv_1a(purpose.as_bytes())),
@@ -26,7 +26,7 @@ impl Draws {
         least + taceva_core::random::scaled(self.bits(place), greatest - least + 1)
     }
 
-    /// A number from 0 to 1, 1 excluded.
+    /// Number from 0 to below 1.
     pub(super) fn fraction(self, place: [u64; 2]) -> f64 {
         unit(self.bits(place))
     }

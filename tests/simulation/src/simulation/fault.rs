@@ -1,10 +1,10 @@
-//! What goes wrong, when, and for how long.
+//! Faults of a simulated rig, with their times and durations.
 
 use std::fmt;
 
 use super::draws::Draws;
 
-/// A way in which a rig fails.
+/// Kind of fault of a rig.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FaultKind {
     /// The force transducer gives no reading.
@@ -15,27 +15,27 @@ pub enum FaultKind {
     NotANumber,
     /// The force transducer is at the end of its range.
     Saturation,
-    /// The readings are old when they come.
+    /// The readings arrive late.
     StaleStamps,
-    /// The camera loses frames, or hands out old ones.
+    /// The camera loses frames, or returns old ones.
     DroppedFrames,
-    /// Every call takes longer, and readings of force wait in buffers.
+    /// Every call takes longer, and force readings wait in buffers.
     SlowLink,
     /// The robot reports a motion that it did not make.
     StuckRobot,
-    /// The disk takes part of what is written, and no more.
+    /// The disk writes part of the data, and then no more.
     FullDisk,
-    /// The process ends between two instructions, and what was not synced may be lost or torn.
+    /// The process ends between two instructions. Unsynced data may be lost or torn.
     Kill,
     /// The run is cancelled.
     Cancel,
-    /// Somebody presses the emergency stop, and the robot moves no more until a person acknowledged it.
+    /// The emergency stop is pressed. The robot does not move until a person acknowledges it.
     EmergencyStop,
-    /// The robot's reports stay away from the thread that looks at it; it is still asked and answers.
+    /// The robot's reports do not reach its monitoring thread; it still answers queries.
     NoReports,
-    /// Nobody holds the enabling switch, for a moment or for longer than is waited for.
+    /// The enabling switch is released, for a moment or beyond the waiting time.
     Released,
-    /// The enabling switch cannot be read, until somebody plugs it in again.
+    /// The enabling switch cannot be read until it is plugged in again.
     Unplugged,
 }
 
@@ -58,10 +58,10 @@ impl FaultKind {
         FaultKind::Released,
         FaultKind::Unplugged,
     ];
-    /// How many of them every scenario draws from; those after them come beside.
+    /// Number of kinds that every scenario draws from; later kinds are drawn separately.
     const DRAWN: u64 = 11;
 
-    /// The word in reports.
+    /// Word in reports.
     pub const fn name(self) -> &'static str {
         match self {
             FaultKind::Silence => "silence",
@@ -89,17 +89,17 @@ impl fmt::Display for FaultKind {
     }
 }
 
-/// How often each kind of fault occurred in a call.
+/// Number of calls hit by each kind of fault.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FaultCounts([u64; FaultKind::ALL.len()]);
 
 impl FaultCounts {
-    /// How often `kind` occurred.
+    /// Number of calls hit by `kind`.
     pub fn of(&self, kind: FaultKind) -> u64 {
         self.0[kind as usize]
     }
 
-    /// Adds those of another run.
+    /// Adds the counts of another run.
     pub fn add(&mut self, other: &FaultCounts) {
         for (count, more) in self.0.iter_mut().zip(other.0) {
             *count += more;
@@ -119,14 +119,14 @@ struct Fault {
     until_s: f64,
 }
 
-/// What the emergency stop of a scenario is drawn under.
+/// Purpose of the draws for the emergency stop.
 const STOP: u64 = 90;
-/// What missing reports are drawn under.
+/// Purpose of the draws for missing reports.
 const NO_REPORTS: u64 = 91;
-/// What becomes of the enabling switch is drawn under.
+/// Purpose of the draws for the enabling switch.
 const SWITCH: u64 = 92;
 
-/// The faults of a scenario.
+/// Faults of a scenario.
 #[derive(Clone, Debug)]
 pub(super) struct Faults {
     faults: Vec<Fault>,
@@ -134,8 +134,8 @@ pub(super) struct Faults {
 }
 
 impl Faults {
-    /// Up to four faults within the first `span_s`, one seed in eight without. Besides, in one of eight an emergency stop, in one of four no
-    /// reports, in every other one an enabling switch that is let go, and in one of four one that is unplugged.
+    /// Draws up to four faults within the first `span_s`; one seed in eight has none. One seed in eight also has an emergency stop, one in
+    /// four no reports. The enabling switch is released in every second seed and unplugged in one of four.
     pub(super) fn draw(draws: Draws, span_s: f64) -> Faults {
         let whole = |least, greatest, place| draws.between(least, greatest, place);
         let count = if whole(0, 7, [0, 0]) == 0 {
@@ -148,9 +148,9 @@ impl Faults {
             let kind = FaultKind::ALL[usize::try_from(kind).unwrap_or(0)];
             let part = |place| draws.fraction([number, place]);
             let from_s = part(1) * span_s;
-            // From a glitch of one reading to two seconds, short ones as likely as long ones.
+            // From a glitch of one reading to two seconds, with short and long ones equally likely.
             let rarely_s = match kind {
-                // A frame is taken now and then; whatever shorter falls between two strikes nothing.
+                // Frames are rare: a shorter fault between two of them has no effect.
                 FaultKind::DroppedFrames => 2.0,
                 _ => 0.0,
             };
@@ -184,7 +184,7 @@ impl Faults {
         }
     }
 
-    /// Since when the enabling switch has not been held at `now_s`, and why; `None` while somebody holds it.
+    /// Fault of the enabling switch at `now_s`, with the time since when it is not held; `None` while it is held.
     pub(super) fn unheld(&self, now_s: f64) -> Option<(FaultKind, f64)> {
         let kinds = [FaultKind::Unplugged, FaultKind::Released];
         let of_kind = |kind| {
@@ -206,7 +206,7 @@ impl Faults {
         }
     }
 
-    /// A fault of `kind` from `from_s` on, for ever.
+    /// A fault of `kind` from `from_s` on, without end.
     #[cfg(test)]
     pub(super) fn from(kind: FaultKind, from_s: f64) -> Faults {
         let until_s = f64::INFINITY;
@@ -241,13 +241,13 @@ impl Faults {
         }
     }
 
-    /// A fault of `kind` that was always there.
+    /// A fault of `kind` during the whole run.
     #[cfg(test)]
     pub(super) fn always(kind: FaultKind) -> Faults {
         Faults::from(kind, f64::NEG_INFINITY)
     }
 
-    /// Whether `kind` occurs in a call at `now_s`; if so it is counted.
+    /// True if a call at `now_s` is hit by `kind`; counts it.
     pub(super) fn strike(&mut self, kind: FaultKind, now_s: f64) -> bool {
         let active =
             |fault: &Fault| fault.kind == kind && (fault.from_s..fault.until_s).contains(&now_s);
@@ -258,7 +258,7 @@ impl Faults {
         strikes
     }
 
-    /// Whether a fault of `kind` that strikes once is due at `now_s`; it does not come again.
+    /// True if a one-time fault of `kind` is due at `now_s`; it does not occur again.
     pub(super) fn strike_once(&mut self, kind: FaultKind, now_s: f64) -> bool {
         let due = |fault: &Fault| fault.kind == kind && fault.from_s <= now_s;
         let place = self.faults.iter().position(due);
@@ -274,7 +274,7 @@ impl Faults {
     }
 }
 
-/// What becomes of the enabling switch: let go for ten milliseconds to forty seconds, as likely short as long, or unplugged.
+/// Draws faults of the enabling switch: released for ten milliseconds to forty seconds, short and long equally likely, or unplugged.
 fn of_switch(draws: Draws, span_s: f64) -> impl Iterator<Item = Fault> {
     let releases = match draws.between(0, 1, [SWITCH, 0]) {
         0 => 0,

@@ -1,39 +1,38 @@
-//! The threads that look on, as events in simulated time, and when each is due: one reads the transducer, the other looks at the robot and
-//! hears wishes.
+//! Monitoring threads as events in simulated time: one reads the transducer, the other reads the robot and receives requests to stop.
 //!
-//! When a thread is due is fixed, and when it gets the processor is drawn; so what it shows to the supervisor falls between any two calls of
-//! the run and into the middle of its motions. A thread that needs the supervisor while the run has it waits, as it does at a lock.
+//! A thread's due time is fixed; the delay until it gets the processor is drawn. Its observations therefore reach the supervisor between
+//! any two calls of the run and during its motions. A thread waits for the supervisor while the run uses it, as at a lock.
 
 use taceva_core::{Pose, Stamp, Wrench};
 
 use super::draws::Draws;
 use taceva_protocol::{Cancel, SharedSupervisor};
 
-/// From one reading to the next, and from one look at the robot to the next, in s.
+/// Interval between readings, and between looks at the robot, s.
 const READING_S: f64 = 0.005;
 const LOOK_S: f64 = 0.01;
-/// How long a thread usually waits for the processor at most, and how long one in so many, in s.
+/// Longest wait of a thread for the processor, s: usual, and in a share `LONG_OF` of its turns.
 const SHORT_WAIT_S: f64 = 0.000_5;
 const LONG_WAIT_S: f64 = 0.02;
 const LONG_OF: f64 = 1.0 / 64.0;
 
-/// Which thread.
+/// Kind of thread.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Thread {
     Reader,
     Watcher,
 }
 
-/// A reading that waits for whoever asks for it.
+/// A reading that waits to be taken.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Heard {
     pub(super) wrench: Wrench,
     pub(super) stamp: Stamp,
-    /// How many there were.
+    /// Number of readings so far.
     pub(super) count: u64,
 }
 
-/// The threads over one supervisor.
+/// Monitoring threads of one supervisor.
 pub(super) struct Guard {
     pub(super) supervisor: SharedSupervisor,
     pub(super) cancel: Cancel,
@@ -41,17 +40,17 @@ pub(super) struct Guard {
     turns: u64,
     reader_s: f64,
     watcher_s: f64,
-    /// Whether the transducer numbers its readings.
+    /// True if the transducer numbers its readings.
     pub(super) is_numbered: bool,
     pub(super) latest: Option<Heard>,
-    /// What the robot reported last.
+    /// Last report of the robot.
     pub(super) seen: Option<(Pose, Stamp)>,
-    /// Whether the robot makes a motion.
+    /// True while the robot moves.
     pub(super) is_moving: bool,
 }
 
 impl Guard {
-    /// Threads that begin at `now_s`; what they wait for is drawn from `draws`.
+    /// Threads that begin at `now_s`, with waits drawn from `draws`.
     pub(super) fn new(
         supervisor: SharedSupervisor,
         cancel: Cancel,
@@ -63,7 +62,7 @@ impl Guard {
             supervisor,
             cancel,
             draws,
-            // Another process draws other waits.
+            // A new process draws other waits.
             turns: now_s.to_bits(),
             reader_s: now_s,
             watcher_s: now_s,
@@ -74,12 +73,12 @@ impl Guard {
         }
     }
 
-    /// When the next thread has the processor.
+    /// Time of the next thread's turn, s.
     pub(super) fn next_s(&self) -> f64 {
         self.reader_s.min(self.watcher_s)
     }
 
-    /// The thread that has the processor at `now_s`, which is due again after that.
+    /// The thread whose turn it is at `now_s`; schedules its next turn.
     pub(super) fn due(&mut self, now_s: f64) -> Option<Thread> {
         if self.next_s() > now_s {
             return None;

@@ -1,4 +1,4 @@
-//! A press log on the simulated disk: framed records, synced before they count, a torn tail cut away.
+//! Press log on the simulated disk: framed records, synced before they count; a torn tail is truncated.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use taceva_core::random::fnv_1a;
 use taceva_protocol::ContentId;
 use taceva_protocol::{PressLog, PressRecord};
 
-/// A press as it was recorded.
+/// A recorded press.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Entry {
     pub(super) press: ContentId,
@@ -17,16 +17,16 @@ pub(super) struct Entry {
     pub(super) samples: Vec<EntrySample>,
 }
 
-/// What the oracle compares with the truth.
+/// Sample fields that the oracle compares with the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct EntrySample {
     pub(super) number: u32,
     pub(super) stamp_s: f64,
     pub(super) depth_mm: f64,
     pub(super) force_n: f64,
-    /// Time, height and force as the frame shows them.
+    /// Time, height and force encoded in the frame.
     pub(super) frame: Option<[f64; 3]>,
-    /// Whether a limit kept the tip from the waypoint.
+    /// True if a limit kept the tip from the waypoint.
     pub(super) is_limited: bool,
 }
 
@@ -34,12 +34,12 @@ pub(super) struct EntrySample {
 pub(super) struct Journal<'a> {
     disk: &'a mut Disk,
     finished: BTreeSet<ContentId>,
-    /// What was acknowledged, ever: kept outside of the process, to be compared with what is left.
+    /// All records acknowledged so far; kept outside the process, for comparison with the remaining ones.
     acknowledged: &'a mut Vec<ContentId>,
 }
 
 impl<'a> Journal<'a> {
-    /// Opens the log, cutting away a torn tail.
+    /// Opens the log and truncates a torn tail.
     pub(super) fn open(disk: &'a mut Disk, acknowledged: &'a mut Vec<ContentId>) -> Journal<'a> {
         let (entries, whole) = entries(&disk.read());
         disk.cut(whole);
@@ -68,13 +68,13 @@ impl PressLog for Journal<'_> {
         Ok(())
     }
 
-    /// The simulated disk keeps presses alone: what is seen of an untouched gel is no part of what is judged.
+    /// Frames of the untouched gel are not recorded: the oracle checks only presses.
     fn untouched(&mut self, _: &Frame) -> Result<(), SinkError> {
         Ok(())
     }
 }
 
-/// The whole records of a file, and how many bytes they take.
+/// Complete records of a file, and their total length in bytes.
 pub(super) fn entries(bytes: &[u8]) -> (Vec<Entry>, usize) {
     let mut entries = Vec::new();
     let mut whole = 0;

@@ -1,48 +1,48 @@
-//! The invariants of a run, checked against the truth of the simulated world and not against what the devices report.
+//! Invariants of a run, checked against the true state of the simulated world instead of device reports.
 
 use std::fmt;
 
 use taceva_protocol::{RigLimits, SEGMENT_S};
 
-/// A halt must reach the robot within this, in s.
+/// Longest time until a halt reaches the robot, s.
 pub const HALT_WITHIN_S: f64 = 0.05;
 
-/// Something that must never happen.
+/// Violation of an invariant.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Violation {
-    /// Deeper than the limit and the stated overshoot.
+    /// The depth exceeds the limit and the stated overshoot.
     TooDeep {
-        /// How deep, in mm below the true first contact.
+        /// Depth, mm below the true first contact.
         depth_mm: f64,
-        /// The most that is allowed.
+        /// Largest allowed depth, mm.
         bound_mm: f64,
     },
-    /// More force than the limit and the stated overshoot.
+    /// The force exceeds the limit and the stated overshoot.
     TooHard {
-        /// How hard, in N of true force.
+        /// True force, N.
         force_n: f64,
-        /// The most that is allowed.
+        /// Largest allowed force, N.
         bound_n: f64,
     },
-    /// The halt came too late, or not at all.
+    /// The halt was late or missing.
     LateHalt {
-        /// How late, in s.
+        /// Delay, s.
         after_s: f64,
-        /// What had happened.
+        /// Hazard that required the halt.
         hazard: &'static str,
     },
-    /// After an emergency stop was reported, or while nobody held the enabling switch, the robot was asked for this.
+    /// The robot received this request after a reported emergency stop, or while nobody held the enabling switch.
     Defied(&'static str),
-    /// A press that was acknowledged is gone.
+    /// An acknowledged press is missing.
     Lost(String),
     /// A press is recorded twice.
     Doubled(String),
-    /// A press was recorded that nobody planned, or one that was not what was planned.
+    /// A recorded press was not planned, or differs from the plan.
     Invented(String),
-    /// A sample does not say what was true.
+    /// A sample differs from the truth.
     Untrue(String),
-    /// The study never came to its end.
+    /// The study did not finish.
     Unfinished(String),
 }
 
@@ -65,36 +65,36 @@ impl fmt::Display for Violation {
                 write!(f, "no halt within {:.1} ms of {hazard}", after_s * 1e3)
             }
             Violation::Defied(asked) => {
-                write!(f, "asked for {asked}, which nobody may")
+                write!(f, "forbidden request: {asked}")
             }
-            Violation::Lost(what) => write!(f, "acknowledged and lost: {what}"),
+            Violation::Lost(what) => write!(f, "acknowledged but missing: {what}"),
             Violation::Doubled(what) => write!(f, "recorded twice: {what}"),
-            Violation::Invented(what) => write!(f, "recorded and never planned so: {what}"),
-            Violation::Untrue(what) => write!(f, "a sample says what was not: {what}"),
+            Violation::Invented(what) => write!(f, "recorded but not planned: {what}"),
+            Violation::Untrue(what) => write!(f, "a sample differs from the truth: {what}"),
             Violation::Unfinished(what) => write!(f, "never finished: {what}"),
         }
     }
 }
 
-/// How often each thing that must hold was looked at, so that an oracle that checked nothing is noticed.
+/// Number of checks of each invariant, so that an idle oracle is noticed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Checks {
     /// Motions whose depth and force were compared with the limits.
     pub motions: u64,
-    /// Halts that followed a hazard.
+    /// Halts after a hazard.
     pub halts: u64,
-    /// The slowest of them, in s, without what a longer segment delays the look at its end.
+    /// Longest delay of a halt, s, without the delay that a longer segment adds.
     pub slowest_halt_s: f64,
-    /// The greatest true force, as a part of the greatest that was stated.
+    /// Greatest true force, as a share of the greatest stated force.
     pub greatest_force: f64,
     /// Samples compared with the truth.
     pub samples: u64,
-    /// Presses that silence broke off and that were made again in the same process.
+    /// Presses that a silent transducer interrupted and that the same process repeated.
     pub redone: u64,
 }
 
 impl Checks {
-    /// Joins those of another run.
+    /// Adds the checks of another run.
     pub fn join(&mut self, other: &Checks) {
         self.motions += other.motions;
         self.halts += other.halts;
@@ -105,26 +105,26 @@ impl Checks {
     }
 }
 
-/// The hazard of a transducer that gives no reading.
+/// Hazard: a transducer without readings.
 pub(super) const SILENCE: &str = "a silent transducer";
-/// The hazard of a gel that is pressed too hard.
+/// Hazard: a force beyond the limit.
 pub(super) const TOO_HARD: &str = "a force beyond the limit";
 
-/// The hazard of a robot that moves while nobody holds the enabling switch.
+/// Hazard: a robot that moves while nobody holds the enabling switch.
 pub(super) const UNHELD: &str = "an enabling switch that nobody holds";
 
-/// What the oracle knows of the rig: its limits and the overshoot that is stated for them.
+/// Limits of the rig and the stated overshoot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stated {
     pub(super) depth_max_mm: f64,
     pub(super) normal_max_n: f64,
     pub(super) healthy_mm: f64,
     pub(super) frozen_mm: f64,
-    /// How much later than true contact the first contact is declared, in mm: a step, and the threshold with its noise.
+    /// Delay of the declared first contact after true contact, mm: a step, and the threshold with its noise.
     pub(super) late_contact_mm: f64,
     pub(super) stiffness_n_mm: f64,
     pub(super) noise_n: f64,
-    /// How much later than within a segment of [`SEGMENT_S`] a limit is seen that is passed in a longer one, in s.
+    /// Extra delay until an exceeded limit is seen in a segment longer than [`SEGMENT_S`], s.
     pub(super) late_look_s: f64,
 }
 
@@ -148,7 +148,7 @@ impl Stated {
         }
     }
 
-    /// The same for segments at this speed in contact, which noise may have made longer.
+    /// The same for segments at this speed in contact, which noise may have lengthened.
     pub(super) fn at_speed(self, speed_mm_s: f64, segment_mm: f64) -> Stated {
         Stated {
             late_look_s: (segment_mm / speed_mm_s - SEGMENT_S).max(0.0),
@@ -157,28 +157,28 @@ impl Stated {
     }
 }
 
-/// Noise is uniform within its span, so that none of it is beyond.
+/// Range of the noise, as a factor: the noise is uniform and never exceeds it.
 const NOISE_SPAN: f64 = 1.0;
 
-/// Where a motion ended.
+/// State at the end of a motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ended {
-    /// How far below the surface where it was touched.
+    /// Depth below the surface at the contact, mm.
     pub(super) depth_mm: f64,
-    /// True force.
+    /// True force, N.
     pub(super) force_n: f64,
-    /// Whether the gel was more indented at its end.
+    /// True if the indentation grew during the motion.
     pub(super) is_inward: bool,
-    /// Whether the last reading before it showed an old force.
+    /// True if the last reading before the end had an old force.
     pub(super) is_frozen: bool,
 }
 
-/// Watches the world.
+/// Monitors the simulated world.
 #[derive(Clone, Debug)]
 pub(super) struct Oracle {
     stated: Stated,
     hazard: Option<(&'static str, f64)>,
-    /// Whether the limit of force was passed while the transducer did not show it.
+    /// True if the force limit was exceeded while the transducer did not show it.
     overlooked: bool,
     pub(super) violations: Vec<Violation>,
     pub(super) checks: Checks,
@@ -195,10 +195,10 @@ impl Oracle {
         }
     }
 
-    /// A motion ended.
+    /// Checks the end of a motion.
     ///
-    /// What is stated is how far the tip goes on beyond a limit, so that it is at the end of a motion inward that it can be passed. From
-    /// there the tip comes out step by step, still beyond the limit for a while, which is not a second violation.
+    /// The stated overshoot limits how far the tip goes beyond a limit, so only the end of an inward motion can violate it. The tip then
+    /// comes out step by step, still beyond the limit for a while, which is not a second violation.
     pub(super) fn moved(&mut self, ended: Ended) {
         let Ended {
             depth_mm, force_n, ..
@@ -228,51 +228,52 @@ impl Oracle {
         }
     }
 
-    /// From `since_s` on, which may lie ahead, the robot must be halted.
+    /// Requires a halt of the robot from `since_s` on, which may be in the future.
     pub(super) fn hazard(&mut self, hazard: &'static str, since_s: f64) {
         self.hazard.get_or_insert((hazard, since_s));
     }
 
-    /// Somebody holds the enabling switch, or the robot does not move.
+    /// Ends the hazard: the enabling switch is held, or the robot does not move.
     pub(super) fn is_held(&mut self) {
         self.hazard.take_if(|(hazard, _)| *hazard == UNHELD);
     }
 
-    /// The limit of force was passed while the transducer showed an old force.
+    /// Records that the force limit was exceeded while the transducer showed an old force.
     pub(super) fn overlooked(&mut self) {
         self.overlooked = true;
     }
 
-    /// The transducer gives no force or an old one, and no supervisor can react to a force that it does not show. How far the
-    /// tip may go meanwhile is bounded all the same, and missing readings are a hazard of their own.
+    /// Records that the transducer gives no force or an old one, to which no supervisor can react. The depth is still limited, and missing
+    /// readings are a separate hazard.
     pub(super) fn blinded(&mut self) {
         let unseen = self.hazard.take_if(|(hazard, _)| *hazard == TOO_HARD);
         self.overlooked |= unseen.is_some();
     }
 
-    /// The transducer gives readings again; a gap shorter than a stale reading is no hazard.
+    /// Records that readings have returned; a gap shorter than a stale reading is not a hazard.
     pub(super) fn heard(&mut self) {
         self.hazard.take_if(|(hazard, _)| *hazard == SILENCE);
     }
 
-    /// The transducer shows the true force of the resting tip. Whether the limit was passed unseen, which must be answered from now on.
+    /// Records that the transducer shows the true force of the resting tip. Returns true if the limit was exceeded unseen, which requires a
+    /// reaction from now on.
     pub(super) fn sighted(&mut self) -> bool {
         std::mem::take(&mut self.overlooked)
     }
 
-    /// A call was refused because of an emergency stop, and `asked` was asked for all the same.
+    /// Records the request `asked` after a call was rejected because of an emergency stop.
     pub(super) fn defied(&mut self, asked: &'static str) {
         self.violations.push(Violation::Defied(asked));
     }
 
-    /// A halt reached the robot.
+    /// Records that a halt reached the robot.
     pub(super) fn halted(&mut self, now_s: f64) {
         self.overlooked = false;
         if let Some((hazard, since_s)) = self.hazard.take() {
             let after_s = now_s - since_s;
             self.checks.halts += 1;
             if after_s < 0.0 {
-                // Halted before it had to be.
+                // The halt came before it was required.
                 return;
             }
             let within_s = self.within_s(hazard);
@@ -285,7 +286,7 @@ impl Oracle {
         }
     }
 
-    /// Time passed; a hazard that is old and unanswered is a violation.
+    /// Advances time; an old hazard without a halt is a violation.
     pub(super) fn passed(&mut self, now_s: f64) {
         if let Some((hazard, since_s)) = self.hazard
             && now_s - since_s > self.within_s(hazard)
@@ -297,7 +298,7 @@ impl Oracle {
         }
     }
 
-    /// How long after `hazard` the robot must be halted, in s.
+    /// Longest time from `hazard` to the halt, s.
     fn within_s(&self, hazard: &str) -> f64 {
         match hazard {
             TOO_HARD => HALT_WITHIN_S + self.stated.late_look_s,
@@ -305,7 +306,7 @@ impl Oracle {
         }
     }
 
-    /// The process was killed: nothing can react any more, and the tip rests at the end of its segment.
+    /// Ends all hazards: the process was killed and cannot react; the tip rests at the end of its segment.
     pub(super) fn killed(&mut self) {
         self.hazard = None;
         self.overlooked = false;

@@ -1,4 +1,4 @@
-//! What the disk holds in the end, compared with what was planned, acknowledged and true.
+//! Comparison of the disk's final content with the planned, acknowledged and true presses.
 
 use std::collections::BTreeSet;
 
@@ -11,17 +11,17 @@ use taceva_protocol::ContentId;
 use taceva_protocol::Motion;
 use taceva_protocol::{Plan, PlannedPress};
 
-/// What binary64 makes of sums of a few lengths, in mm.
+/// Rounding error of sums of lengths in binary64, mm.
 const ROUNDING_MM: f64 = 1e-6;
 
-/// What was found in a record.
+/// Result of checking a record.
 pub(super) struct Found {
     pub(super) violations: Vec<Violation>,
-    /// Samples that were compared.
+    /// Number of compared samples.
     pub(super) samples: u64,
 }
 
-/// Compares what is on the disk with what was planned, acknowledged and true.
+/// Compares the disk's content with the planned, acknowledged and true presses.
 pub(super) fn judge_log(
     plan: &Plan,
     kept: &[Entry],
@@ -52,8 +52,8 @@ pub(super) fn judge_log(
     found
 }
 
-/// A press whose way out has not the waypoints of its way in, although it was planned so. One may lack: a limit just below a waypoint leaves
-/// its way in with two samples nearly as deep.
+/// Violation if a retreat lacks waypoints of its approach although the plan has them. One may be missing: with a limit just below a
+/// waypoint, the approach has two samples of almost equal depth.
 fn one_sided(planned: &PlannedPress, entry: &Entry) -> Option<Violation> {
     let waypoints = planned.press.waypoints();
     let on_way_out = |sample: &&EntrySample| {
@@ -68,14 +68,14 @@ fn one_sided(planned: &PlannedPress, entry: &Entry) -> Option<Violation> {
     let out = entry.samples.iter().filter(on_way_out).count();
     (comes_out && !(2 * out..=2 * out + 1).contains(&samples)).then(|| {
         let what = format!(
-            "{} has {out} samples of {samples} on its way out",
+            "{} has {out} samples of {samples} on its retreat",
             entry.press
         );
         Violation::Untrue(what)
     })
 }
 
-/// What was acknowledged and is not in the file any more: a press that is made again was lost all the same.
+/// Acknowledged presses that are missing from the file, even if they are repeated later.
 pub(super) fn missing(file: &[u8], acknowledged: &[ContentId]) -> Vec<Violation> {
     let (kept, _) = entries(file);
     let seen = kept.iter().map(|entry| entry.press).collect();
@@ -102,7 +102,7 @@ impl Found {
         let limited = entry.samples.iter().filter(|sample| sample.is_limited);
         let fits = match entry.outcome {
             PressOutcome::Complete => whole && limited.count() == 0,
-            // Without a sample the limit was reached in the search.
+            // Without a sample, the limit was reached during the search.
             PressOutcome::Limited(_) => samples == 0 || limited.count() > 0,
             _ => false,
         };
@@ -117,10 +117,10 @@ impl Found {
         }
         self.violations.extend(one_sided(planned, entry));
         let waypoints = planned.press.waypoints();
-        // The depth of a sample is the difference of two poses that were reported.
+        // The depth of a sample is the difference of two reported poses.
         let reported_mm = ROUNDING_MM + 2.0 * gel.pose_noise_mm;
-        // It may lag behind its waypoint where the robot stuck in the last segment, and before it by what noise hides; the label holds
-        // the true place.
+        // The tip may stop short of its waypoint if the robot stuck in the last segment, or earlier because of noise. The label has the
+        // true place.
         let limits = plan.limits.as_ref();
         let stuck_mm = limits.map_or(0.0, |limits| {
             limits.overshoot.segment_mm + 3.0 * limits.signals.pose_noise_mm + gel.pose_noise_mm
@@ -166,7 +166,7 @@ impl Found {
                 ));
             }
             if let Motion::Indent(_) = planned.press.motion {
-                // The contact is at one height for all samples of a press.
+                // All samples of a press have the same contact height.
                 let contact_mm = height_mm - sample.depth_mm;
                 let first: f64 = *height.get_or_insert(contact_mm);
                 if (contact_mm - first).abs() > 2.0 * reported_mm {

@@ -1,4 +1,4 @@
-//! One seed: a gel, a plan, faults, and as many processes as it takes to finish.
+//! One seed: a gel, a plan, faults, and as many processes as needed to finish.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
@@ -24,28 +24,28 @@ use taceva_protocol::{
     Supervisor, Trip, plan, run, run_guarded,
 };
 
-/// What a seed showed.
+/// Result of a seed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulationReport {
     /// The seed.
     pub seed: u64,
-    /// What must never happen and did.
+    /// Violated invariants.
     pub violations: Vec<Violation>,
-    /// How often each kind of fault occurred.
+    /// Number of calls hit by each kind of fault.
     pub struck: FaultCounts,
-    /// How often each thing that must hold was looked at.
+    /// Number of checks of each invariant.
     pub checks: Checks,
-    /// Processes it took to finish.
+    /// Number of processes until the study finished.
     pub processes: u32,
-    /// Simulated time, in s.
+    /// Simulated time, s.
     pub simulated_s: f64,
 }
 
-/// Faults are few and end; more processes than this make no progress.
+/// Most processes: faults are few and end, so more processes mean no progress.
 const MOST_PROCESSES: u32 = 40;
-/// Between two processes a person looks at the rig, in s.
+/// Time between two processes, in which a person repairs the rig, s.
 const REPAIR_S: f64 = 3.0;
-/// How long a run waits for somebody to hold the enabling switch, in s.
+/// Longest wait of a run for the enabling switch, s.
 const PATIENCE_S: f64 = 20.0;
 
 /// Plays `seed` to its end.
@@ -59,7 +59,7 @@ pub fn simulate(seed: u64) -> SimulationReport {
     simulate_with(seed, Sabotage::Nothing)
 }
 
-/// As [`simulate`], with a planted mistake.
+/// Like [`simulate`], with a planted bug.
 pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     let draws = Draws::new(seed, "faults");
     let part = |purpose| draws.fraction([purpose, 1]);
@@ -67,11 +67,11 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     let gel = Gel {
         stiffness_n_mm: 0.3 + 2.5 * part(100),
         noise_n,
-        // Where threads look on the rig is a real one, on which the host finds the zero.
+        // A monitored rig is a real one, on which the host determines the zero.
         zero_noise_n: if is_guarded(seed) { noise_n } else { 0.0 },
         saturation_n: 20.0,
         normal_max_n: 0.6 + 1.5 * part(102),
-        // Every other robot reports where it sent the tip, the others up to 0.05 mm beside it.
+        // Every second robot reports the commanded position; the others deviate by up to 0.05 mm.
         pose_noise_mm: 0.1 * (part(103) - 0.5).max(0.0),
     };
     let plan = match scenario_plan(seed, &gel) {
@@ -92,7 +92,7 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     .at_speed(
         plan.contact.speed_mm_s.value,
         match is_guarded(seed) {
-            // Threads look on within a segment, however long it is.
+            // Threads observe the robot within a segment of any length.
             true => 0.0,
             false => limits.overshoot.segment_mm,
         },
@@ -161,12 +161,12 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     }
 }
 
-/// Whether threads look on while the robot of this seed moves.
+/// True if threads monitor the robot of this seed during motions.
 fn is_guarded(seed: u64) -> bool {
     seed % 4 == 3
 }
 
-/// The plan with a limit that nobody may loosen, loosened.
+/// The plan with a fixed limit loosened.
 fn loosened(plan: &Plan) -> Plan {
     let mut plan = plan.clone();
     if let Some(limits) = &mut plan.limits {
@@ -181,7 +181,7 @@ enum Ended {
     Killed,
 }
 
-/// One process: it opens the log, runs what is missing, and ends one way or another.
+/// One process: opens the log, runs the missing presses, and ends in one of several ways.
 fn process(
     plan: &Plan,
     seed: u64,
@@ -193,7 +193,7 @@ fn process(
     let cancel = Cancel::new();
     shared.world().cancel = cancel.clone();
     if is_guarded(seed) && shared.world().is_unplugged() {
-        // A program that does not find the switch opens nothing else.
+        // A program that does not find the switch opens no other device.
         return Ended::Stopped(Box::new(RunError {
             press: None,
             cause: StopCause::Tripped(Trip::SwitchLost),
@@ -205,7 +205,7 @@ fn process(
     let guard =
         limits.map(|limits| SharedSupervisor::new(Supervisor::new(limits, robot.halt_handle())));
     if let Some(guard) = &guard {
-        // Until somebody has looked.
+        // Counts as released until the thread first reads the switch.
         guard.lock().enabling(Enabling::Released);
     }
     let looking = guard.clone();
@@ -261,7 +261,7 @@ fn process(
     }
 }
 
-/// A person frees the tip if it was left in place; a killed process left it wherever it was.
+/// A person frees a tip that was left in place; a killed process may leave it anywhere.
 fn repair(shared: &Shared, left: Left) {
     let mut world = shared.world();
     world.oracle.killed();
@@ -281,7 +281,7 @@ pub(super) fn scenario_plan(seed: u64, gel: &Gel) -> Result<Plan, SceneError> {
     planned(SCENE, seed, gel, source)
 }
 
-/// The plan of a scene that is written as `text`, on a simulated rig.
+/// Plan of the scene in `text`, on a simulated rig.
 #[cfg(test)]
 pub(super) fn planned_scene(text: &str, seed: u64, gel: &Gel) -> Result<Plan, SceneError> {
     planned(text, seed, gel, DriverSource::Simulated)

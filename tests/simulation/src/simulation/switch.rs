@@ -1,4 +1,4 @@
-//! The enabling switch of the world: what it says, and what must not happen while nobody holds it.
+//! Enabling switch of the world: its state, and invariants while nobody holds it.
 
 use super::fault::FaultKind;
 use super::oracle::{HALT_WITHIN_S, UNHELD};
@@ -6,7 +6,7 @@ use super::world::{Sabotage, World};
 use taceva_protocol::Enabling;
 
 impl World {
-    /// What the enabling switch says to the thread that looks at it.
+    /// State of the enabling switch, as its monitoring thread reads it.
     pub(super) fn feel(&mut self, now_s: f64) -> Enabling {
         let said = [
             (FaultKind::Unplugged, Enabling::Lost),
@@ -18,14 +18,14 @@ impl World {
         said.map_or(Enabling::Held, |(_, enabling)| enabling)
     }
 
-    /// Whether the enabling switch is not there.
+    /// True if the enabling switch is unplugged.
     pub(super) fn is_unplugged(&self) -> bool {
         let unheld = self.faults.unheld(self.now_s);
         unheld.is_some_and(|(kind, _)| kind == FaultKind::Unplugged)
     }
 
-    /// The robot moves now, after it set out at `began_s`: it must be halted soon after the switch was let go, and must not set out when that
-    /// has long been so.
+    /// Checks a robot that moves now, after a start at `began_s`: it must halt soon after the switch is released, and must not start long
+    /// after.
     pub(super) fn is_let_move(&mut self, began_s: f64) {
         let Some((_, since_s)) = self.faults.unheld(self.now_s) else {
             self.oracle.is_held();

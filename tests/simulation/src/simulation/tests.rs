@@ -118,9 +118,9 @@ fn a_press_that_reaches_the_limit_of_force_ends_there_and_the_run_goes_on() {
         assert_eq!(stopped.len(), if comes_out { 2 } else { 1 }, "{record:?}");
         for sample in stopped {
             let depth_mm = sample.truth.get(depth).expect("measured");
-            // The surface is fitted to micrometres, and what was drawn back is two segments at most.
+            // Contact is detected up to a step late, and the tip was withdrawn by at most two segments.
             assert!(
-                (most_mm - 0.045..most_mm + 0.01).contains(&depth_mm),
+                (most_mm - 0.14..most_mm + 0.001).contains(&depth_mm),
                 "{depth_mm}"
             );
             assert!(sample.depth_step.is_none() && sample.phase.is_some());
@@ -150,7 +150,7 @@ fn a_force_that_comes_late_costs_time_and_no_way() {
     let mut log = Memory::default();
     let report = bench
         .run(Mode::Acquire, &mut log)
-        .expect("slow is no fault");
+        .expect("slow is not a fault");
     assert!(report.limited > 0);
     assert_eq!(bench.shared.world().oracle.violations, []);
     let checks = bench.shared.world().oracle.checks;
@@ -188,7 +188,7 @@ fn a_rehearsal_visits_every_place_touches_nothing_and_records_nothing() {
 #[test]
 fn a_rehearsal_goes_as_far_above_the_height_of_travel_as_it_is_asked_to() {
     let mut bench = Bench::new(SOFT);
-    // Presses without waypoints, after which the tip is where it went first.
+    // Presses without waypoints leave the tip at its first position.
     let presses = &mut bench.plan.presses;
     presses.retain(|press| matches!(press.press.motion, Motion::Rest { .. }));
     assert!(!bench.plan.presses.is_empty());
@@ -208,7 +208,7 @@ fn a_gel_that_is_not_there_is_searched_for_and_left() {
     let mut log = Memory::default();
     let report = bench
         .run(Mode::Acquire, &mut log)
-        .expect("nothing touched is no fault");
+        .expect("nothing touched is not a fault");
     let searched = bench.plan.presses.iter();
     let searched = searched.filter(|press| !matches!(press.press.motion, Motion::Rest { .. }));
     assert_eq!(report.without_contact, searched.count());

@@ -1,4 +1,4 @@
-//! What the threads that look on do at their turns, while simulated time passes.
+//! Actions of the monitoring threads during simulated time.
 
 use taceva_core::{Fault, Millimetre, Newton, Point, Pose, Stamp, Wrench};
 
@@ -10,7 +10,7 @@ use taceva_protocol::STALE_S;
 use taceva_protocol::{Observation, Supervisor};
 
 impl Shared {
-    /// Lets the threads do what they are due to by now; `false` if they wait for the supervisor.
+    /// Runs the threads whose turn it is; `false` if they wait for the supervisor.
     pub(super) fn look_on(&self) -> bool {
         let supervisor = match &self.world().guard {
             Some(guard) => guard.supervisor.clone(),
@@ -33,7 +33,7 @@ impl Shared {
         }
     }
 
-    /// Lets time pass, in which threads look on.
+    /// Advances time with running threads.
     pub(super) fn elapse(&self, seconds: f64) {
         let mut world = self.world();
         if world.guard.is_none() {
@@ -45,7 +45,7 @@ impl Shared {
         while self.step(until_s) {}
     }
 
-    /// Lets time pass to the next turn of a thread, at most until `until_s`; whether some is left.
+    /// Advances time to the next turn of a thread, at most to `until_s`. True if time remains.
     pub(super) fn step(&self, until_s: f64) -> bool {
         let mut world = self.world();
         let next_s = world.guard.as_ref().map_or(until_s, Guard::next_s);
@@ -60,7 +60,7 @@ impl Shared {
         self.world().now_s < until_s
     }
 
-    /// The thread that reads: what it gets it shows, and leaves for the run.
+    /// Reader thread: passes its readings to the supervisor and keeps them for the run.
     fn overhear(&self, held: &mut Supervisor) {
         let mut world = self.world();
         let is_moving = world.guard.as_ref().is_some_and(|guard| guard.is_moving);
@@ -90,11 +90,11 @@ impl Shared {
             false => Observation::Force(wrench, stamp),
         };
         drop(world);
-        // What it halts for, the run learns from the supervisor.
+        // The run learns the reason for a halt from the supervisor.
         let _ = held.observe(&observation, now_s);
     }
 
-    /// The thread that looks at the robot: it hears of wishes and of faults, and shows where the tip is under way.
+    /// Robot thread: receives stop requests and faults, and reports the position of the moving tip.
     fn watch(&self, held: &mut Supervisor) {
         let mut world = self.world();
         let now_s = world.now_s;
@@ -113,7 +113,7 @@ impl Shared {
         let seen = guard.seen;
         let is_old = |(_, stamp): (Pose, Stamp)| now_s - stamp.valid_s > STALE_S;
         if held.is_under_way() && seen.is_some_and(is_old) {
-            world.hazard("a robot that reports nothing", now_s);
+            world.hazard("a robot without reports", now_s);
         }
         drop(world);
         if is_wish {
@@ -133,7 +133,7 @@ impl Shared {
     }
 }
 
-/// What the robot reports at `now_s`.
+/// Report of the robot at `now_s`.
 fn at(world: &mut World, now_s: f64) -> (Pose, Stamp) {
     let [x, y, z] = world.reported().map(Millimetre);
     let pose = Pose {

@@ -1,4 +1,4 @@
-//! The world of a simulation: a tip on a spring, and faults of calls.
+//! Simulated world: a tip on a spring, and faults of calls.
 
 use taceva_core::Fault;
 
@@ -9,18 +9,18 @@ use super::guard::Guard;
 use super::oracle::{Ended, Oracle, SILENCE, TOO_HARD};
 use taceva_protocol::Cancel;
 
-/// How a call to a device travels, in s each way.
+/// Travel time of a call to a device, s each way.
 const LINK_S: f64 = 0.000_5;
 const SLOW_LINK_S: f64 = 0.004;
-/// How long readings of force wait in the buffers of a slow link, in s; their stamps are true.
+/// Delay of force readings in the buffers of a slow link, s; their stamps are correct.
 const LAG_S: f64 = 0.015;
-/// From one reading of the transducer to the next, in s.
+/// Interval between readings of the transducer, s.
 const READING_S: f64 = 0.005;
-/// From one frame to the next, in s.
+/// Interval between frames, s.
 const FRAME_S: f64 = 0.02;
-/// What the noise of poses is drawn under, beside that of forces.
+/// Purpose of the draws for pose noise, separate from force noise.
 const POSE_NOISE: u64 = 8;
-/// How old readings are while their stamps are stale, in s.
+/// Age of readings with stale stamps, s.
 const STALE_S: f64 = 0.12;
 
 /// The last motion of the tip.
@@ -33,7 +33,7 @@ struct Motion {
 }
 
 impl Motion {
-    /// Where the tip was; before this motion, where it began.
+    /// Position of the tip at `at_s`; before this motion, its start.
     fn tip_at(&self, at_s: f64) -> [f64; 3] {
         if at_s >= self.end_s {
             return self.to;
@@ -43,57 +43,57 @@ impl Motion {
     }
 }
 
-/// Everything there is.
+/// State of the simulated world.
 pub(super) struct World {
     pub(super) now_s: f64,
     pub(super) tip: [f64; 3],
     motion: Motion,
-    /// Where the gel was touched, while it is: the surface is uneven, and depth counts from there.
+    /// Place of contact while the gel is touched: the surface is uneven, and depth is measured from there.
     touched: Option<[f64; 2]>,
     pub(super) halted: bool,
-    /// Whether somebody pressed the emergency stop, which a person must acknowledge.
+    /// True after the emergency stop was pressed, until a person acknowledges it.
     pub(super) stopped: bool,
-    /// Whether a call of the run was refused for it already.
+    /// True if a call of the run was already rejected because of it.
     has_noted_stop: bool,
     pub(super) gel: Gel,
     pub(super) oracle: Oracle,
     pub(super) faults: Faults,
     pub(super) cancel: Cancel,
-    /// Who is shown every reading in a motion, where threads look on.
+    /// Monitoring threads, which get every reading during a motion.
     pub(super) guard: Option<Guard>,
     draws: Draws,
     readings: u64,
     poses: u64,
     zero_n: f64,
     last_force: Option<[f64; 3]>,
-    /// Since when the transducer shows an old force.
+    /// True while the transducer shows an old force.
     frozen: bool,
-    /// Since when a reading is awaited from a transducer that gives none.
+    /// Time since when a reading from a silent transducer is awaited.
     listening_s: Option<f64>,
     last_frame_s: f64,
     pub(super) sabotage: Sabotage,
 }
 
-/// A mistake planted in the world or in the rig, which the oracle must find.
+/// Planted bug in the world or in the rig, which the oracle must find.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(not(test), expect(dead_code, reason = "mistakes are planted by tests"))]
 pub(super) enum Sabotage {
-    /// None: the rig as it is.
+    /// No bug.
     Nothing,
-    /// The supervisor has limits that are half as large again.
+    /// The limits of the supervisor are half as large again.
     LooseLimits,
-    /// Halts take longer than they may.
+    /// Halts take too long.
     SlowHalt,
-    /// The disk acknowledges what it did not sync.
+    /// The disk acknowledges data that it did not sync.
     LazyDisk,
-    /// Frames carry the stamp of now and the picture of before.
+    /// Frames have the current stamp and the previous picture.
     OldFrames,
-    /// The thread that looks at the enabling switch finds it held, whatever it says.
+    /// The thread that reads the enabling switch always finds it held.
     UnheededSwitch,
 }
 
 impl World {
-    /// A tip that is parked, before anything has happened.
+    /// World with a parked tip, before the first event.
     pub(super) fn new(gel: Gel, oracle: Oracle, faults: Faults, draws: Draws) -> World {
         // Parked beside the gel and above it.
         let parked = [30.0, 5.0, -8.0];
@@ -127,19 +127,19 @@ impl World {
         }
     }
 
-    /// Lets time pass.
+    /// Advances time.
     pub(super) fn pass(&mut self, seconds: f64) {
         self.now_s += seconds;
         self.oracle.passed(self.now_s);
     }
 
-    /// Ends a halt, and forgets since when readings were missing.
+    /// Ends a halt, and resets the time of missing readings.
     pub(super) fn release(&mut self) {
         self.halted = false;
         self.listening_s = None;
     }
 
-    /// Refuses what moves or releases the robot while the emergency stop holds. Whoever asks again after a refusal defies it.
+    /// Rejects calls that move or release the robot while the emergency stop holds. A second request after a rejection is a violation.
     pub(super) fn obey(&mut self, asked: &'static str) -> Result<(), Fault> {
         if !self.is_stopped() {
             return Ok(());
@@ -155,7 +155,7 @@ impl World {
         (self.stopped, self.has_noted_stop) = (false, false);
     }
 
-    /// Where the robot says that the tip is.
+    /// Position of the tip as the robot reports it.
     pub(super) fn reported(&mut self) -> [f64; 3] {
         self.poses += 1;
         let noise = |axis: u64| {
@@ -179,20 +179,20 @@ impl World {
         };
     }
 
-    /// From `since_s` on the robot must be halted; one that is halted already needs no halt.
+    /// Requires a halt of the robot from `since_s` on, unless it is halted already.
     pub(super) fn hazard(&mut self, hazard: &'static str, since_s: f64) {
         if !self.halted {
             self.oracle.hazard(hazard, since_s);
         }
     }
 
-    /// One way of a call.
+    /// Advances time by one way of a call.
     pub(super) fn link(&mut self) {
         let slow = self.faults.strike(FaultKind::SlowLink, self.now_s);
         self.pass(if slow { SLOW_LINK_S } else { LINK_S });
     }
 
-    /// The height of the gel at a place: gently uneven.
+    /// Height of the gel at a place, mm: slightly uneven.
     pub(super) fn surface(&self, [x, y]: [f64; 2]) -> f64 {
         0.1 + 0.05 * (0.7 * x).sin() * (0.9 * y).cos()
     }
@@ -216,7 +216,7 @@ impl World {
         let stuck = self.faults.strike(FaultKind::StuckRobot, start_s);
         if !stuck {
             let (before, after) = (self.force(from), self.force(target));
-            // Beyond the noise the next reading cannot but show it.
+            // Beyond the noise, the next reading must show it.
             let bound = self.gel.normal_max_n + self.gel.force_error_n();
             let passes = after > before && after > bound;
             if passes && self.frozen {
@@ -250,7 +250,7 @@ impl World {
     pub(super) fn read_force(&mut self, deadline_s: f64) -> Option<([f64; 3], f64)> {
         if self.faults.strike(FaultKind::Silence, self.now_s) {
             let listening_s = *self.listening_s.get_or_insert(self.now_s);
-            // What the force is, nobody can know until it speaks; the tip rests meanwhile.
+            // The force is unknown until the next reading; the tip rests meanwhile.
             self.oracle.blinded();
             self.hazard(SILENCE, listening_s + STALE_AFTER_S);
             self.pass(deadline_s);
@@ -261,14 +261,14 @@ impl World {
         Some(self.sense())
     }
 
-    /// Nobody has heard anything since `listening_s`, and the tip may not go on for longer than a silence.
+    /// No reading since `since_s`: the tip may move on only for the allowed silence.
     pub(super) fn missed(&mut self, since_s: f64) {
         let listening_s = *self.listening_s.get_or_insert(since_s);
         self.oracle.blinded();
         self.hazard(SILENCE, listening_s + STALE_AFTER_S);
     }
 
-    /// What the transducer says now, and when that was true.
+    /// Present reading of the transducer, and the time at which it was true.
     fn sense(&mut self) -> ([f64; 3], f64) {
         self.listening_s = None;
         self.oracle.heard();
@@ -293,7 +293,7 @@ impl World {
         self.last_force = Some(force);
         if self.faults.strike(FaultKind::NotANumber, self.now_s) {
             force[2] = f64::NAN;
-            self.hazard("a reading that is no number", self.now_s);
+            self.hazard("a NaN reading", self.now_s);
         }
         if self.faults.strike(FaultKind::Saturation, self.now_s) {
             force[2] = self.gel.saturation_n;
@@ -301,12 +301,12 @@ impl World {
         }
         if self.faults.strike(FaultKind::StaleStamps, self.now_s) {
             valid_s -= STALE_S;
-            self.hazard("a reading that is old", self.now_s);
+            self.hazard("an old reading", self.now_s);
         }
         (force, valid_s)
     }
 
-    /// What a thread that reads the transducer gets; `None` of one that is silent. While the tip moves, silence is a hazard.
+    /// Reading for a thread; `None` from a silent transducer. During a motion, silence is a hazard.
     pub(super) fn overhear(&mut self, is_moving: bool) -> Option<([f64; 3], f64)> {
         if self.faults.strike(FaultKind::Silence, self.now_s) {
             self.oracle.blinded();
@@ -319,12 +319,12 @@ impl World {
         Some(self.sense())
     }
 
-    /// A motion begins: how long nothing was heard counts from here on.
+    /// Starts a motion: silence is measured from now on.
     pub(super) fn set_out(&mut self) {
         self.listening_s = None;
     }
 
-    /// Whether somebody has pressed the emergency stop by now.
+    /// True once the emergency stop was pressed.
     pub(super) fn is_stopped(&mut self) -> bool {
         self.stopped |= self
             .faults
@@ -332,12 +332,12 @@ impl World {
         self.stopped
     }
 
-    /// When a motion to `target` ends that begins now.
+    /// End time of a motion to `target` that begins now, s.
     pub(super) fn arrival_s(&self, target: [f64; 3], speed_mm_s: f64) -> f64 {
         self.now_s + self.way_to(target) / speed_mm_s
     }
 
-    /// Where a motion to `target` is at `at_s`, at most at its end.
+    /// Position of a motion to `target` at `at_s`, at most its end.
     pub(super) fn on_way(&self, target: [f64; 3], speed_mm_s: f64, at_s: f64) -> [f64; 3] {
         let length_mm = self.way_to(target);
         let step_mm = speed_mm_s * (at_s - self.now_s).max(0.0);
@@ -353,15 +353,15 @@ impl World {
         squares.iter().sum::<f64>().sqrt()
     }
 
-    /// Calls the present load zero.
+    /// Sets the present load as zero.
     pub(super) fn tare(&mut self) {
         self.zero_n = self.force(self.tip);
     }
 
-    /// The next frame: how long it takes to come, and when it is exposed; `None` of one that does not come in time.
+    /// Next frame: time until it arrives, and its exposure time; `None` if it does not arrive in time.
     pub(super) fn expose(&mut self, deadline_s: f64) -> (f64, Option<f64>) {
         if self.faults.strike(FaultKind::DroppedFrames, self.now_s) {
-            // Every other one comes, and is the one before.
+            // Every second frame arrives, with the previous picture.
             return match self.readings.is_multiple_of(2) {
                 true => (FRAME_S, Some(self.last_frame_s)),
                 false => (deadline_s, None),
@@ -373,5 +373,5 @@ impl World {
     }
 }
 
-/// A silence of this length is one.
+/// Length of a silence, s.
 const STALE_AFTER_S: f64 = taceva_protocol::STALE_S;

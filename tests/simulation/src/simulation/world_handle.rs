@@ -1,4 +1,4 @@
-//! One world for devices, disk and clock: its time is that of the run, and a kill may end the process at any call.
+//! Shared world of devices, disk and clock: its time is the time of the run, and a kill may end the process at any call.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -21,22 +21,22 @@ impl Shared {
         Shared(Arc::new(Mutex::new(World::new(gel, oracle, faults, draws))))
     }
 
-    /// The world. Kills come between calls, so a poisoned lock still holds a consistent world.
+    /// Locks the world. Kills occur between calls, so a poisoned lock still holds a consistent world.
     pub(super) fn world(&self) -> MutexGuard<'_, World> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Ends the process here, if a kill is due.
+    /// Ends the process here if a kill is due.
     pub(super) fn survive(&self) {
         let mut world = self.world();
         let now_s = world.now_s;
         if world.faults.strike_once(FaultKind::Kill, now_s) {
             world.oracle.killed();
             drop(world);
-            // Unlike a panic it is not reported: nothing went wrong in the program.
+            // Unlike a panic it is not reported, because the program did nothing wrong.
             std::panic::resume_unwind(Box::new(Killed));
         }
-        // Where threads look on, one of them hears of the wish.
+        // With monitoring threads, one of them receives the request.
         if world.guard.is_none() && world.faults.strike_once(FaultKind::Cancel, now_s) {
             world.cancel.cancel();
         }

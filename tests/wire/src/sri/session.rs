@@ -11,7 +11,7 @@ use crate::fault::{Device, FaultKind};
 use crate::link::Link;
 use crate::server::{End, read};
 
-/// What one client has set.
+/// Settings of one client.
 #[derive(Debug)]
 struct Settings {
     rate_hz: u32,
@@ -19,7 +19,7 @@ struct Settings {
     is_crc32: bool,
 }
 
-/// The stream of one client, and what it wants of it.
+/// Stream of one client, with its settings.
 #[derive(Debug)]
 struct Session {
     settings: Mutex<Settings>,
@@ -37,12 +37,12 @@ impl Session {
     }
 }
 
-/// Rates that the box takes, in Hz.
+/// Supported rates, Hz.
 const RATES_HZ: std::ops::RangeInclusive<u32> = 1..=2_000;
-/// How long it takes to find its zero.
+/// Duration of zeroing.
 const ZEROING: Duration = Duration::from_millis(100);
 
-/// Answers commands until the client goes; readings have a thread of their own.
+/// Answers commands until the client closes; readings have a separate thread.
 pub(super) fn serve(mut stream: TcpStream, bench: &WallBench, end: &End) {
     let Ok(writing) = stream.try_clone() else {
         return;
@@ -72,7 +72,7 @@ pub(super) fn serve(mut stream: TcpStream, bench: &WallBench, end: &End) {
                 .and_then(|command| answer(command, &session, bench));
             waiting = rest.to_owned();
             if let Some(answer) = answer {
-                // A client that goes ends its connection.
+                // A closed client ends its connection.
                 let _ = session.send(format!("ACK+{answer}\r\n").as_bytes());
             }
         }
@@ -81,7 +81,7 @@ pub(super) fn serve(mut stream: TcpStream, bench: &WallBench, end: &End) {
     let _ = sender.join();
 }
 
-/// What a command is answered; `None` for one that gets no answer.
+/// Answer to a command; `None` for a command without an answer.
 fn answer(command: &str, session: &Session, bench: &WallBench) -> Option<String> {
     let (word, value) = command.split_once('=').unwrap_or((command, ""));
     let accepted = match word {
@@ -120,14 +120,14 @@ fn answer(command: &str, session: &Session, bench: &WallBench) -> Option<String>
     Some(format!("{command}${outcome}"))
 }
 
-/// The beginning of a frame of 65535 bytes, with the mark of another in its middle.
+/// Start of a frame of 65535 bytes, with the mark of another in its middle.
 const HOSTILE: &[u8] = &[0xaa, 0x55, 0xff, 0xff, 0xaa, 0x55, 0x00];
-/// From one number to the next where some are left out.
+/// Increment of the number when numbers are skipped.
 const SKIPPED: u16 = 7;
 
-/// Sends readings at even times, as long as the client wants any.
+/// Sends readings at regular times while the client wants them.
 fn stream_readings(session: &Session, bench: &WallBench, over: &End) {
-    /// How often it is looked whether the client wants readings.
+    /// Interval at which the thread checks if the client wants readings.
     const LOOK: Duration = Duration::from_millis(2);
     let mut number: u16 = 0;
     let mut due = bench.now();
@@ -180,7 +180,7 @@ fn stream_readings(session: &Session, bench: &WallBench, over: &End) {
     }
 }
 
-/// A frame with six numbers, checked by the sum of their bytes or by their CRC32.
+/// A frame with six numbers, and a checksum by sum or by CRC32.
 fn frame(number: u16, values: [f64; 6], is_crc32: bool) -> Vec<u8> {
     #[expect(
         clippy::cast_possible_truncation,

@@ -10,7 +10,7 @@ use crate::fault::{ArmFault, Device, FaultKind};
 use crate::link::Link;
 use crate::server::{End, read};
 
-/// The outputs that public clients ask for, with their types; others do not exist here.
+/// Outputs that public clients request, with their types; others do not exist here.
 const TYPES: [(&str, &str); 6] = [
     ("actual_digital_input_bits", "UINT64"),
     ("actual_digital_output_bits", "UINT64"),
@@ -19,7 +19,7 @@ const TYPES: [(&str, &str); 6] = [
     ("safety_mode", "INT32"),
     ("tool_mode", "UINT32"),
 ];
-/// Words in names of outputs, and the type of every output with them.
+/// Words in output names, with the type of every such output.
 const KINDS: [(&str, &str); 12] = [
     ("_TCP_", "VECTOR6D"),
     ("_q", "VECTOR6D"),
@@ -34,10 +34,10 @@ const KINDS: [(&str, &str); 12] = [
     ("state", "UINT32"),
     ("digital", "UINT64"),
 ];
-/// States a second that a client may ask for.
+/// Supported rates of states, Hz.
 const RATES_HZ: std::ops::RangeInclusive<f64> = 1.0..=500.0;
 
-/// What one client asked for.
+/// Requests of one client.
 #[derive(Debug)]
 struct Wanted {
     names: Vec<String>,
@@ -51,10 +51,10 @@ fn type_of(name: &str) -> &'static str {
     exact.or(alike).map_or("DOUBLE", |(_, kind)| kind)
 }
 
-/// A message that is shorter than its own head.
+/// A message shorter than its own header.
 const HOSTILE: &[u8] = &[0x00, 0x00, b'U'];
 
-/// Answers and sends states until the client goes.
+/// Answers and sends states until the client closes.
 pub(super) fn serve(mut stream: TcpStream, controller: &Controller, end: &End) -> io::Result<()> {
     stream.set_read_timeout(Some(Duration::from_millis(1)))?;
     let bench = &controller.bench;
@@ -111,7 +111,7 @@ impl Wanted {
     fn answer(&mut self, kind: u8, says: &[u8]) -> Vec<u8> {
         match (kind, says) {
             (b'V', [0, version]) => message(b'V', &[u8::from((1..=2).contains(version))]),
-            // The version of the controller: 5.11.0 and a build.
+            // Version of the controller: 5.11.0 and a build.
             (b'v', _) => {
                 let numbers = [5_u32, 11, 0, 108_249];
                 let says: Vec<u8> = numbers.into_iter().flat_map(u32::to_be_bytes).collect();
@@ -134,7 +134,7 @@ impl Wanted {
                 self.is_started = false;
                 message(b'P', &[1])
             }
-            // Inputs and messages are not taken.
+            // Inputs and messages are rejected.
             (kind, _) => message(kind, &[0]),
         }
     }

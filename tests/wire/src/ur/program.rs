@@ -1,18 +1,18 @@
-//! The part of the vendor's script language that is understood.
+//! Supported part of the vendor's script language.
 
 /// A program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Program {
     /// Moves in a straight line to x, y, z in m and a rotation vector in rad.
     MoveLine { pose: [f64; 6], speed_m_s: f64 },
-    /// Moves at a velocity of x, y, z in m/s for so long, and brakes then.
+    /// Moves at a velocity of x, y, z in m/s for a time, then brakes.
     Cruise {
         velocity_m_s: [f64; 3],
         lasts_s: f64,
     },
-    /// Brakes, and says so by a number where it has one.
+    /// Brakes, and reports its number if it has one.
     Stop { number: Option<i32> },
-    /// Anything else, which takes the place of what runs and does nothing.
+    /// Any other program: replaces the running one and does nothing.
     Other,
 }
 
@@ -20,7 +20,7 @@ pub(super) enum Program {
 const END: &str = "\nend\n";
 
 impl Program {
-    /// The first whole program in `text`, and what is behind it.
+    /// First complete program in `text`, and the text after it.
     pub(super) fn take(text: &str) -> Option<(Program, String)> {
         let (program, rest) = text.split_once(END)?;
         Some((Program::read(program), rest.to_owned()))
@@ -41,7 +41,7 @@ impl Program {
     fn cruise(program: &str) -> Option<Program> {
         let (_, call) = program.split_once("speedl([")?;
         let (velocity, rest) = call.split_once(']')?;
-        // Velocities that turn are not known here.
+        // Velocities with rotation are not supported.
         let &[x, y, z, 0.0, 0.0, 0.0] = &numbers(velocity)?[..] else {
             return None;
         };
@@ -68,7 +68,7 @@ impl Program {
     }
 }
 
-/// What a program writes to the register of [`REGISTER`].
+/// Number that a program writes to [`REGISTER`].
 fn number_of(program: &str) -> Option<i32> {
     let call = format!("write_output_integer_register({REGISTER},");
     let (_, number) = program.split_once(&call)?;
@@ -76,10 +76,10 @@ fn number_of(program: &str) -> Option<i32> {
     number.trim().parse().ok()
 }
 
-/// The register of whole numbers that programs may write and clients may read; there is no other.
+/// Only integer register that programs may write and clients may read.
 pub(super) const REGISTER: u8 = 24;
 
-/// Numbers between commas; `None` if one is none.
+/// Numbers separated by commas; `None` if one is invalid.
 fn numbers(text: &str) -> Option<Vec<f64>> {
     let number = |number: &str| number.trim().parse().ok();
     let numbers = text.split(',').map(number);

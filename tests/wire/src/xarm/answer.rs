@@ -1,13 +1,13 @@
-//! What each register answers.
+//! Answers of each register.
 
 use super::client::{Client, Push};
 use super::controller::{Controller, Snapshot};
 use super::line::Line;
 
-/// What one client has set for itself.
+/// Settings of one client.
 #[derive(Debug, Default)]
 pub(super) struct Session {
-    /// Whether it is told of the end of the motions that it begins from now on.
+    /// True if it gets a message at the end of its later motions.
     wants_push: bool,
 }
 
@@ -15,11 +15,11 @@ const HAS_ERROR: u8 = 0x40;
 const HAS_WARNING: u8 = 0x20;
 const NOT_READY: u8 = 0x10;
 const INVALID: u8 = 0x08;
-/// Length of the answer to the question for the version.
+/// Length of the answer to the version query.
 const VERSION_BYTES: usize = 40;
 
 impl Session {
-    /// The frames that answer a command; `head` is its transaction and protocol.
+    /// Answer frames of a command; `head` is its transaction and protocol.
     pub(super) fn answer(
         &mut self,
         controller: &Controller,
@@ -123,8 +123,8 @@ impl Session {
     }
 }
 
-/// The velocity in mm/s and how long it holds, in s, of the parameters of register 82; `None` of one that turns, is in the frame of the tool,
-/// holds for ever or is no number.
+/// Velocity in mm/s and its duration in s, from the parameters of register 82. `None` with rotation, in the tool frame, without an end, or
+/// for an invalid number.
 fn velocity(parameters: &[u8]) -> Option<([f64; 3], f64)> {
     const BYTES: usize = 29;
     const BASE_FRAME: u8 = 0;
@@ -155,7 +155,7 @@ fn status(snapshot: &Snapshot) -> u8 {
     status
 }
 
-/// What the controller calls itself: six axes, type 12, and serial numbers that say that it is simulated.
+/// Identity of the controller: six axes, type 12, and serial numbers that mark it as simulated.
 fn version(controller: &Controller) -> Vec<u8> {
     let [major, minor, revision] = controller.firmware;
     let serial = controller.bench.serial();

@@ -1,31 +1,31 @@
-//! Where the answers of one client go, and what is pushed to it.
+//! Connection for the answers to one client, and messages pushed to it.
 
 use std::io::Write;
 use std::net::TcpStream;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Where the answers of one client go.
+/// Connection for the answers to one client.
 #[derive(Clone, Debug)]
 pub(super) struct Client {
     stream: Arc<Mutex<TcpStream>>,
 }
 
 impl Client {
-    /// The client at the other end of `stream`.
+    /// Client at the other end of `stream`.
     pub(super) fn over(stream: TcpStream) -> Client {
         Client {
             stream: Arc::new(Mutex::new(stream)),
         }
     }
 
-    /// Sends, if the client is still there.
+    /// Sends bytes, if the client is still connected.
     pub(super) fn send(&self, bytes: &[u8]) {
         let mut stream = self.stream.lock().unwrap_or_else(PoisonError::into_inner);
         let _ = stream.write_all(bytes);
     }
 }
 
-/// What a client that asked for it is told at the end of a motion.
+/// Message to a client at the end of a motion, on request.
 #[derive(Clone, Debug)]
 pub(super) struct Push {
     pub(super) client: Client,

@@ -1,4 +1,4 @@
-//! What the control box remembers, and what it does with commands.
+//! State of the control box, and the effects of commands.
 
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -26,14 +26,14 @@ struct BoxState {
     error: u8,
     warning: u8,
     enabled: u8,
-    /// roll, pitch, yaw in rad, which the gel does not know.
+    /// roll, pitch, yaw in rad, which the gel ignores.
     turned: [f32; 3],
     waiting: VecDeque<Order>,
-    /// The motion that goes on.
+    /// Motion in progress.
     current: Option<Order>,
 }
 
-/// A motion to be made, and who is to be told of its end.
+/// A motion to make, and the client to notify of its end.
 #[derive(Debug)]
 struct Order {
     pose: [f32; 6],
@@ -41,7 +41,7 @@ struct Order {
     push: Option<Push>,
 }
 
-/// What a status byte and a report say.
+/// Content of a status byte and a report.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Snapshot {
     pub(super) state: u8,
@@ -53,13 +53,13 @@ pub(super) struct Snapshot {
     pub(super) pose: [f32; 6],
 }
 
-/// The mode of velocities of the tip.
+/// Mode for velocities of the tip.
 const VELOCITY: u8 = 5;
 pub(super) const READY: u8 = 2;
 const MOVING: u8 = 1;
 const PAUSED: u8 = 3;
 const STOPPED: u8 = 4;
-/// It wants to be made ready.
+/// State that must be made ready.
 const UNREADY: u8 = 5;
 /// Six joints.
 const ALL_JOINTS: u8 = 0b11_1111;
@@ -67,7 +67,7 @@ const EMERGENCY_STOP: u8 = 2;
 const COLLISION: u8 = 31;
 const BOUNDARY: u8 = 35;
 const BAD_PARAMETER: u8 = 12;
-/// How far from the middle of the gel the tip may be, in mm, before the boundary stops it.
+/// Safety boundary: range of the tip about the centre of the gel, mm.
 const BOUNDARY_MM: [[f64; 2]; 3] = [[-60.0, 60.0], [-60.0, 60.0], [-100.0, 30.0]];
 
 impl Controller {
@@ -88,7 +88,7 @@ impl Controller {
         }
     }
 
-    /// Whether straight motions have the longer layout.
+    /// True if straight motions have the longer layout.
     pub(super) fn takes_long_lines(&self) -> bool {
         self.firmware >= [1, 11, 100]
     }
@@ -115,7 +115,7 @@ impl Controller {
         [x, y, z, roll, pitch, yaw]
     }
 
-    /// Goes on: ends the motion whose end was reached, and begins the next.
+    /// Ends a completed motion and begins the next.
     pub(super) fn turn(&self) {
         let mut inside = self.inside();
         if inside.state != MOVING || self.bench.is_moving() {
@@ -133,7 +133,7 @@ impl Controller {
         }
     }
 
-    /// Takes a motion; `false` if the arm is in no state to move.
+    /// Accepts a motion; `false` if the arm may not move.
     pub(super) fn take(&self, line: &Line, push: Option<Push>) -> bool {
         let mut inside = self.inside();
         let can_move = inside.error == 0
@@ -172,7 +172,7 @@ impl Controller {
         true
     }
 
-    /// Takes a velocity in mm/s of the base frame, which holds for `duration_s`; `false` if the arm is in no state to move.
+    /// Accepts a velocity in mm/s of the base frame for `duration_s`; `false` if the arm may not move.
     pub(super) fn cruise(&self, velocity_mm_s: [f64; 3], duration_s: f64) -> bool {
         let mut inside = self.inside();
         let can_move = inside.error == 0
@@ -207,7 +207,7 @@ impl Controller {
         inside.current = Some(order);
     }
 
-    /// Stops and forgets every motion.
+    /// Stops and clears every motion.
     fn forget(&self, inside: &mut BoxState) {
         self.bench.stand();
         let given_up = inside.current.take().into_iter();
@@ -291,7 +291,7 @@ impl Controller {
     }
 }
 
-/// A number as the controller writes it.
+/// Converts a number to the controller's precision.
 fn single(number: f64) -> f32 {
     #[expect(
         clippy::cast_possible_truncation,

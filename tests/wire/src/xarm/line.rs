@@ -1,26 +1,26 @@
-//! Straight motions as they are written in commands.
+//! Encoding of straight motions in commands.
 
-/// A motion that was asked for, in the base frame.
+/// Requested motion in the base frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Line {
-    /// x, y, z in mm, roll, pitch, yaw in rad; infinite where it stays as it is.
+    /// x, y, z in mm, roll, pitch, yaw in rad; infinite for an unchanged coordinate.
     pub(super) pose: [f32; 6],
     pub(super) speed_mm_s: f32,
-    /// Whether the pose is a difference.
+    /// True if the pose is a difference.
     pub(super) is_relative: bool,
-    /// Whether it is only asked whether it could be done.
+    /// True if the motion is only checked.
     pub(super) is_only_checked: bool,
 }
 
-/// Numbers of a motion before firmware 1.11.100, each of four bytes.
+/// Number of values of a motion before firmware 1.11.100, four bytes each.
 const OLD_NUMBERS: usize = 9;
-/// Bytes since: ten numbers and three switches.
+/// Length since then, bytes: ten values and three switches.
 const NEW_BYTES: usize = 43;
-/// Bytes of a relative motion: eleven numbers and two switches.
+/// Length of a relative motion, bytes: eleven values and two switches.
 const RELATIVE_BYTES: usize = 46;
 
 impl Line {
-    /// The motion in the parameters of register 21; `None` if there are too few, or more than either layout has.
+    /// Parses the motion in the parameters of register 21; `None` if their length matches no layout.
     pub(super) fn absolute(parameters: &[u8], takes_long_lines: bool) -> Option<Line> {
         let expected = if takes_long_lines {
             NEW_BYTES
@@ -38,7 +38,7 @@ impl Line {
         })
     }
 
-    /// The motion in the parameters of register 83.
+    /// Parses the motion in the parameters of register 83.
     pub(super) fn relative(parameters: &[u8]) -> Option<Line> {
         (parameters.len() == RELATIVE_BYTES).then(|| Line {
             pose: std::array::from_fn(|index| number(parameters, index)),
@@ -48,7 +48,7 @@ impl Line {
         })
     }
 
-    /// The pose that it leads to from `at`.
+    /// Target pose from `at`.
     pub(super) fn end(&self, at: [f32; 6]) -> [f32; 6] {
         std::array::from_fn(|index| match self.pose[index] {
             side if self.is_relative => at[index] + side,
@@ -77,12 +77,13 @@ mod tests {
         digits.chunks_exact(2).map(byte).collect()
     }
 
-    /// As xarm-python-sdk 1.18.4 wrote them: `set_position(300, 0, 200, 180, 0, 0, speed=100)` and `set_position(z=-0.1, relative=True, speed=5)`.
+    /// Frames of xarm-python-sdk 1.18.4: `set_position(300, 0, 200, 180, 0, 0, speed=100)` and `set_position(z=-0.1, relative=True,
+    /// speed=5)`.
     const LONG: &str = "00009643 00000000 00004843 db0f4940 00000000 00000000 0000c842 0000fa44 00000000 000080bf 000000";
     const SHORT: &str =
         "00009643 00000000 00004843 db0f4940 00000000 00000000 0000c842 0000fa44 00000000";
     const RELATIVE: &str = "00000000 00000000 cdccccbd 00000000 00000000 00000000 00000000 0000a040 0000c842 00000000 000080bf 0000";
-    /// `set_position(z=199.9, speed=5)`: what is left out is infinite.
+    /// `set_position(z=199.9, speed=5)`: omitted coordinates are infinite.
     const PARTIAL: &str = "0000807f 0000807f 66e64743 0000807f 0000807f 0000807f 0000a040 0000c842 00000000 000080bf 000000";
 
     #[test]

@@ -1,4 +1,4 @@
-//! Reports that the control box sends without a request.
+//! Unsolicited reports of the control box.
 
 use std::io::Write;
 use std::net::TcpStream;
@@ -9,7 +9,7 @@ use crate::fault::{Device, FaultKind};
 use crate::link::Link;
 use crate::server::End;
 
-/// Which report.
+/// Port of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ReportPort {
     Pose,
@@ -34,10 +34,10 @@ impl ReportPort {
     }
 }
 
-/// The head of a report whose length is absurd.
+/// Header of a report with an absurd length.
 const HOSTILE: &[u8] = &[0xff, 0xff, 0xff, 0xff, 0x00];
 
-/// Reports until the client goes.
+/// Sends reports until the client closes.
 pub(super) fn serve(mut stream: TcpStream, port: ReportPort, controller: &Controller, end: &End) {
     let bench = &controller.bench;
     let mut shown = controller.snapshot();
@@ -55,7 +55,7 @@ pub(super) fn serve(mut stream: TcpStream, port: ReportPort, controller: &Contro
         if sent.is_err() {
             return;
         }
-        // Reports are made at even times, however long it takes to send one.
+        // Reports are made at regular times, independent of the sending time.
         due = (due + port.period()).max(bench.now());
         let rested = link.rest_until(bench, due, |bytes| stream.write_all(bytes));
         if rested.is_err() {
@@ -74,7 +74,7 @@ fn write(port: ReportPort, shown: &Snapshot, [major, minor, revision]: [u32; 3])
     let pose: Vec<u8> = shown.pose.into_iter().flat_map(f32::to_le_bytes).collect();
     put(35, &pose);
     if port != ReportPort::Pose {
-        // Brakes are open where motors are on.
+        // Brakes are open if motors are on.
         put(
             87,
             &[shown.enabled, shown.enabled, shown.error, shown.warning],
@@ -83,7 +83,7 @@ fn write(port: ReportPort, shown: &Snapshot, [major, minor, revision]: [u32; 3])
             .into_iter()
             .flat_map(f32::to_le_bytes)
             .collect();
-        // Sensitivities of collision and of teaching by hand.
+        // Sensitivities of collision and of hand guiding.
         put(131, &[3, 3]);
         put(133, &gravity);
     }

@@ -1,4 +1,4 @@
-//! A client on the port of commands.
+//! A client on the command port.
 
 use std::net::TcpStream;
 
@@ -10,7 +10,7 @@ use crate::server::{End, read};
 
 const HEADER: usize = 6;
 
-/// Answers until the client goes.
+/// Answers until the client closes.
 pub(super) fn serve(mut stream: TcpStream, controller: &Controller, end: &End) {
     let Ok(writing) = stream.try_clone() else {
         return;

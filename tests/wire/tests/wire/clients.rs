@@ -1,4 +1,4 @@
-//! Programs of others on the other end of our sockets: they show that our two ends are not wrong in the same way.
+//! Third-party programs on the other end of our sockets, which show that our two ends do not share an error.
 
 mod ffmpeg;
 mod netft;
@@ -9,7 +9,7 @@ mod xarm;
 
 use std::net::Ipv4Addr;
 
-/// An address of loopback that no other test uses at the same time: clients know one port each.
+/// A loopback address that no other test uses at the same time, because each client uses one fixed port.
 pub(crate) fn address(last: u8) -> Ipv4Addr {
     let [.., high, low] = std::process::id().to_be_bytes();
     Ipv4Addr::new(127, high.max(1), low, last)

@@ -1,7 +1,7 @@
 //! Drivers on devices of a real kernel, in a virtual machine: HID devices by `uhid`, a camera by `vivid`.
 //!
-//! A test boots the machine, in which this program runs again and carries out the test of the same subject that is ignored here. The time of
-//! such a machine says nothing; what is proved is what drivers and kernel say to each other.
+//! A test boots the machine. In it this program runs again with the ignored test of the same subject. Times in such a machine mean nothing;
+//! only the communication between drivers and kernel is tested.
 
 mod archive;
 mod hid;

@@ -1,4 +1,4 @@
-//! `camera/mjpeg` against the emulated camera, and against servers that are none, through sockets.
+//! `camera/mjpeg` with the emulated camera, and with invalid servers, through sockets.
 
 use std::io::{Read, Write};
 use std::net::{Ipv4Addr, TcpListener, TcpStream};
@@ -81,7 +81,7 @@ fn frames_come_at_the_rate_of_the_camera_and_none_comes_twice() {
         .map(|_| frame(&mut sensor).expect("a frame").1.valid_s)
         .collect();
     let mean_s = (stamps[14] - stamps[0]) / 14.0;
-    // 25 a second; a busy machine may leave some out, and never adds one.
+    // 25 frames per second; a busy machine may skip some, and never adds one.
     assert!((0.036..0.12).contains(&mean_s), "{mean_s}");
 }
 
@@ -106,7 +106,7 @@ fn a_camera_that_stalls_is_a_timeout_and_one_that_goes_and_comes_back_is_started
         sensor.start(PATIENCE).expect_err("nobody listens").kind(),
         ErrorKind::NotFound
     );
-    // Somebody else may have taken the port meanwhile.
+    // Another program may have taken the port meanwhile.
     let Ok(_camera) = Emulator::start(&bench, Ipv4Addr::LOCALHOST, port, Style::Usual) else {
         return;
     };
@@ -114,7 +114,7 @@ fn a_camera_that_stalls_is_a_timeout_and_one_that_goes_and_comes_back_is_started
     frame(&mut sensor).expect("a frame");
 }
 
-/// A server that answers every client with `answer`, and then keeps the connection.
+/// A server that answers every client with `answer` and keeps the connection open.
 fn serving(answer: Vec<u8>) -> String {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = listener.local_addr().expect("bound").port();
@@ -178,7 +178,7 @@ fn a_frame_of_another_size_and_a_damaged_one_are_errors_of_that_frame() {
     send(part(&damaged));
     let error = frame(&mut sensor).expect_err("damaged");
     assert!(error.to_string().contains("truncated"), "{error}");
-    // Behind their end, some cameras send zeros.
+    // Some cameras send zeros after the end of a picture.
     send(part(&[jpeg(16, 8), vec![0; 3]].concat()));
     assert_eq!(frame(&mut sensor).expect("a frame").0, vec![90; 128]);
     drop(sender);

@@ -1,4 +1,4 @@
-//! The program `taceva-wire`, as a person starts it.
+//! The program `taceva-wire`, started like by a user.
 
 use std::io::{BufRead, BufReader, Write};
 use std::net::TcpStream;
@@ -11,17 +11,17 @@ use taceva_core::{Deadline, ErrorKind, Rig};
 use taceva_drivers::{Drivers, Selector, open};
 use taceva_wire::RobotKind;
 
-/// The program, which is ended with this.
+/// The running program, ended on drop.
 struct Running {
     process: Child,
-    /// The first line that it said.
+    /// First output line.
     said: String,
-    /// The rig file that it wrote.
+    /// Rig file of the program.
     rig: toml::Table,
 }
 
 impl Running {
-    /// Starts it with `words`, and waits until it serves.
+    /// Starts the program with `words`, and waits until it serves.
     fn start(words: &[&str]) -> Running {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("rig.toml");
@@ -48,7 +48,7 @@ impl Running {
         }
     }
 
-    /// The driver that the rig file names in `section`, with its arguments.
+    /// Driver selector in `section` of the rig file.
     fn selector(&self, section: &str) -> Selector {
         let driver = self.rig[section]["driver"].as_str().expect("a selector");
         driver.parse().expect("a selector")
@@ -127,7 +127,7 @@ fn every_robot_that_it_names_moves_by_the_driver_of_its_rig_file() {
         opened.move_to(target, speed, PATIENCE).expect("it arrives");
         let (at, _) = opened.pose(PATIENCE).expect("a pose");
         let apart_mm = at.position.z.0 - target.position.z.0;
-        // What a printer says is in steps of 0.01 mm.
+        // A printer reports positions in steps of 0.01 mm.
         assert!(apart_mm.abs() <= 0.01, "{robot:?}: {apart_mm}");
     }
 }

@@ -1,4 +1,4 @@
-//! Every driver of a robot and of a force transducer against its emulated device, through sockets and a pseudo-terminal.
+//! Every driver of a robot and of a force transducer with its emulated device, through sockets and a pseudo-terminal.
 
 mod expiring;
 mod gate;

@@ -1,11 +1,13 @@
-//! Chunks of Blosc 1: blocks of one stream, or of one stream for every byte of an element, compressed by another codec and shuffled.
+//! Chunks of Blosc 1.
+//!
+//! A chunk has blocks. A block has one stream, or one stream for each byte of an element. Another codec compresses each stream.
 
 use super::shuffle::{unshuffled_bits, unshuffled_bytes};
 use super::{lz4, zlib, zstd};
 use crate::error::Problem;
 
 const HEADER_BYTES: usize = 16;
-/// Maximum number of streams: elements of more bytes, and blocks of fewer elements, are not split.
+/// Maximum number of streams. Elements of more bytes and blocks of fewer elements are not split.
 const MOST_STREAMS: usize = 16;
 const LEAST_ELEMENTS: usize = 128;
 
@@ -137,7 +139,7 @@ impl Chunk<'_> {
     }
 }
 
-/// A little-endian number of 32 bits.
+/// Little-endian number of 32 bits.
 fn number(bytes: &[u8], at: usize) -> Option<usize> {
     let bytes = bytes.get(at..at.checked_add(4)?)?;
     usize::try_from(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])).ok()

@@ -4,12 +4,12 @@ use std::collections::HashMap;
 
 use hdf5_pure::{AttrValue, File};
 
-/// The attribute `name` of `owner` as text; `None` if it is missing or has no text form.
+/// Attribute `name` of `owner` as text; `None` if it is missing or has no text form.
 pub(crate) fn read(file: &File, owner: &str, name: &str) -> Option<String> {
     text(all(file, owner)?.remove(name)?)
 }
 
-/// The names of the attributes of `owner`, sorted.
+/// Names of the attributes of `owner`, sorted.
 pub(crate) fn names(file: &File, owner: &str) -> Vec<String> {
     let mut names: Vec<String> = all(file, owner)
         .into_iter()

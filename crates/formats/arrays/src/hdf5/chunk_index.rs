@@ -1,5 +1,6 @@
-//! Index of the chunks of a dataset, checked against its grid and its extent. The library skips a chunk whose key is damaged, and its
-//! elements silently become the fill value.
+//! Index of the chunks of a dataset, checked against its grid and its extent.
+//!
+//! The library skips a chunk with a damaged key. Its elements would silently become the fill value.
 
 use std::collections::BTreeSet;
 
@@ -19,10 +20,10 @@ pub(super) struct ChunkIndex {
 }
 
 impl ChunkIndex {
-    /// The index of `dataset` with chunks of the lengths `chunk`; `None` for the one kind of index that is not supported.
+    /// Reads the index of `dataset` with chunks of the lengths `chunk`; `None` for the one kind of index that is not supported.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] for a chunk off the grid, outside the extent or duplicate; [`Problem::Structure`] for an invalid index.
+    /// [`Problem::Damaged`] for a chunk off the grid, outside the extent or duplicate. [`Problem::Structure`] for an invalid index.
     pub(super) fn read(
         dataset: &Dataset,
         shape: &[u64],

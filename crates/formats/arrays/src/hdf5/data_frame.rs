@@ -1,6 +1,6 @@
-//! Data frames that pandas stores in its fixed format: blocks of columns of one type, exposed as one array for each column.
+//! Data frames that pandas stores in its fixed format. Blocks of columns of one type become one array for each column.
 //!
-//! `/run` with `block0_items`, `block0_values` and `axis1` becomes `/run/Fz`, `/run/obj` and `/run/index`. A block of texts is pickled.
+//! `/run` with `block0_items`, `block0_values` and `axis1` becomes `/run/Fz`, `/run/obj` and `/run/index`. A block of texts is a pickle.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use crate::pickle::Pickle;
 use crate::store::{Arrays, Store};
 use crate::values::{ArrayData, ArrayValues};
 
-/// A file with data frames in the fixed format of pandas.
+/// File with data frames in the fixed format of pandas.
 #[derive(Debug)]
 pub(crate) struct DataFrames {
     hdf5: Hdf5,
@@ -20,7 +20,7 @@ pub(crate) struct DataFrames {
     refused: Vec<(String, Problem)>,
 }
 
-/// An exposed array.
+/// Exposed array.
 #[derive(Debug)]
 struct Shown {
     name: String,
@@ -28,14 +28,14 @@ struct Shown {
     content: Content,
 }
 
-/// Location of an array's elements; arrays of the file by their index there.
+/// Location of the elements of an array.
 #[derive(Debug)]
 enum Content {
-    /// A whole array of the file.
+    /// Whole array of the file, by its index.
     Array(usize),
-    /// A column of a block of numbers.
+    /// Column of a block of numbers.
     Numbers(BlockColumn),
-    /// A column of a block of texts, which is pickled.
+    /// Column of a block of texts, which is pickled.
     Texts(BlockColumn),
 }
 
@@ -47,11 +47,11 @@ struct BlockColumn {
     width: usize,
 }
 
-/// Remedy for every data frame that is not supported.
+/// Remedy for every unsupported data frame.
 const REMEDY: &str =
     "write it with `df.to_parquet(path)`, or with `df.to_hdf(path, key=\"run\", format=\"table\")`";
 
-/// The store of a file, with its data frames as columns if it has any.
+/// Store of a file. If it has data frames, these are columns.
 pub(crate) fn store(hdf5: Hdf5) -> Box<dyn Store> {
     let arrays = hdf5.arrays();
     let is_of_frame = |name: &String| {
@@ -99,7 +99,7 @@ pub(crate) fn store(hdf5: Hdf5) -> Box<dyn Store> {
     })
 }
 
-/// The columns of the data frame in `group`, its index first.
+/// Columns of the data frame in `group`, the index first.
 fn columns(hdf5: &Hdf5, arrays: &Arrays, group: &str) -> Result<Vec<Shown>, Problem> {
     let find = |name: &str| {
         let path = format!("{group}/{name}");
@@ -206,7 +206,7 @@ fn texts(values: ArrayValues) -> Vec<String> {
 }
 
 impl DataFrames {
-    /// Rows of a column of texts; unpickles the whole block.
+    /// Rows of a column of texts. Unpickles the whole block.
     fn texts(&self, own: BlockColumn, rows: Range<u64>) -> Result<ArrayValues, Problem> {
         let block = self.hdf5.read(own.array, 0..1)?.values;
         let ArrayValues::Bytes(mut block) = block else {
@@ -298,7 +298,7 @@ impl Store for DataFrames {
 }
 
 impl DataFrames {
-    /// The stored name of the array `owner`.
+    /// Stored name of the array `owner`.
     fn stored(&self, owner: &str) -> String {
         let own = self.shown.iter().find(|shown| shown.name == owner);
         let stored = own.and_then(|own| {

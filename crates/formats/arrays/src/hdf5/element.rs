@@ -1,4 +1,4 @@
-//! Stored types of HDF5.
+//! Stored HDF5 types.
 
 use hdf5_pure::{Datatype, DatatypeByteOrder, FloatingPointLayout, StringPadding};
 
@@ -7,7 +7,7 @@ use crate::fields::{Field, Item};
 use crate::limits;
 use crate::scalar::{Filler, Kind, Scalar, shown};
 
-/// The layout of an element of a dataset; `reference_bytes` is the size of a reference to a variable-length value.
+/// Layout of an element of a dataset. `reference_bytes` is the size of a reference to a variable-length value.
 pub(crate) fn item(datatype: &Datatype, reference_bytes: usize) -> Result<Item, Problem> {
     let mut item = Item {
         bytes: size(datatype, reference_bytes)?,

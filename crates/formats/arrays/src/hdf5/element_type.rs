@@ -38,13 +38,13 @@ impl WrittenElement {
         }
     }
 
-    /// The datatype message.
+    /// Datatype message.
     pub(super) fn message(self) -> Vec<u8> {
         let size = self.bytes();
         let bits = u16::try_from(size.saturating_mul(8)).unwrap_or(u16::MAX);
         let mut message = Vec::new();
         let mut put = |class: u8, of_class: [u8; 3], rest: &[u8]| {
-            // The version of the message, 1, is in the bits above the class.
+            // The version, 1, is in the bits above the class.
             message.push(0x10 | class);
             message.extend(of_class);
             message.extend(size.to_le_bytes());

@@ -1,4 +1,4 @@
-//! Variable-length texts and bytes, stored in the collections of the global heap.
+//! Variable-length texts and bytes in the collections of the global heap.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -10,7 +10,7 @@ use crate::limits;
 use crate::source::{FileBytes, bytes_of};
 use crate::values::ArrayValues;
 
-/// The global heap of a file.
+/// Global heap of a file.
 #[derive(Debug)]
 pub(crate) struct GlobalHeap {
     file: Arc<FileBytes>,
@@ -21,7 +21,7 @@ pub(crate) struct GlobalHeap {
     collections: Mutex<Cache<u64, Collection>>,
 }
 
-/// A collection of objects.
+/// Collection of objects.
 #[derive(Debug)]
 struct Collection {
     bytes: Vec<u8>,
@@ -45,7 +45,7 @@ impl GlobalHeap {
         }
     }
 
-    /// Resolves references: length (4 bytes), address of the collection, number of the object (4 bytes).
+    /// Resolves references. Each has a length (4 bytes), the address of the collection, and the number of the object (4 bytes).
     pub(crate) fn values(&self, references: &[u8], is_text: bool) -> Result<ArrayValues, Problem> {
         let mut all = Vec::with_capacity(references.len() / (8 + self.offset_bytes));
         let mut held = 0_u64;
@@ -155,7 +155,7 @@ impl GlobalHeap {
     }
 }
 
-/// A little-endian number of up to 8 bytes.
+/// Little-endian number of up to 8 bytes.
 fn number(bytes: &[u8]) -> u64 {
     bytes
         .iter()

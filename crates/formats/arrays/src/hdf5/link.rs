@@ -1,12 +1,12 @@
-//! Error messages for names that are links: to another file, or elsewhere in this one.
+//! Error messages for names that are links, to another file or within this one.
 //!
-//! Groups in the newer format store their links as messages (format specification of HDF5 3.0, IV.A.2.g), which `hdf5-pure` skips. They are
-//! found by a search for their bytes, and only after a name was not found.
+//! Groups in the newer format store their links as messages (format specification of HDF5 3.0, IV.A.2.g), which `hdf5-pure` skips.
+//! A search for their bytes finds them, only after a name was not found.
 
 use crate::error::Problem;
 use crate::source::{ByteSource, FileBytes, bytes_of};
 
-/// Types of links that lead elsewhere.
+/// Types of links.
 const SOFT: u8 = 1;
 const EXTERNAL: u8 = 64;
 /// Search limit in a file, and search block, bytes.
@@ -15,7 +15,7 @@ const BLOCK: u64 = 1 << 20;
 /// Maximum length of a supported message, bytes.
 const MESSAGE: u64 = 2 << 10;
 
-/// The problem of `name` if its last part is a link; else `None`.
+/// Problem of `name` if its last part is a link; `None` otherwise.
 pub(super) fn of(file: &FileBytes, name: &str) -> Option<Problem> {
     let leaf = name.rsplit('/').next().filter(|leaf| !leaf.is_empty())?;
     let length = u8::try_from(leaf.len()).ok()?;
@@ -36,9 +36,9 @@ pub(super) fn of(file: &FileBytes, name: &str) -> Option<Problem> {
     None
 }
 
-/// The type and the value of the link message whose name begins with its length at `place`.
+/// Type and value of the link message with the length of its name at `place`.
 fn message(bytes: &[u8], place: usize, length: usize) -> Option<(u8, Vec<u8>)> {
-    // Before the name: version 1, flags, the type, and depending on the flags the creation order and the character set.
+    // Before the name: version 1, flags, the type, and by the flags the creation order and the character set.
     let is_head = |before: usize| {
         let at = place.checked_sub(before)?;
         let flags = bytes[at + 1];

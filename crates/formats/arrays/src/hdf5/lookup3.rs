@@ -1,6 +1,6 @@
-//! The checksum of HDF5 structures: Jenkins' lookup3, as the format requires.
+//! Checksum of HDF5 structures: Jenkins' lookup3, as the format requires.
 
-/// The checksum of `bytes`, with initial value 0.
+/// Checksum of `bytes`, with initial value 0.
 pub(super) fn lookup3(bytes: &[u8]) -> u32 {
     let begin = 0xdead_beef_u32.wrapping_add(u32::try_from(bytes.len()).unwrap_or(u32::MAX));
     let (mut a, mut b, mut c) = (begin, begin, begin);
@@ -21,7 +21,7 @@ pub(super) fn lookup3(bytes: &[u8]) -> u32 {
     c
 }
 
-/// Up to twelve bytes as three words, padded with zeros.
+/// Converts up to twelve bytes to three words, padded with zeros.
 fn words(bytes: &[u8]) -> [u32; 3] {
     let mut padded = [0; 12];
     padded[..bytes.len()].copy_from_slice(bytes);

@@ -1,4 +1,4 @@
-//! The bytes of a file with patches for the crate: soft links become hard links, and layouts get the version that it supports.
+//! Bytes of a file with patches for the crate. Soft links become hard links, and layouts get a version that the crate supports.
 
 use std::sync::Arc;
 

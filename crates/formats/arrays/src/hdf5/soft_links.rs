@@ -1,5 +1,6 @@
-//! Soft links of groups in symbol tables, the default of HDF5. `hdf5-pure` takes them for damage, so they become hard links to their
-//! targets in the bytes read, not in the file.
+//! Soft links of groups in symbol tables, the default of HDF5.
+//!
+//! `hdf5-pure` treats them as damage. They therefore become hard links to their targets, in the read bytes and not in the file.
 //!
 //! Format specification of HDF5 3.0, III.A, C and D: a group has a B-tree of symbol nodes and a local heap with their names.
 
@@ -11,7 +12,7 @@ use crate::source::{FileBytes, bytes_of};
 
 /// Maximum nesting of groups, and of links to links.
 const DEPTH: usize = 16;
-/// Cache type of an entry of a symbol node: a group with its tree and heap, or a soft link with its target.
+/// Cache types of a symbol node entry: a group with its tree and heap, or a soft link with its target.
 const GROUP: u32 = 1;
 const SOFT_LINK: u32 = 2;
 /// Size of an entry, bytes: offset of its name, address of its header, cache type, and 16 bytes of scratch space.
@@ -26,13 +27,13 @@ pub(super) type Patches = BTreeMap<u64, Vec<u8>>;
 /// Result of resolving the soft links of a file.
 #[derive(Default)]
 pub(super) struct Followed {
-    /// The links as hard links; dead links are removed.
+    /// Links as hard links. Dead links are removed.
     pub(super) patches: Patches,
-    /// Dead and circular links, with the error for readers.
+    /// Dead and circular links, each with its error.
     pub(super) nowhere: Vec<(String, Problem)>,
 }
 
-/// Resolves the soft links of a file to hard links; empty if it has no symbol tables, or no such links.
+/// Resolves the soft links of a file to hard links. Empty if it has no symbol tables or no such links.
 ///
 /// # Errors
 /// [`Problem`] for an unreadable structure.
@@ -45,7 +46,7 @@ pub(super) fn followed(file: &FileBytes) -> Result<Followed, Problem> {
         entries: 0,
     };
     let start = bytes_of(file, 0, 96)?;
-    // After a user block, or with addresses of other widths than 8 bytes, such links are left unchanged.
+    // After a user block, or with addresses that are not 8 bytes wide, such links are left unchanged.
     let is_known =
         start.starts_with(b"\x89HDF\r\n\x1a\n") && start[8] < 2 && start[13..15] == [8, 8];
     if !is_known {
@@ -62,7 +63,7 @@ struct Found<'f> {
     base: u64,
     /// Address of the header of each object with a hard link, by path.
     headers: BTreeMap<String, u64>,
-    /// Each soft link by its path, with the location of its entry and its target.
+    /// Soft links by path, with the location of the entry and the target.
     links: BTreeMap<String, SoftLink>,
     entries: u64,
 }
@@ -74,7 +75,7 @@ struct SoftLink {
     target: String,
 }
 
-/// A symbol node: consecutive entries of a group.
+/// Symbol node: consecutive entries of a group.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Node {
     address: u64,
@@ -86,7 +87,7 @@ impl Found<'_> {
         bytes_of(self.file, self.base.saturating_add(address), length)
     }
 
-    /// Visits the group of `entry`, if it states its tree and its heap.
+    /// Visits the group of `entry`, if the entry states its tree and heap.
     fn group(&mut self, entry: &[u8], path: &str, depth: usize) -> Result<(), Problem> {
         if number32(&entry[16..]) != GROUP || depth == DEPTH {
             return Ok(());
@@ -155,7 +156,7 @@ impl Found<'_> {
 
     fn followed(&self) -> Result<Followed, Problem> {
         let mut followed = Followed::default();
-        // For each node, the headers of its links: a node has several paths if its group has.
+        // For each node, the headers of its links. A node has several paths if its group has several.
         let mut nodes: BTreeMap<Node, BTreeMap<usize, Option<u64>>> = BTreeMap::new();
         for (path, link) in &self.links {
             let header = self.header(&absolute(path, &link.target), 0);
@@ -174,7 +175,7 @@ impl Found<'_> {
         Ok(followed)
     }
 
-    /// The entries of a node with its links as hard links. A dead link is removed, and later entries move up.
+    /// Entries of a node with its links as hard links. A dead link is removed, and later entries move up.
     fn patch(
         &self,
         node: Node,
@@ -206,7 +207,7 @@ impl Found<'_> {
         Ok(())
     }
 
-    /// The header of the object at `path`, also through other links.
+    /// Header of the object at `path`, also through other links.
     fn header(&self, path: &str, hops: usize) -> Option<u64> {
         if let Some(header) = self.headers.get(path) {
             return Some(*header);
@@ -222,7 +223,7 @@ impl Found<'_> {
     }
 }
 
-/// The error for readers of a dead link.
+/// Error for a dead link.
 fn leads_nowhere(path: &str, target: &str) -> Problem {
     let name = path.trim_start_matches('/');
     Problem::unsupported(
@@ -233,7 +234,7 @@ fn leads_nowhere(path: &str, target: &str) -> Problem {
     )
 }
 
-/// The full path of the target of a link at `path`.
+/// Full path of the target of a link at `path`.
 fn absolute(path: &str, target: &str) -> String {
     let parent = path.rsplit_once('/').map_or("", |(parent, _)| parent);
     let begin = if target.starts_with('/') { "" } else { parent };
@@ -242,7 +243,7 @@ fn absolute(path: &str, target: &str) -> String {
     format!("/{}", parts.join("/"))
 }
 
-/// The zero-terminated text at an offset of a heap.
+/// Zero-terminated text at an offset of a heap.
 fn text(heap: &[u8], at: u64) -> Option<String> {
     let rest = heap.get(usize::try_from(at).ok()?..)?;
     let end = rest.iter().position(|byte| *byte == 0)?;

@@ -3,18 +3,18 @@
 use super::element_type::WrittenElement;
 use super::lookup3::lookup3;
 
-/// Size of the superblock, bytes; the first array follows it.
+/// Size of the superblock, bytes. The first array follows it.
 pub(super) const SUPERBLOCK_BYTES: usize = 48;
-/// The undefined address.
+/// Undefined address.
 pub(super) const NOWHERE: u64 = u64::MAX;
 
-/// The layout message of contiguous elements: `bytes` bytes at `at`.
+/// Layout message of contiguous elements: `bytes` bytes at `at`.
 pub(super) fn contiguous(at: u64, bytes: u64) -> Vec<u8> {
     let at = if bytes == 0 { NOWHERE } else { at };
     [&[3, 1][..], &at.to_le_bytes(), &bytes.to_le_bytes()].concat()
 }
 
-/// The dataspace message of a fixed shape; no axes mean one element.
+/// Dataspace message of a fixed shape. No axes mean one element.
 pub(super) fn dataspace(shape: &[u64]) -> Vec<u8> {
     let rank = u8::try_from(shape.len()).unwrap_or(u8::MAX);
     let mut message = vec![2, rank, 0, u8::from(rank > 0)];
@@ -22,7 +22,7 @@ pub(super) fn dataspace(shape: &[u64]) -> Vec<u8> {
     message
 }
 
-/// Texts of attributes in a collection of the global heap, so that every library reads them as texts, not as bytes.
+/// Texts of attributes in a collection of the global heap. Every library then reads them as texts, not as bytes.
 #[derive(Debug, Default)]
 pub(super) struct Heap {
     objects: Vec<u8>,
@@ -35,7 +35,7 @@ const HEAP_HEADER: usize = 16;
 const HEAP_LEAST: usize = 4096;
 
 impl Heap {
-    /// Adds a text; returns the number of its object, from 1.
+    /// Adds a text. Returns the number of its object, from 1.
     pub(super) fn add(&mut self, text: &str) -> u16 {
         self.count += 1;
         self.objects.extend(self.count.to_le_bytes());
@@ -48,7 +48,7 @@ impl Heap {
         self.count
     }
 
-    /// The collection; the rest of it is an object without a number.
+    /// Collection. The rest of it is an object without a number.
     pub(super) fn collection(mut self) -> Vec<u8> {
         let used = HEAP_HEADER + self.objects.len();
         let size = (used + HEAP_HEADER).max(HEAP_LEAST);
@@ -62,7 +62,7 @@ impl Heap {
     }
 }
 
-/// The attribute message of a text of `bytes` bytes: object `object` in the heap at `heap`.
+/// Attribute message of a text of `bytes` bytes: object `object` in the heap at `heap`.
 pub(super) fn attribute(key: &str, bytes: usize, heap: u64, object: u16) -> (u8, Vec<u8>) {
     // Variable-length UTF-8 text: a length, and a reference; base type bytes.
     let mut kind = vec![0x19, 0x01, 0x01, 0, 16, 0, 0, 0];
@@ -85,7 +85,7 @@ pub(super) fn attribute(key: &str, bytes: usize, heap: u64, object: u16) -> (u8,
     (0x0c, message)
 }
 
-/// The link message to the object header at `at`, with its name in UTF-8.
+/// Link message to the object header at `at`, with its name in UTF-8.
 pub(super) fn link(name: &str, at: u64) -> Vec<u8> {
     let length = u8::try_from(name.len()).unwrap_or(u8::MAX);
     let mut message = vec![1, 0x10, 1, length];
@@ -94,7 +94,7 @@ pub(super) fn link(name: &str, at: u64) -> Vec<u8> {
     message
 }
 
-/// An object header of these messages, each with its type.
+/// Object header of these messages, each with its type.
 pub(super) fn header(messages: &[(u8, Vec<u8>)]) -> Vec<u8> {
     let mut body = Vec::new();
     for (number, message) in messages {
@@ -107,7 +107,7 @@ pub(super) fn header(messages: &[(u8, Vec<u8>)]) -> Vec<u8> {
         body.push(0);
         body.extend(message);
     }
-    // Version 2; its length has four bytes.
+    // Version 2. The length has four bytes.
     let mut header = b"OHDR\x02\x02".to_vec();
     header.extend(u32::try_from(body.len()).unwrap_or(u32::MAX).to_le_bytes());
     header.extend(body);
@@ -115,9 +115,9 @@ pub(super) fn header(messages: &[(u8, Vec<u8>)]) -> Vec<u8> {
     header
 }
 
-/// The superblock of a file of `end` bytes whose root is at `root`.
+/// Superblock of a file of `end` bytes with its root at `root`.
 pub(super) fn superblock(end: u64, root: u64) -> Vec<u8> {
-    // Version 2; addresses and lengths have eight bytes.
+    // Version 2. Addresses and lengths have eight bytes.
     let mut block = b"\x89HDF\r\n\x1a\n\x02\x08\x08\x00".to_vec();
     for address in [0, NOWHERE, end, root] {
         block.extend(address.to_le_bytes());

@@ -1,5 +1,5 @@
-//! Groups and datasets of a file. Hard links are followed, soft and external ones are not. Links back to a parent group end at a depth of
-//! 16.
+//! Groups and datasets of a file. Hard links are followed; soft and external links are not. Links back to a parent group end at a depth
+//! of 16.
 
 use hdf5_pure::{Dataset, File, Group};
 
@@ -11,14 +11,14 @@ use crate::limits;
 /// Maximum nesting of groups.
 const DEPTH: usize = 16;
 
-/// Groups and datasets found.
+/// Found groups and datasets.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
     /// Size of a reference to a variable-length value, bytes.
     reference_bytes: usize,
     pub(crate) groups: Vec<String>,
     pub(crate) datasets: Vec<Listed>,
-    /// Datasets that cannot be read, with the reason.
+    /// Unreadable datasets, each with the reason.
     pub(crate) refused: Vec<(String, Problem)>,
 }
 

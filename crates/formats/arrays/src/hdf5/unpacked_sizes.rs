@@ -6,15 +6,15 @@ use std::sync::{Mutex, PoisonError};
 use crate::error::Problem;
 use crate::limits;
 
-/// Unpacked sizes of the datasets opened so far, bytes, each once.
+/// Unpacked size of each dataset opened so far, bytes.
 #[derive(Debug, Default)]
 pub(super) struct UnpackedSizes(Mutex<BTreeMap<usize, u64>>);
 
 impl UnpackedSizes {
-    /// Counts the dataset `index` with its unpacked size `bytes`, in a file of `stored` bytes.
+    /// Adds the unpacked size `bytes` of the dataset `index`, in a file of `stored` bytes.
     ///
     /// # Errors
-    /// [`Problem::TooLarge`] for a file made to exhaust memory or time; nothing was unpacked for it.
+    /// [`Problem::TooLarge`] for a file that would exhaust memory or time. Nothing was unpacked for it.
     pub(super) fn take(&self, index: usize, bytes: u64, stored: u64) -> Result<(), Problem> {
         let mut each = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         each.insert(index, bytes);

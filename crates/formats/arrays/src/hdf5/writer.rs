@@ -1,7 +1,7 @@
-//! Writer of HDF5 files, array after array, each contiguous: rows go to the disk as they arrive, and the metadata follows at the end.
+//! Writer of HDF5 files, one contiguous array after another. Rows go to the disk as they arrive. The metadata follows at the end.
 //!
-//! `hdf5-pure` reads here and does not write: it takes an array of several axes only from memory, and a recording of pictures is larger.
-//! The output is the minimum of the format: superblock 2, object headers 2 with their checksums, links in the header of the root group
+//! `hdf5-pure` reads here and does not write. It takes an array of several axes only from memory, and a recording of pictures is larger.
+//! The output is the minimum of the format: superblock 2, object headers 2 with checksums, and links in the header of the root group
 //! (HDF5 File Format Specification, version 3). Every library since 1.8 reads it.
 
 use std::fs::File;
@@ -17,7 +17,7 @@ use crate::error::{ArrayError, Problem};
 /// Maximum text of an attribute, bytes.
 const TEXT_BYTES: usize = 1 << 20;
 
-/// An HDF5 file that is being written.
+/// Writer of an HDF5 file.
 ///
 /// ```
 /// use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues, Hdf5Writer, WrittenElement};
@@ -41,11 +41,11 @@ pub struct Hdf5Writer {
     path: PathBuf,
     file: BufWriter<File>,
     at: u64,
-    /// The written arrays; the last one may be incomplete.
+    /// Written arrays. The last one may be incomplete.
     arrays: Vec<Written>,
 }
 
-/// An array of the file.
+/// Array of the file.
 #[derive(Debug)]
 struct Written {
     name: String,
@@ -60,11 +60,11 @@ impl Hdf5Writer {
     /// Creates the file at `path`.
     ///
     /// # Errors
-    /// [`Problem::Io`] if it exists already, or cannot be created.
+    /// [`Problem::Io`] if the file exists already or cannot be created.
     pub fn create(path: &Path) -> Result<Hdf5Writer, ArrayError> {
         let begun = File::create_new(path).and_then(|file| {
             let mut file = BufWriter::new(file);
-            // A file left by a killed process has no signature, and is not taken for a complete file.
+            // A file of a killed process has no signature. Readers do not take it for a complete file.
             file.write_all(&[0; SUPERBLOCK_BYTES])?;
             Ok(file)
         });
@@ -77,11 +77,11 @@ impl Hdf5Writer {
         })
     }
 
-    /// Begins the array `name`, with texts as its attributes; the previous array must be complete.
+    /// Begins the array `name` with texts as its attributes. The previous array must be complete.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] if the previous array is incomplete; [`Problem::Unsupported`] for a name that is empty, taken or contains `/`,
-    /// for a shape above 64 bits, and for an attribute above 1 MiB; [`Problem::Io`].
+    /// [`Problem::Damaged`] if the previous array is incomplete. [`Problem::Unsupported`] for a name that is empty, taken or contains `/`, a
+    /// shape above 64 bits, or an attribute above 1 MiB. [`Problem::Io`].
     pub fn begin(
         &mut self,
         name: &str,
@@ -133,7 +133,7 @@ impl Hdf5Writer {
     /// Writes the next elements of the current array, little-endian and in C order.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] if they exceed its shape; [`Problem::Io`].
+    /// [`Problem::Damaged`] if they exceed the shape. [`Problem::Io`].
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), ArrayError> {
         let left = self.left();
         if bytes.len() as u64 > left {
@@ -145,10 +145,10 @@ impl Hdf5Writer {
         Ok(())
     }
 
-    /// Ends the file, with texts as attributes of its root, and waits until its bytes are on the disk. The directory entry is not synced.
+    /// Ends the file, with texts as attributes of its root. Waits until its bytes are on the disk. The directory entry is not synced.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] if the last array is incomplete; [`Problem::Io`].
+    /// [`Problem::Damaged`] if the last array is incomplete. [`Problem::Io`].
     pub fn finish(mut self, attributes: &[(&str, &str)]) -> Result<(), ArrayError> {
         self.check_whole()?;
         let path = self.path.clone();
@@ -175,7 +175,7 @@ impl Hdf5Writer {
             self.put(&heap.collection())?;
         }
         let mut root = vec![
-            // Link info: links are here and in no heap. Group info: defaults.
+            // Link info: links are here and not in a heap. Group info: defaults.
             (
                 0x02,
                 [&[0, 0][..], &NOWHERE.to_le_bytes(), &NOWHERE.to_le_bytes()].concat(),
@@ -186,7 +186,7 @@ impl Hdf5Writer {
             let mut messages = vec![
                 (0x01, dataspace(&array.shape)),
                 (0x03, array.element.message()),
-                // The fill value: late allocation, written if it is set, which it is not.
+                // Fill value: late allocation, written if set. None is set.
                 (0x05, vec![3, 0x0a]),
                 (0x08, contiguous(array.at, array.bytes)),
             ];
@@ -201,7 +201,7 @@ impl Hdf5Writer {
         let superblock = superblock(self.at, at);
         self.file.flush()?;
         let file = self.file.get_mut();
-        // The signature is written only after all other bytes are on the disk.
+        // The signature is written after all other bytes are on the disk.
         file.sync_all()?;
         file.seek(SeekFrom::Start(0))?;
         file.write_all(&superblock)?;
@@ -220,7 +220,7 @@ impl Hdf5Writer {
         Ok(())
     }
 
-    /// Bytes missing from the last array.
+    /// Number of bytes missing from the last array.
     fn left(&self) -> u64 {
         self.arrays
             .last()
@@ -234,7 +234,7 @@ impl Hdf5Writer {
         }
     }
 
-    /// The error for a last array with missing or excess bytes.
+    /// Error for a last array with missing or excess bytes.
     fn not_all(&self, missing: i128) -> ArrayError {
         let array = self.arrays.last();
         let whole = array.map_or(0, |array| array.bytes);

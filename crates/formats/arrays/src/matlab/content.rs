@@ -1,4 +1,4 @@
-//! Content of a matrix: numbers, or letters.
+//! Content of a matrix: numbers or letters.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::source::ByteSource;
 const IS_COMPLEX: u32 = 0x800;
 const IS_LOGICAL: u32 = 0x200;
 
-/// A matrix of numbers, which are not read yet.
+/// Matrix of numbers, not read yet.
 pub(crate) fn numbers(source: &Arc<dyn ByteSource>, matrix: Matrix) -> Result<Variable, Problem> {
     let element = match matrix.class {
         _ if matrix.flags & IS_COMPLEX != 0 => {
@@ -84,7 +84,7 @@ pub(crate) fn numbers(source: &Arc<dyn ByteSource>, matrix: Matrix) -> Result<Va
     Ok(Variable::Numbers { element, block })
 }
 
-/// Letters, stored column by column; each line is a text.
+/// Matrix of letters, stored column by column. Each line is a text.
 pub(crate) fn text(source: &dyn ByteSource, matrix: &Matrix) -> Result<Variable, Problem> {
     let lines_count = matrix.shape.first().copied().unwrap_or(0);
     let width = product(matrix.shape.get(1..).unwrap_or(&[])).unwrap_or(u64::MAX);
@@ -130,7 +130,7 @@ fn letters(source: &dyn ByteSource, matrix: &Matrix) -> Result<Vec<char>, Proble
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "codes of letters; others become none"
+        reason = "codes of letters; other codes become `None`"
     )]
     let letter = |code: &f64| char::from_u32(*code as u32);
     codes

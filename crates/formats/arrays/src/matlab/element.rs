@@ -16,7 +16,7 @@ pub(crate) struct Place {
     pub(crate) is_big_endian: bool,
 }
 
-/// The tag of an element.
+/// Tag of an element.
 #[derive(Clone, Debug)]
 pub(crate) struct Tag {
     pub(crate) kind: u32,
@@ -27,7 +27,7 @@ pub(crate) struct Tag {
     pub(crate) next: u64,
 }
 
-/// The two numbers of a tag.
+/// Two numbers of a tag.
 pub(crate) fn words(bytes: [u8; 8], is_big_endian: bool) -> (u32, u32) {
     let [a, b, c, d, e, f, g, h] = bytes;
     let word = if is_big_endian {
@@ -38,7 +38,7 @@ pub(crate) fn words(bytes: [u8; 8], is_big_endian: bool) -> (u32, u32) {
     (word([a, b, c, d]), word([e, f, g, h]))
 }
 
-/// Reads the tag at `place`; rejects an element beyond the end of the source.
+/// Reads the tag at `place`. Rejects an element beyond the end of the source.
 pub(crate) fn tag(source: &dyn ByteSource, place: Place) -> Result<Tag, Problem> {
     let bytes = bytes_of(source, place.at, 8)?;
     let first = bytes.first_chunk::<8>().copied().unwrap_or_default();
@@ -76,12 +76,12 @@ pub(crate) fn tag(source: &dyn ByteSource, place: Place) -> Result<Tag, Problem>
     })
 }
 
-/// The bytes of an element.
+/// Bytes of an element.
 pub(crate) fn content(source: &dyn ByteSource, tag: &Tag) -> Result<Vec<u8>, Problem> {
     bytes_of(source, tag.data_at, tag.end - tag.data_at)
 }
 
-/// The type of numbers with this MATLAB type code; `None` for other codes.
+/// Number type with this MATLAB type code; `None` for other codes.
 pub(crate) fn scalar(kind: u32, is_big_endian: bool) -> Option<Scalar> {
     let (kind, bytes) = match kind {
         1 => (Kind::Signed, 1),

@@ -1,4 +1,4 @@
-//! The beginning of a matrix of a MATLAB file: class, flags, lengths of axes and name.
+//! Beginning of a matrix of a MATLAB file: class, flags, lengths of axes and name.
 
 use super::element::{Place, TYPE_MATRIX, content, tag, words};
 use crate::error::Problem;
@@ -6,14 +6,14 @@ use crate::limits;
 use crate::scalar::shown;
 use crate::source::ByteSource;
 
-/// The beginning of a matrix.
+/// Beginning of a matrix.
 #[derive(Debug)]
 pub(crate) struct Matrix {
     pub(crate) class: u32,
     pub(crate) flags: u32,
     pub(crate) shape: Vec<u64>,
     pub(crate) name: String,
-    /// Offsets of the begin and the end of its content.
+    /// Offset of the start of its content, and offset of the end.
     pub(crate) content: Place,
     pub(crate) end: u64,
     pub(crate) next: u64,
@@ -114,7 +114,7 @@ pub(crate) fn product(sides: &[u64]) -> Option<u64> {
         .try_fold(1_u64, |product, side| product.checked_mul(*side))
 }
 
-/// A signed number of 4 bytes; `None` if it is negative.
+/// Signed number of 4 bytes; `None` if it is negative.
 pub(crate) fn number(bytes: &[u8], is_big_endian: bool) -> Option<u64> {
     let bytes = *bytes.first_chunk::<4>()?;
     let number = if is_big_endian {
@@ -125,7 +125,7 @@ pub(crate) fn number(bytes: &[u8], is_big_endian: bool) -> Option<u64> {
     u64::try_from(number).ok()
 }
 
-/// A name, up to its zero padding.
+/// Name up to its zero padding.
 pub(crate) fn text_of(bytes: &[u8]) -> String {
     let end = bytes
         .iter()

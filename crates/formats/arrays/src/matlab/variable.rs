@@ -9,14 +9,14 @@ use crate::error::Problem;
 use crate::order::c_places;
 use crate::values::{ArrayData, ArrayValues};
 
-/// A variable that can be read.
+/// Readable variable.
 #[derive(Debug)]
 pub(crate) enum Variable {
-    /// Numbers; MATLAB stores them in the narrowest type that fits.
+    /// Numbers. MATLAB stores them in the narrowest type that fits.
     Numbers { element: Element, block: Block },
-    /// The lines of a matrix of letters.
+    /// Lines of a matrix of letters.
     Text { shape: Vec<u64>, lines: Vec<String> },
-    /// One variable for each cell, all of one shape and type, row by row.
+    /// One variable for each cell, all of the same shape and type, row by row.
     Cells {
         shape: Vec<u64>,
         element: Element,
@@ -74,8 +74,8 @@ impl Variable {
     }
 }
 
-/// Cells of one shape and type as one array: the axes of the cells follow those of the cell matrix, except for cells of one number or one
-/// line.
+/// Joins cells of the same shape and type to one array. The axes of the cells follow the axes of the cell matrix. Cells of one number or
+/// one line have no axes.
 pub(crate) fn cells_of(shape: &[u64], cells: Vec<Variable>) -> Result<Variable, Problem> {
     let Some(first) = cells.first() else {
         return Err(Problem::unsupported(

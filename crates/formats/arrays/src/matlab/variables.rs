@@ -1,4 +1,4 @@
-//! Variables of a MATLAB file of version 5, including those within structures and cells.
+//! Variables of a MATLAB file of version 5, including variables within structures and cells.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ const CLASS_CELL: u32 = 1;
 const CLASS_STRUCTURE: u32 = 2;
 const CLASS_TEXT: u32 = 4;
 
-/// The variables found so far.
+/// Variables found so far.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
     pub(crate) variables: Vec<(String, Variable)>,
@@ -28,7 +28,7 @@ impl Found {
         (self.variables.len() + self.refused.len()) as u64
     }
 
-    /// Adds the matrix at `place`; `within` is the name of its parent structure.
+    /// Adds the matrix at `place`. `within` is the name of its parent structure.
     pub(crate) fn matrix(
         &mut self,
         source: &Arc<dyn ByteSource>,
@@ -62,7 +62,7 @@ impl Found {
         Ok(())
     }
 
-    /// The fields of a structure, one array each; those of several structures are cells.
+    /// Adds the fields of a structure, one array each. Fields of several structures become cells.
     fn structure(
         &mut self,
         source: &Arc<dyn ByteSource>,

@@ -1,4 +1,4 @@
-//! MATLAB files of version 7.3: HDF5 with reversed axes, and the class of each variable as an attribute.
+//! MATLAB files of version 7.3: HDF5 with reversed axes. The class of each variable is an attribute.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use crate::source::{ByteSource, FileBytes};
 use crate::store::{Arrays, Store};
 use crate::values::{ArrayData, ArrayValues};
 
-/// A file of version 7.3.
+/// File of version 7.3.
 #[derive(Debug)]
 pub(crate) struct Matlab73 {
     variables: Vec<Variable>,
@@ -29,7 +29,7 @@ struct Variable {
     turned: ColumnMajor,
 }
 
-/// The elements of a dataset as bytes, in HDF5 row order.
+/// Elements of a dataset as bytes, in HDF5 row order.
 #[derive(Debug)]
 struct DatasetBytes {
     hdf5: Arc<Hdf5>,

@@ -1,4 +1,4 @@
-//! Values built in place of calls: arrays, their types, numbers, bytes of texts.
+//! Values built instead of calls: arrays, their types, numbers, bytes of texts.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ fn unknown(at: u64, global: &str) -> Problem {
     )
 }
 
-/// The value of `global(*arguments)`.
+/// Value of `global(*arguments)`.
 pub(crate) fn call(
     machine: &mut Machine<'_>,
     global: Id,
@@ -78,7 +78,7 @@ pub(crate) fn call(
     }
 }
 
-/// The effect of `object.__setstate__(state)`.
+/// Effect of `object.__setstate__(state)`.
 pub(crate) fn build(
     machine: &mut Machine<'_>,
     object: Id,
@@ -120,7 +120,7 @@ pub(crate) fn build(
     Ok(())
 }
 
-/// The type; the byte order is that of this machine by default.
+/// Type of an array. The default byte order is the order of this machine.
 fn dtype_of(machine: &Machine<'_>, dtype: Id, at: u64) -> Result<DType, Problem> {
     match machine.value(dtype) {
         Value::DType(DType::Named(name)) => Scalar::from_numpy(name).map(DType::Known),
@@ -166,7 +166,7 @@ fn array(
     }))
 }
 
-/// The bytes of a text: protocol 2 writes bytes as Latin-1 text.
+/// Bytes of a text. Protocol 2 writes bytes as Latin-1 text.
 fn encode(machine: &mut Machine<'_>, text: Id, coding: Id, at: u64) -> Result<Value, Problem> {
     let coding = machine.text(coding);
     let Value::Text(letters) = machine.value(text).clone() else {
@@ -175,7 +175,7 @@ fn encode(machine: &mut Machine<'_>, text: Id, coding: Id, at: u64) -> Result<Va
     if !matches!(coding.as_deref(), Some("latin1" | "latin-1")) {
         return Err(unknown(at, "encode"));
     }
-    // Repeated encoding of one text could fill any memory.
+    // Repeated encoding of one text could fill the memory.
     machine.held_bytes = machine.held_bytes.saturating_add(letters.length());
     if machine.held_bytes > machine.source.length() {
         return Err(Problem::too_large(

@@ -15,26 +15,26 @@ pub(crate) struct Column {
     pub(crate) cells: Cells,
 }
 
-/// The elements of a column.
+/// Elements of a column.
 #[derive(Debug)]
 pub(crate) enum Cells {
     /// One array.
     Array(PickledArray),
-    /// Consecutive arrays of one shape and type.
+    /// Consecutive arrays of the same shape and type.
     Arrays(Vec<PickledArray>),
     /// Plain values.
     Plain { element: Element, ids: Vec<Id> },
 }
 
-/// The values of a pickle, with a limit on visits.
+/// Values of a pickle, with a limit on visits.
 pub(crate) struct Values<'a> {
     pub(crate) values: &'a [Value],
-    /// Number of visits left: nested lists may repeat one another exponentially.
+    /// Number of visits left. Nested lists may repeat one another exponentially.
     left: u64,
     text: &'a dyn Fn(&Bytes) -> Option<String>,
 }
 
-/// Columns, and values that are no columns, with the reason.
+/// Columns, and values that are not columns, each with the reason.
 pub(crate) type Found = (Vec<Column>, Vec<(String, Problem)>);
 
 impl<'a> Values<'a> {
@@ -53,7 +53,7 @@ impl<'a> Values<'a> {
         &self.values[id as usize]
     }
 
-    /// The columns of the whole pickle.
+    /// Columns of the whole pickle.
     pub(crate) fn columns(&mut self, whole: Id) -> Result<Found, Problem> {
         let mut found = (Vec::new(), Vec::new());
         self.named(whole, "", 0, &mut found)?;
@@ -126,7 +126,7 @@ impl<'a> Values<'a> {
         Ok(())
     }
 
-    /// The last entry of each key, in the order of first occurrence.
+    /// Last entry of each key, in the order of first occurrence.
     fn entries(&mut self, entries: &[(Id, Id)]) -> Result<Vec<(String, Id)>, Problem> {
         let mut named: Vec<(String, Id)> = Vec::new();
         let mut places = std::collections::BTreeMap::new();
@@ -172,7 +172,7 @@ impl<'a> Values<'a> {
                 .all(|row| matches!(self.value(*row), Value::Dictionary(_)))
     }
 
-    /// A list of dictionaries: one column for each key of the first; all must have it.
+    /// Adds one column for each key of the first dictionary in a list. All dictionaries must have it.
     fn table(&mut self, rows: &[Id], name: &str, found: &mut Found) -> Result<(), Problem> {
         let mut columns: Vec<(String, Vec<Id>)> = Vec::new();
         for (row, id) in rows.iter().enumerate() {
@@ -250,7 +250,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Values of one kind, or lists of them of equal length.
+    /// Values of one kind, or lists of such values with equal lengths.
     fn list(&mut self, values: &[Id]) -> Result<(Vec<u64>, Cells), Problem> {
         self.look_at(values.len())?;
         let arrays = values.iter().map_while(|id| match self.value(*id) {
@@ -315,7 +315,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// The common type of some values: whole numbers mixed with others become floating point.
+    /// Common type of some values. Whole numbers mixed with others become floating point.
     fn element(&self, ids: &[Id]) -> Result<Element, Problem> {
         let mut common = None;
         for id in ids {

@@ -1,4 +1,4 @@
-//! Sequential reader of a pickle, some kilobytes at a time; long bytes are skipped.
+//! Sequential reader of a pickle, some kilobytes at a time. Long bytes are skipped.
 
 use crate::error::Problem;
 use crate::source::{ByteSource, bytes_of};
@@ -65,7 +65,7 @@ impl<'a> Cursor<'a> {
             .fold(0, |number, byte| number << 8 | u64::from(*byte)))
     }
 
-    /// Skips `count` bytes and returns their offset.
+    /// Skips `count` bytes. Returns their offset.
     pub(crate) fn pass(&mut self, count: u64) -> Result<u64, Problem> {
         let at = self.at;
         let end = at

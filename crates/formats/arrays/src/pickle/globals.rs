@@ -1,4 +1,4 @@
-//! Names that a pickle may use. None is ever called: each stands for a value that is built here.
+//! Names that a pickle may use. None is ever called. Each is a value that is built here.
 
 use crate::error::Problem;
 use crate::scalar::shown;
@@ -14,12 +14,12 @@ const KNOWN: &[(&str, &str, &str)] = &[
     ("numpy.core.numeric", "_frombuffer", "_frombuffer"),
     ("numpy._core.numeric", "_frombuffer", "_frombuffer"),
     ("_codecs", "encode", "encode"),
-    // The empty bytes of protocol 2.
+    // Empty bytes of protocol 2.
     ("__builtin__", "bytes", "bytes"),
     ("collections", "OrderedDict", "OrderedDict"),
 ];
 
-/// The internal name of a global; rejects unknown ones by name.
+/// Internal name of a global. Rejects unknown globals by name.
 pub(crate) fn known(module: &str, name: &str, at: u64) -> Result<&'static str, Problem> {
     let found = KNOWN
         .iter()
@@ -33,7 +33,7 @@ pub(crate) fn known(module: &str, name: &str, at: u64) -> Result<&'static str, P
         })
 }
 
-/// The alternative for the user, in the program that wrote the object.
+/// Remedy in the program that wrote the object.
 fn mend(module: &str) -> &'static str {
     match module.split('.').next() {
         Some("pandas") => {

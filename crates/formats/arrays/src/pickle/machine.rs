@@ -1,4 +1,4 @@
-//! Restricted pickle machine: builds plain values and NumPy arrays, and calls nothing.
+//! Restricted pickle machine. Builds plain values and NumPy arrays, and calls nothing.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::source::{ByteSource, bytes_of};
 pub(crate) struct Machine<'a> {
     pub(crate) source: &'a dyn ByteSource,
     pub(crate) values: Vec<Value>,
-    /// Number of bytes made from texts; limited by the length of the file.
+    /// Number of bytes made from texts. The length of the file limits it.
     pub(crate) held_bytes: u64,
     stack: Vec<Id>,
     /// Heights of the stack at which groups begin.
@@ -26,7 +26,7 @@ pub(crate) struct Machine<'a> {
 /// Maximum name of a module or of a global, bytes.
 const NAME_BYTES: usize = 1_024;
 
-/// Runs the pickle that begins at `at`; returns its values and the id of the result.
+/// Runs the pickle that begins at `at`. Returns its values and the id of the result.
 pub(crate) fn run(source: &dyn ByteSource, at: u64) -> Result<(Vec<Value>, Id), Problem> {
     let mut machine = Machine {
         source,
@@ -135,7 +135,7 @@ impl Machine<'_> {
     fn again(&mut self, id: Id) -> Result<(), Problem> {
         if self.stack.len() as u64 >= limits::PICKLED_VALUES {
             return Err(Problem::too_large(
-                "values at once in the pickle",
+                "values of one step of the pickle",
                 self.stack.len() as u64 + 1,
                 limits::PICKLED_VALUES,
             ));
@@ -148,7 +148,7 @@ impl Machine<'_> {
         &self.values[id as usize]
     }
 
-    /// A short text.
+    /// Short text.
     pub(crate) fn text(&self, id: Id) -> Option<String> {
         match self.value(id) {
             Value::Text(bytes) if bytes.length() <= NAME_BYTES as u64 => {
@@ -190,7 +190,7 @@ impl Machine<'_> {
         self.push(Value::Global(global))
     }
 
-    /// Pushes bytes or text of `length` bytes, which stay in the file.
+    /// Pushes bytes or text of `length` bytes. They stay in the file.
     fn long(&mut self, length: u64, is_text: bool, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         let bytes = Bytes::InFile {
             at: cursor.pass(length)?,
@@ -205,7 +205,7 @@ impl Machine<'_> {
 
     fn step(&mut self, operation: u8, at: u64, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         match operation {
-            // A frame states its length, which is not needed.
+            // A frame states its length. The length is not needed.
             0x95 => cursor.few::<8>().map(|_| ()),
             b'(' => {
                 self.marks.push(self.stack.len());
@@ -365,7 +365,7 @@ pub(crate) fn read(source: &dyn ByteSource, bytes: &Bytes) -> Result<Vec<u8>, Pr
     }
 }
 
-/// Passes a value on to a function, so that each operation is one line.
+/// Passes a value to a function, so that each operation is one line.
 trait Pipe: Sized {
     fn pipe<T>(self, next: impl FnOnce(Self) -> T) -> T {
         next(self)

@@ -1,11 +1,11 @@
-//! Values of a pickle. They refer to one another by number and own none, so that no depth of nesting causes recursion.
+//! Values of a pickle. They refer to one another by number and own none. No depth of nesting therefore causes recursion.
 
 use std::sync::Arc;
 
 use crate::fields::Item;
 use crate::scalar::Scalar;
 
-/// The number of a value.
+/// Number of a value.
 pub(crate) type Id = u32;
 
 /// Bytes of a pickle.
@@ -13,7 +13,7 @@ pub(crate) type Id = u32;
 pub(crate) enum Bytes {
     /// Not read yet.
     InFile { at: u64, length: u64 },
-    /// From protocol 2, which writes bytes as text.
+    /// Bytes from protocol 2, which writes bytes as text.
     Held(Arc<Vec<u8>>),
 }
 
@@ -26,7 +26,7 @@ impl Bytes {
     }
 }
 
-/// An array of NumPy.
+/// NumPy array.
 #[derive(Clone, Debug)]
 pub(crate) struct PickledArray {
     pub(crate) shape: Vec<u64>,
@@ -34,7 +34,7 @@ pub(crate) struct PickledArray {
     pub(crate) content: Content,
 }
 
-/// The elements of an array.
+/// Elements of an array.
 #[derive(Clone, Debug)]
 pub(crate) enum Content {
     /// Under construction.
@@ -43,14 +43,14 @@ pub(crate) enum Content {
         item: Item,
         bytes: Bytes,
     },
-    /// Python values: the number of the list.
+    /// Python values, as the number of the list.
     Objects(Id),
 }
 
-/// The type of an array, as far as it is built.
+/// Type of an array, possibly under construction.
 #[derive(Clone, Debug)]
 pub(crate) enum DType {
-    /// Without the byte order: `f8`.
+    /// Type without the byte order, such as `f8`.
     Named(String),
     Known(Scalar),
     Objects,
@@ -62,13 +62,13 @@ pub(crate) enum Value {
     Bool(bool),
     Whole(i64),
     Float(f64),
-    /// UTF-8.
+    /// UTF-8 text.
     Text(Bytes),
     Bytes(Bytes),
     List(Vec<Id>),
     Tuple(Vec<Id>),
     Dictionary(Vec<(Id, Id)>),
-    /// One of the known globals.
+    /// Known global.
     Global(&'static str),
     DType(DType),
     Array(PickledArray),

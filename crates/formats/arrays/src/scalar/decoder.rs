@@ -5,11 +5,11 @@ use crate::error::Problem;
 use crate::source::{ByteSource, bytes_of};
 use crate::values::ArrayValues;
 
-/// Size of the pieces in which numbers are read, bytes. They stay in the processor's cache, and the whole is not allocated twice.
+/// Size of the pieces in which numbers are read, bytes. A piece fits the processor cache, and the whole is not allocated twice.
 const PIECE_BYTES: usize = 128 << 10;
 
 impl Scalar {
-    /// The `count` elements that begin at `at`.
+    /// Reads the `count` elements that begin at `at`.
     pub(crate) fn read(
         self,
         source: &dyn ByteSource,
@@ -69,7 +69,7 @@ impl Scalar {
 
     /// Appends the numbers in `raw`.
     fn extend(self, values: &mut ArrayValues, raw: &[u8]) -> Result<(), Problem> {
-        /// Elements of `N` bytes; one of the two functions converts each, and is inlined into the loop.
+        /// Appends elements of `N` bytes. One of the two functions converts each element, and is inlined into the loop.
         fn each<const N: usize, T>(
             all: &mut Vec<T>,
             raw: &[u8],
@@ -102,7 +102,7 @@ impl Scalar {
             }
             ArrayValues::F32(all) => each(all, raw, big, f32::from_le_bytes, f32::from_be_bytes),
             ArrayValues::F64(all) => each(all, raw, big, f64::from_le_bytes, f64::from_be_bytes),
-            // References are resolved from their heap by the caller.
+            // The caller resolves references from their heap.
             ArrayValues::Text(_) | ArrayValues::Bytes(_) => {
                 return Err(Problem::unsupported(
                     "references to values elsewhere",
@@ -113,7 +113,7 @@ impl Scalar {
         Ok(())
     }
 
-    /// Fields of one length as texts, or as bytes if one of them is no text: h5py writes JPEG files of a recording so.
+    /// Fields of equal length as texts, or as bytes if one of them is not text. h5py writes JPEG files of a recording in this way.
     fn texts_or_bytes(self, raw: &[u8], count: usize, filler: Filler) -> ArrayValues {
         let fields = (0..count).map(|place| {
             let bytes = &raw[place * self.bytes..(place + 1) * self.bytes];
@@ -165,7 +165,7 @@ fn length_of(bytes: &[u8], filler: Filler) -> usize {
     }
 }
 
-/// UTF-32 up to the zero padding.
+/// Decodes UTF-32 up to the zero padding.
 fn utf32(bytes: &[u8], of: fn([u8; 4]) -> u32) -> Option<String> {
     let (codes, _) = bytes.as_chunks::<4>();
     let end = codes
@@ -178,7 +178,7 @@ fn utf32(bytes: &[u8], of: fn([u8; 4]) -> u32) -> Option<String> {
         .collect()
 }
 
-/// Converts an IEEE 754 number of 16 bits to 32 bits, which is exact.
+/// Converts an IEEE 754 number of 16 bits to 32 bits, exactly.
 fn widened(half: u16) -> f32 {
     let sign = u32::from(half >> 15) << 31;
     let exponent = u32::from(half >> 10) & 0x1f;
@@ -186,7 +186,7 @@ fn widened(half: u16) -> f32 {
     let bits = match (exponent, fraction) {
         (0, 0) => 0,
         (0, _) => {
-            // Subnormal: the highest set bit becomes the hidden one.
+            // Subnormal: the highest set bit becomes the hidden bit.
             let shift = fraction.leading_zeros() - 21;
             ((113 - shift) << 23) | ((fraction << (shift + 13)) & 0x007f_ffff)
         }

@@ -5,7 +5,7 @@ use crate::element::Element;
 use crate::error::Problem;
 
 impl ArrayValues {
-    /// An empty list with capacity for `count` elements.
+    /// Empty list with capacity for `count` elements.
     pub(crate) fn with_capacity(element: Element, count: usize) -> ArrayValues {
         match element {
             Element::Bool => ArrayValues::Bool(Vec::with_capacity(count)),
@@ -24,7 +24,7 @@ impl ArrayValues {
         }
     }
 
-    /// Appends elements of the same type; ignores others.
+    /// Appends elements of the same type. Ignores others.
     pub(crate) fn append(&mut self, more: ArrayValues) {
         match (self, more) {
             (ArrayValues::Bool(all), ArrayValues::Bool(more)) => all.extend(more),
@@ -44,7 +44,7 @@ impl ArrayValues {
         }
     }
 
-    /// The same numbers as elements of another type, which must hold them.
+    /// Same numbers as elements of another type. The type must hold them.
     pub(crate) fn converted(self, element: Element) -> Result<ArrayValues, Problem> {
         let wrong =
             || Problem::unsupported(format!("numbers that are not {element}"), "save them again");
@@ -55,7 +55,7 @@ impl ArrayValues {
             (Element::Float(64), other) => ArrayValues::F64(other.to_f64().ok_or_else(wrong)?),
             #[expect(
                 clippy::cast_possible_truncation,
-                reason = "MATLAB stores a single as whole numbers only where they are exact"
+                reason = "MATLAB stores a single as whole numbers only if they are exact"
             )]
             (Element::Float(_), other) => {
                 let numbers = other.to_f64().ok_or_else(wrong)?;
@@ -72,7 +72,7 @@ impl ArrayValues {
         })
     }
 
-    /// The type of the elements; 16-bit floating point is already widened.
+    /// Type of the elements. Floating point of 16 bits is already widened.
     fn element(&self) -> Element {
         match self {
             ArrayValues::Bool(_) => Element::Bool,

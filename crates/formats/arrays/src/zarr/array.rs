@@ -1,4 +1,4 @@
-//! A chunked array, in either version.
+//! Chunked array, in either version.
 
 use serde_json::Value;
 
@@ -7,13 +7,13 @@ use crate::error::Problem;
 use crate::fields::Item;
 use crate::limits;
 
-/// A chunked array.
+/// Chunked array.
 #[derive(Debug)]
 pub(crate) struct ZarrArray {
     /// Full name.
     pub(crate) name: String,
     pub(crate) shape: Vec<u64>,
-    /// Lengths of a chunk; chunks at an edge are stored whole.
+    /// Lengths of a chunk. Chunks at an edge are stored whole.
     pub(crate) chunk: Vec<u64>,
     pub(crate) item: Item,
     /// One element of the fill value.
@@ -26,7 +26,7 @@ pub(crate) struct ZarrArray {
 }
 
 impl ZarrArray {
-    /// The name of the file of a chunk.
+    /// File name of a chunk.
     pub(crate) fn key(&self, place: &[u64]) -> String {
         let numbers: Vec<String> = place.iter().map(u64::to_string).collect();
         let numbers = numbers.join(&self.separator.to_string());
@@ -108,7 +108,7 @@ impl ZarrArray {
             .iter()
             .filter(|codec| codec.is_packing())
             .count();
-        // Data compressed twice may be a little larger in between.
+        // Data compressed twice may be slightly larger in between.
         let most = if packings > 1 {
             bytes + bytes / 8 + (64 << 10)
         } else {

@@ -7,7 +7,7 @@ use crate::scalar::shown;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Codec {
-    /// The axes are in this order.
+    /// Axes in this order.
     Transposed(Vec<usize>),
     Gzip,
     Zlib,
@@ -18,7 +18,7 @@ pub(crate) enum Codec {
 }
 
 impl Codec {
-    /// The codec with this name in either version.
+    /// Codec with this name in either version.
     pub(crate) fn from_name(name: &str) -> Result<Codec, Problem> {
         match name.trim_start_matches("numcodecs.") {
             "gzip" => Ok(Codec::Gzip),
@@ -34,12 +34,12 @@ impl Codec {
         }
     }
 
-    /// True if the output length is known only from the chunk itself.
+    /// True if only the chunk itself gives the output length.
     pub(crate) fn is_packing(&self) -> bool {
         !matches!(self, Codec::Transposed(_) | Codec::Crc32c)
     }
 
-    /// Reverses the codec for a chunk of these sides and elements; rejects more than `most` bytes.
+    /// Reverses the codec for a chunk with these sides and elements. Rejects more than `most` bytes.
     pub(crate) fn undo(
         &self,
         chunk: Vec<u8>,
@@ -59,7 +59,7 @@ impl Codec {
     }
 }
 
-/// Removes and checks the checksum (CRC-32C) after the bytes, little-endian.
+/// Removes and checks the checksum (CRC-32C, little-endian) after the bytes.
 fn without_sum(mut chunk: Vec<u8>) -> Result<Vec<u8>, Problem> {
     let at = chunk.len() as u64;
     let Some((bytes, sum)) = chunk.split_last_chunk::<4>() else {
@@ -77,7 +77,7 @@ fn without_sum(mut chunk: Vec<u8>) -> Result<Vec<u8>, Problem> {
     Ok(chunk)
 }
 
-/// The reversed polynomial of CRC-32C.
+/// Reversed polynomial of CRC-32C.
 const CASTAGNOLI: u32 = 0x82f6_3b78;
 
 fn crc32c(bytes: &[u8]) -> u32 {
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn the_sum_of_castagnoli_is_that_of_its_standard() {
-        // The check value of CRC-32C (RFC 3720 uses the same sum).
+        // Check value of CRC-32C (RFC 3720 uses the same checksum).
         assert_eq!(crc32c(b"123456789"), 0xe306_9283);
     }
 }

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::fields::Item;
 
-/// The bytes of one element; `None` if the value is of an unknown kind.
+/// Bytes of one element; `None` if the value is of an unknown kind.
 pub(crate) fn fill(value: &Value, item: &Item) -> Option<Vec<u8>> {
     let zero = || Some(vec![0; item.bytes]);
     let scalar = match item.fields.as_slice() {
@@ -37,7 +37,7 @@ fn float(text: &str) -> Option<f64> {
     }
 }
 
-/// Decodes base64: version 2 writes texts and records so.
+/// Decodes base64. Version 2 writes texts and records in base64.
 fn bytes(text: &str, item: &Item) -> Option<Vec<u8>> {
     let bytes = BASE64_STANDARD.decode(text).ok()?;
     (bytes.len() == item.bytes).then_some(bytes)

@@ -1,4 +1,4 @@
-//! Chunks that contain some rows, and the part of each.
+//! Chunks that contain requested rows, and the part of each.
 
 use std::ops::Range;
 
@@ -7,10 +7,10 @@ use crate::error::Problem;
 use crate::limits;
 use crate::order::strides;
 
-/// Some rows of an array, over its chunks.
+/// Requested rows of an array and their chunks.
 #[derive(Debug)]
 pub(crate) struct Grid {
-    /// Wanted range of each axis.
+    /// Requested range of each axis.
     wanted: Vec<Range<u64>>,
     shape: Vec<u64>,
     chunk: Vec<u64>,
@@ -88,7 +88,7 @@ impl Grid {
         Ok(raw)
     }
 
-    /// Positions of the chunks, the last axis fastest.
+    /// Positions of the chunks, with the last axis fastest.
     pub(crate) fn places(&self) -> Vec<Vec<u64>> {
         let mut places = vec![Vec::new()];
         for range in self.ranges() {
@@ -104,10 +104,10 @@ impl Grid {
         places
     }
 
-    /// Copies the wanted part of the chunk at `place`.
+    /// Copies the requested part of the chunk at `place`.
     pub(crate) fn copy(&self, place: &[u64], chunk: &[u8], raw: &mut [u8]) {
         let axes = self.wanted.len();
-        // For each axis: begin of the part in the rows and in the chunk, its length, and the strides.
+        // Per axis: start of the part in the rows and in the chunk, its length, and the strides.
         let mut parts = Vec::with_capacity(axes);
         for (axis, number) in place.iter().enumerate() {
             let start = number * self.chunk[axis];
@@ -125,7 +125,7 @@ impl Grid {
     }
 }
 
-/// Copies a block, axis after axis; the last axis is contiguous.
+/// Copies a block, axis after axis. The last axis is contiguous.
 fn block(
     raw: &mut [u8],
     chunk: &[u8],
@@ -158,7 +158,7 @@ fn block(
     }
 }
 
-/// A length that was checked against a limit, as `usize`.
+/// Converts a length that was checked against a limit to `usize`.
 fn index(length: u64) -> usize {
     usize::try_from(length).unwrap_or(usize::MAX)
 }

@@ -11,25 +11,25 @@ use crate::member_bytes::{Budget, Packed, PackedBytes};
 use crate::scalar::shown;
 use crate::source::{ByteSource, FileBytes, bytes_of};
 
-/// A folder of a store.
+/// Folder of a store.
 #[derive(Clone, Debug)]
 pub(crate) enum Tree {
     Folder(PathBuf),
     Archive(Archive),
 }
 
-/// A folder within an archive.
+/// Folder within an archive.
 #[derive(Clone, Debug)]
 pub(crate) struct Archive {
     file: Arc<FileBytes>,
-    /// Members by path; the last of several with one path, as in ZIP archives that were appended to.
+    /// Members by path. Of several members with the same path the last counts, as in appended ZIP archives.
     members: Arc<BTreeMap<String, Packed>>,
-    /// The path of the folder with a trailing `/`; empty for the root.
+    /// Path of the folder with a trailing `/`; empty for the root.
     folder: String,
 }
 
 impl Tree {
-    /// The store at `path`.
+    /// Opens the store at `path`.
     pub(crate) fn open(path: &Path) -> Result<Tree, Problem> {
         if fs::metadata(path).map_err(Problem::io("open"))?.is_dir() {
             return Ok(Tree::Folder(path.to_owned()));
@@ -48,7 +48,7 @@ impl Tree {
         Ok(Tree::Archive(archive))
     }
 
-    /// The folder `name` within this one.
+    /// Folder `name` within this one.
     pub(crate) fn join(&self, name: &str) -> Tree {
         match self {
             Tree::Folder(path) => Tree::Folder(path.join(name)),
@@ -59,7 +59,7 @@ impl Tree {
         }
     }
 
-    /// The bytes of the file `name` within this folder, at most `most`; `None` if there is none. Errors name it by `what`.
+    /// Bytes of the file `name` within this folder, at most `most`; `None` if there is no such file. Errors call it `what`.
     pub(crate) fn bytes(
         &self,
         name: &str,
@@ -102,7 +102,7 @@ impl Tree {
         }
     }
 
-    /// The names of the folders within this one, sorted; links on disk are excluded, because they may lead anywhere.
+    /// Names of the folders within this one, sorted. Links on disk are excluded, because they may lead outside.
     pub(crate) fn folders(&self) -> Result<Vec<String>, Problem> {
         let mut names = BTreeSet::new();
         match self {
@@ -139,7 +139,7 @@ impl Tree {
         }
     }
 
-    /// The names of the files within this folder.
+    /// Names of the files within this folder.
     pub(crate) fn files(&self) -> Result<Vec<String>, Problem> {
         match self {
             Tree::Folder(folder) => {
@@ -162,14 +162,14 @@ impl Tree {
 }
 
 impl Archive {
-    /// The paths of the members below this folder, relative to it.
+    /// Paths of the members below this folder, relative to it.
     fn below(&self) -> impl Iterator<Item = &str> {
         let from = self.members.range(self.folder.clone()..);
         from.map_while(|(path, _)| path.strip_prefix(&self.folder))
     }
 }
 
-/// The root of the store: the archive itself, or its only folder if it contains nothing else.
+/// Root of the store: the archive itself, or its only folder if it contains nothing else.
 fn outermost(members: &BTreeMap<String, Packed>) -> String {
     let is_described = ["zarr.json", ".zgroup", ".zarray"]
         .iter()

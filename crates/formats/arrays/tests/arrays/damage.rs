@@ -1,4 +1,4 @@
-//! Files cut short and with flipped bits: an error with its type or a result, never a panic, a hang or a large allocation.
+//! Tests with truncated files and flipped bits. Each gives a typed error or a result, never a panic, a hang or a large allocation.
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -9,10 +9,10 @@ use taceva_arrays::{ArrayFile, ArrayFormat};
 
 use crate::digest::{SHARED, at, data};
 
-/// Bytes that are read of one array at a time.
+/// Number of rows read from one array at a time.
 const ROWS: u64 = 8;
 
-/// Opens a file and reads all of it, as far as it goes.
+/// Opens a file and reads all of it, up to the first error.
 pub(crate) fn read_all(path: &Path, format: ArrayFormat) -> Result<(), String> {
     let file = ArrayFile::open(path, format).map_err(|error| error.to_string())?;
     let mut result = Ok(());
@@ -31,7 +31,7 @@ pub(crate) fn read_all(path: &Path, format: ArrayFormat) -> Result<(), String> {
     result
 }
 
-/// A generator of numbers that anybody can repeat (splitmix64).
+/// Reproducible generator of numbers (splitmix64).
 struct Seeded(u64);
 
 impl Seeded {
@@ -56,7 +56,7 @@ fn files(folder: &Path, into: &mut Vec<PathBuf>) {
     }
 }
 
-/// Damages `bytes` in each of the ways and gives each to `look`.
+/// Damages `bytes` in each way and passes each result to `look`.
 pub(crate) fn damaged(bytes: &[u8], seed: u64, mut look: impl FnMut(&str, &[u8])) {
     for sixth in 0..6 {
         look(
@@ -67,7 +67,7 @@ pub(crate) fn damaged(bytes: &[u8], seed: u64, mut look: impl FnMut(&str, &[u8])
     let mut seeded = Seeded(seed);
     let length = bytes.len() as u64;
     for flip in 0..40 {
-        // Half of them near the beginning or the end, where headers and directories stand.
+        // Half of them near the beginning or the end, the places of headers and directories.
         let at = match flip % 4 {
             0 => seeded.below(length.min(512)),
             1 => length - 1 - seeded.below(length.min(512)),

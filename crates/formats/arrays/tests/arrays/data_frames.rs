@@ -1,4 +1,4 @@
-//! Data frames of pandas in its fixed form (`tests/data/pandas/make.py`): blocks become columns.
+//! Tests of pandas data frames in the fixed format (`tests/data/pandas/make.py`). Blocks become columns.
 
 use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues};
 
@@ -37,7 +37,7 @@ fn blocks_of_a_data_frame_are_columns_by_their_names() {
         file.attribute("/run/t", "value_type").as_deref(),
         Some("datetime64[ns]")
     );
-    // Rows in the middle of a block are those of a whole reading.
+    // Rows in the middle of a block equal the same rows of a whole reading.
     let middle = file.read("/run/obj", 5..7).expect("read");
     assert_eq!(
         (middle.shape, middle.values),

@@ -1,11 +1,11 @@
-//! What `tests/data/make.py` says of an array: shape, type and SHA-256 of the elements.
+//! Digest of an array as in `tests/data/make.py`: shape, type and SHA-256 of the elements.
 
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 use taceva_arrays::{ArrayFile, ArrayValues};
 
-/// The recordings that all crates share of which these tests read files.
+/// Shared recordings with files for these tests.
 pub(crate) const SHARED: [&str; 15] = [
     "hdf5-fletcher-earliest",
     "hdf5-fletcher-latest",
@@ -24,12 +24,12 @@ pub(crate) const SHARED: [&str; 15] = [
     "zarr-v3",
 ];
 
-/// The files of these tests alone.
+/// Folder of the files of only these tests.
 pub(crate) fn data() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data")
 }
 
-/// A file or folder of these tests, or else of the recordings that all crates share.
+/// File or folder of these tests, or else of the shared recordings.
 pub(crate) fn at(name: impl AsRef<Path>) -> PathBuf {
     let own = data().join(&name);
     match own.exists() {
@@ -38,7 +38,7 @@ pub(crate) fn at(name: impl AsRef<Path>) -> PathBuf {
     }
 }
 
-/// Adds the elements: numbers little-endian, texts and bytes behind a letter and their length.
+/// Adds the elements: numbers little-endian, texts and bytes after a letter and their length.
 fn add(sum: &mut Sha256, values: &ArrayValues) {
     macro_rules! numbers {
         ($values:expr) => {
@@ -84,7 +84,7 @@ pub(crate) fn digest(values: &ArrayValues) -> String {
     hex(sum)
 }
 
-/// The digest of an array that is read `step` rows at a time.
+/// Digest of an array, read `step` rows at a time.
 pub(crate) fn by_rows(file: &ArrayFile, name: &str, step: u64) -> String {
     let rows = file.info(name).expect("listed").rows();
     let mut sum = Sha256::new();

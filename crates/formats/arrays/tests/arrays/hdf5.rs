@@ -1,4 +1,4 @@
-//! Groups, attributes and refusals of HDF5.
+//! Tests of groups, attributes and errors of HDF5.
 
 use std::fs;
 
@@ -60,7 +60,7 @@ fn attributes_of_every_kind_are_the_shortest_text() {
     assert_eq!(file.attribute("/no/such", "x"), None);
 }
 
-/// Layout version 5 with a checksum that is right again: version 5 becomes 6 in the file.
+/// File with another layout version and a corrected checksum. Version 5 becomes 6 in the file.
 fn with_layout_of(version: u8) -> Vec<u8> {
     let mut bytes = fs::read(at("hdf5/latest.h5")).expect("readable");
     let found = bytes
@@ -279,7 +279,7 @@ fn checksums_of_chunks_are_compared() {
     let folder = tempfile::tempdir().expect("a folder");
     let copy = folder.path().join("run.h5");
     let mut refused = 0;
-    // Some of these lie in chunks, wherever the library put them.
+    // Some of these are in chunks, at positions that the library chose.
     for at in (20_000..50_000).step_by(5_000) {
         bytes[at] ^= 4;
         fs::write(&copy, &bytes).expect("written");

@@ -1,4 +1,4 @@
-//! Files of HDF5 that are written here are read here; h5py reads them in the tests of `taceva-import`.
+//! Tests that HDF5 files of this writer are read here. h5py reads them in the tests of `taceva-import`.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! Damage and excess in files of arrays: sums of members, keys of chunks, sizes once unpacked.
+//! Tests of damage and excess in files of arrays: checksums of members, keys of chunks, unpacked sizes.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use taceva_arrays::{ArrayData, ArrayError, ArrayFile, ArrayFormat};
 
 use crate::digest::at;
 
-/// A copy of `bytes` in a folder that lasts as long as what is returned.
+/// Copy of `bytes` in a folder that lasts as long as the returned value.
 fn file(name: &str, bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join(name);
@@ -15,7 +15,7 @@ fn file(name: &str, bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
-/// Begin of the bytes of the member `name` of an archive.
+/// Offset of the bytes of the member `name` of an archive.
 fn begin_of(archive: &[u8], name: &str) -> usize {
     let heads = archive.windows(4).enumerate();
     let mut heads = heads.filter(|(_, bytes)| *bytes == b"PK\x03\x04");
@@ -25,7 +25,7 @@ fn begin_of(archive: &[u8], name: &str) -> usize {
     at + 30 + name.len() + extra
 }
 
-/// Every array of a file that reads, and how many chunks were never written.
+/// Reads every readable array of a file. Also returns the number of chunks that were never written.
 fn read(path: &Path, format: ArrayFormat) -> Result<(Vec<ArrayData>, u64), ArrayError> {
     let file = ArrayFile::open(path, format)?;
     let mut all = Vec::new();
@@ -51,7 +51,7 @@ fn a_flip_in_any_member_that_is_read_is_refused_by_its_sum() {
         let names = file.names();
         let mut refused = 0;
         let mut flips = 0;
-        // Members follow each other; every 997th byte before the directory, in the small ones every 41st.
+        // Members follow one another. Every 997th byte before the directory is changed, in small files every 41st.
         let directory = whole.windows(4).position(|bytes| bytes == b"PK\x01\x02");
         let directory = directory.expect("a directory");
         for position in (0..directory)
@@ -65,7 +65,7 @@ fn a_flip_in_any_member_that_is_read_is_refused_by_its_sum() {
             let outcome = read(&path, ArrayFormat::Npz);
             match outcome {
                 Err(_) => refused += 1,
-                // A header states names and times beside what is summed.
+                // A header states names and times, which no checksum covers.
                 Ok((all, _)) => {
                     fs::write(&path, &whole).expect("written");
                     let before = read(&path, ArrayFormat::Npz).expect("reads");
@@ -78,7 +78,7 @@ fn a_flip_in_any_member_that_is_read_is_refused_by_its_sum() {
     }
 }
 
-/// K1, where a part of the labels is read alone.
+/// K1, for part of the labels.
 #[test]
 fn the_first_rows_of_a_damaged_member_are_refused_too() {
     let whole = fs::read(at("npz-stored/run.npz")).expect("readable");
@@ -88,7 +88,7 @@ fn the_first_rows_of_a_damaged_member_are_refused_too() {
         .names();
     for name in names {
         let mut bytes = whole.clone();
-        // Behind the header of NumPy, which takes 128 bytes.
+        // After the NumPy header, which has 128 bytes.
         bytes[begin_of(&whole, &format!("{name}.npy")) + 128 + 3] ^= 1;
         fs::write(&path, &bytes).expect("written");
         let file = ArrayFile::open(&path, ArrayFormat::Npz).expect("headers are whole");
@@ -139,7 +139,7 @@ fn no_flip_in_an_index_of_chunks_makes_a_chunk_vanish() {
     }
 }
 
-/// K2, as h5py refuses it.
+/// K2, as h5py rejects it.
 #[cfg(feature = "hdf5")]
 #[test]
 fn a_chunk_whose_key_lies_off_the_grid_is_named() {
@@ -147,7 +147,7 @@ fn a_chunk_whose_key_lies_off_the_grid_is_named() {
     let node = whole.windows(5).position(|bytes| bytes == b"TREE\x01");
     let node = node.expect("an index");
     let (_folder, path) = file("run.h5", &whole);
-    // A key is the size of its chunk, a mask of filters, and the offsets; the first of them is that of the rows.
+    // A key is the size of its chunk, a mask of filters, and the offsets. The first offset is the offset of the rows.
     for (offset, word) in [(1_u64, "not on the grid"), (1 << 40, "outside the extent")] {
         let mut bytes = whole.clone();
         let key = node + 24 + 8;

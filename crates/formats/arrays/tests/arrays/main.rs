@@ -1,4 +1,4 @@
-//! Files that other libraries wrote, read and compared with what those libraries read of them (`tests/data/make.py`).
+//! Tests with files of other libraries, compared with the values that those libraries read (`tests/data/make.py`).
 
 mod damage;
 #[cfg(feature = "hdf5")]

@@ -1,4 +1,4 @@
-//! What MATLAB writes and no library of Python does, and what is refused.
+//! Tests of content that MATLAB writes and no Python library does, and of errors.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues};
 
 use crate::digest::at;
 
-/// A file of version 5 with one matrix, all numbers in the order of bytes that `word` gives.
+/// File of version 5 with one matrix. `word` gives the byte order of all numbers.
 fn file(is_big_endian: bool, class: u32, shape: [u32; 2], content: &[u8]) -> Vec<u8> {
     let word = |number: u32| {
         if is_big_endian {
@@ -19,7 +19,7 @@ fn file(is_big_endian: bool, class: u32, shape: [u32; 2], content: &[u8]) -> Vec
     for number in [6, 8, class, 0, 5, 8, shape[0], shape[1]] {
         matrix.extend(word(number));
     }
-    // A name of one letter in the tag itself: length above type.
+    // One-letter name in the tag itself: length above type.
     matrix.extend(word(1 << 16 | 1));
     matrix.extend(b"x\0\0\0");
     matrix.extend(content);
@@ -47,7 +47,7 @@ fn opened(bytes: &[u8]) -> (ArrayFile, tempfile::TempDir) {
 
 #[test]
 fn doubles_that_matlab_stored_as_small_numbers_are_doubles() {
-    // Class 6 is double; the content is unsigned numbers of 8 bits, four in the tag itself or more behind it.
+    // Class 6 is double. The content is unsigned 8-bit numbers: four in the tag itself, or more after it.
     let (four, _folder) = opened(&file(false, 6, [2, 2], b"\x02\0\x04\0\x01\x02\x03\xff"));
     let expected = ArrayValues::F64(vec![1.0, 3.0, 2.0, 255.0]);
     assert_eq!(four.read("x", 0..2).expect("reads").values, expected);

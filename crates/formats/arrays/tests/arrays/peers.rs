@@ -1,4 +1,4 @@
-//! Every array of every file is what the library that owns the form reads of it.
+//! Tests that every array of every file equals the reading of the library of that format.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,4 +1,4 @@
-//! What a pickle may hold, and what is never run.
+//! Tests of the accepted content of pickles, and of code that is never run.
 
 use std::fs;
 use std::path::PathBuf;
@@ -76,7 +76,7 @@ fn lists_that_are_no_column_say_why() {
 #[test]
 fn deep_wide_and_shared_pickles_end_soon() {
     let within = |opens: usize, tail: &[u8]| [&b"\x80\x04"[..], &vec![b']'; opens], tail].concat();
-    // Two million lists, each within the one before it.
+    // Two million lists, each inside the previous one.
     let deep = [within(2_000_000, b""), vec![b'a'; 1_999_999], b".".to_vec()].concat();
     let (result, _folder) = open(&deep);
     assert!(
@@ -99,7 +99,7 @@ fn deep_wide_and_shared_pickles_end_soon() {
             .to_string()
             .contains("save arrays instead of lists")
     );
-    // Each list holds the one before it twice: 2^60 elements.
+    // Each list contains the previous one twice: 2^60 elements.
     let mut shared = b"\x80\x04]K\x01a\x94".to_vec();
     for level in 0..60_u8 {
         shared.extend([b']', b'(', b'h', level, b'h', level, b'e', 0x94]);
@@ -112,13 +112,13 @@ fn deep_wide_and_shared_pickles_end_soon() {
             .to_string()
             .contains("counted each time")
     );
-    // A list that holds itself.
+    // List that contains itself.
     let cycle = b"\x80\x04]\x94h\x00a.";
     assert!(open(cycle).0.is_ok_and(|file| file.names().is_empty()));
-    // A dictionary that holds itself.
+    // Dictionary that contains itself.
     let cycle = b"\x80\x04}\x94X\x01\x00\x00\x00ah\x00s.";
     assert!(open(cycle).0.is_err());
-    // 2^63 bytes that are not there.
+    // 2^63 missing bytes.
     let long = b"\x80\x04\x8e\xff\xff\xff\xff\xff\xff\xff\x7f.";
     assert!(
         open(long)
@@ -148,7 +148,7 @@ fn a_text_that_is_encoded_again_and_again_is_refused() {
     );
 }
 
-/// An `.npy` file of objects, whose elements are this pickle.
+/// An `.npy` file of objects with this pickle as its elements.
 fn of_objects(pickle: &[u8]) -> Vec<u8> {
     let mut header = b"{'descr': '|O', 'fortran_order': False, 'shape': (1,), }".to_vec();
     header.resize(117, b' ');
@@ -166,7 +166,7 @@ fn an_object_array_goes_through_the_same_machine() {
         fs::write(&path, of_objects(pickle)).expect("written");
         ArrayFile::open(&path, ArrayFormat::Npy)
     };
-    // Protocol 2: a list that begins with what a table of pandas begins with, and one that would run a program.
+    // Protocol 2: a list with the start of a pandas table, and a list that would run a program.
     let tables = open(b"\x80\x02]q\0ccopyreg\n_reconstructor\n.").expect_err("no array");
     assert!(
         tables
@@ -186,7 +186,7 @@ fn an_object_array_goes_through_the_same_machine() {
     );
     let evil = open(b"\x80\x02cposix\nsystem\nX\x04\0\0\0true\x85R.").expect_err("a program");
     assert!(evil.to_string().contains("wants `posix.system`"), "{evil}");
-    // A dictionary in it is read: {"a": [1, 2]}.
+    // A dictionary in it: {"a": [1, 2]}.
     let read = open(b"\x80\x02}X\x01\0\0\0a]K\x01aK\x02as.").expect("a dictionary");
     assert_eq!(read.names(), ["a"]);
     assert_eq!(read.info("a").expect("listed").shape, [2]);

@@ -1,4 +1,4 @@
-//! Labels and pictures of drawn recordings, as `expected.json` of each states them.
+//! Tests of labels and pictures of generated recordings against their `expected.json`.
 
 use std::fs;
 
@@ -22,7 +22,7 @@ const RECORDINGS: &[(&str, &str, &str, &str, &str)] = &[
     ("pickle", "p4.pkl", "images", "p4.pkl", "ft"),
 ];
 
-/// The same of HDF5: the pictures are `/tactile/left/rgb`, the wrench is `/force/wrench`.
+/// HDF5 recordings: the pictures are `/tactile/left/rgb`, the wrench is `/force/wrench`.
 #[cfg(feature = "hdf5")]
 const HDF5: &[&str] = &[
     "hdf5-gzip-shuffle-earliest",

@@ -1,4 +1,4 @@
-//! What is refused, and in which words.
+//! Tests of errors and their messages.
 
 use std::fs;
 use std::path::Path;
@@ -84,7 +84,7 @@ fn shapes_beyond_64_bits_are_refused_whatever_is_zero_in_them() {
                 [b"\x93NUMPY\x01\x00".as_slice(), &length, header.as_bytes()].concat(),
             )
             .expect("written");
-            // Read or refused, without a panic and without memory for what is not there.
+            // Read or rejected, without a panic and without memory for missing data.
             if let Ok(file) = ArrayFile::open(&path, ArrayFormat::Npy) {
                 let rows = file.info("value").expect("listed").rows();
                 let read = file.read("value", 0..rows.min(5));
@@ -97,7 +97,7 @@ fn shapes_beyond_64_bits_are_refused_whatever_is_zero_in_them() {
     }
 }
 
-/// An archive of one deflated member of zeros.
+/// Archive of one deflated member of zeros.
 fn archive_of_zeros(stated: u64, packed: &[u8]) -> Vec<u8> {
     let name = b"bomb.npy";
     let small = |size: u64| {
@@ -158,7 +158,7 @@ fn archive_of_zeros(stated: u64, packed: &[u8]) -> Vec<u8> {
 fn a_zip_bomb_is_refused_before_it_is_inflated() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("bomb.npz");
-    // 8 MB that are said to become 2 GB, and 1 kB that is said to become 2 GB, which deflate cannot.
+    // 8 MB that claim to inflate to 2 GB, and 1 kB that claims to inflate to 2 GB, which is impossible for deflate.
     fs::write(&path, archive_of_zeros(2_000_000_000, &vec![0; 8_000_000])).expect("written");
     let error = refused(&path);
     assert!(
@@ -191,7 +191,7 @@ fn encrypted_and_otherwise_packed_members_are_refused_by_name() {
         .expect("an entry");
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.npz");
-    // Flags stand 8 bytes behind the beginning of an entry, the method 10.
+    // Flags are 8 bytes after the start of an entry, the method is 10 bytes after it.
     for (at, value, expected) in [
         (8, 1, "`obj.npy` is encrypted"),
         (10, 12, "`obj.npy` is compressed by method 12"),

@@ -1,4 +1,4 @@
-//! One open file, read by several threads at once.
+//! Tests of one open file that several threads read at once.
 
 use taceva_arrays::{ArrayFile, ArrayFormat};
 
@@ -34,7 +34,7 @@ fn threads_that_share_a_file_read_the_same_rows() {
                 let (fresh, alone) = (&fresh, &alone);
                 scope.spawn(move || {
                     for step in 0..96_u64 {
-                        // Each in another order, forwards and backwards.
+                        // Each thread in another order, forwards and backwards.
                         let row = (step * [1, 5, 23, 19][thread]) % 24;
                         let read = fresh.read(array, row..row + 1).expect("reads");
                         assert!(

@@ -1,4 +1,4 @@
-//! Groups, attributes, damage and refusals of zarr, whose stores are folders.
+//! Tests of groups, attributes, damage and errors of zarr stores in folders.
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -35,7 +35,7 @@ fn groups_and_attributes_are_found_in_both_versions() {
 fn chunks_that_were_never_written_are_counted() {
     let two = opened("zarr/two.zarr");
     for (name, absent) in [
-        // 4 × 2 chunks, of which two rows are written.
+        // 4 × 2 chunks, two rows of them written.
         ("/unwritten/whole", 6),
         ("/unwritten/true", 8),
         ("/packed/zstd", 0),
@@ -74,7 +74,7 @@ fn what_is_not_read_says_so_and_leaves_the_others_alone() {
     ] {
         let message = file.read(name, 0..1).expect_err(name).to_string();
         assert!(message.contains(expected), "{name}: {message}");
-        // Blosc says with which codec it packed in its chunks alone.
+        // Blosc states its codec only in its chunks.
         if name != "/blosclz" {
             assert_eq!(file.find(name).expect_err(name).to_string(), message);
         }
@@ -129,10 +129,10 @@ fn damaged_stores_are_refused_or_read_and_never_panic() {
         let mut all = Vec::new();
         files(&copy, &mut all);
         all.sort_unstable();
-        // Every third file: chunks of one kind have neighbours.
+        // Every third file, because neighbouring chunks are alike.
         for (seed, file) in all.iter().enumerate().step_by(3) {
             let whole = fs::read(file).expect("readable");
-            // Only the array that the file belongs to is read.
+            // Only the array of the file is read.
             let array = file.ancestors().skip(1).find(|folder| {
                 folder.join("zarr.json").exists() || folder.join(".zarray").exists()
             });
@@ -195,7 +195,7 @@ fn a_shape_that_would_fill_a_memory_is_refused() {
     assert!(write("[4,-4]", "[4,4]").contains("list of lengths"));
 }
 
-/// A ZIP archive of members that are stored as they are, in their order.
+/// ZIP archive of stored members in this order.
 fn zip(members: &[(&str, &[u8])]) -> Vec<u8> {
     let mut archive = Vec::new();
     let mut directory = Vec::new();

@@ -1,10 +1,11 @@
-"""Writes the small files of these tests with the libraries that own the formats, then reads every file of this folder, and of the recordings that are tests too, back with them
-into expected.json: shape, type and SHA-256 of the elements, row by row, little-endian, 16 bit floats widened to 32.
+"""Writes the small files of these tests with the library of each format.
+
+Then reads every file of this folder, and the recordings that these tests use, with the same libraries into expected.json.
+Each array has its shape, type and SHA-256 of the elements, row by row, little-endian, 16 bit floats widened to 32.
 
     python -m venv v && v/bin/pip install numpy h5py hdf5storage scipy zarr numcodecs && v/bin/python make.py [KIND ...]
 
-Kinds: npy npz hdf5 zarr pickle matlab; all of them without an argument. The files of `tests/recordings` that these
-tests read beside are written there."""
+Kinds: npy npz hdf5 zarr pickle matlab; all of them without an argument. `tests/recordings` has its own scripts."""
 import hashlib, json, pickle, shutil, struct, sys
 from pathlib import Path
 import numpy as np
@@ -19,7 +20,7 @@ def fresh(name):
     return folder
 
 def told(a):
-    """Shape, element and digest of an array as the crate gives it."""
+    """Shape, element and digest of an array, as the crate returns them."""
     a = np.asarray(a)
     if a.dtype.kind in "SUO":
         def one(x):
@@ -35,7 +36,7 @@ def told(a):
     return {"shape": list(a.shape), "element": kind, "sha256": hashlib.sha256(body).hexdigest()}
 
 def flat(name, a):
-    """A record's fields, each as an array of its own."""
+    """Fields of a record, each as a separate array."""
     if a.dtype.names is None: return {name: told(a)}
     return {k: v for field in a.dtype.names for k, v in flat(f"{name}.{field}", a[field]).items()}
 
@@ -74,7 +75,7 @@ def write_npz():
     import zipfile
     a, b = numbers((9, 4, 3), "<f4", 200), numbers((9,), ">i2", 201)
     np.savez_compressed(folder / "plain.npz", a=np.asfortranarray(a), b=b, **{"größe": np.array(["x", "yz"])})
-    limit, zipfile.ZIP64_LIMIT = zipfile.ZIP64_LIMIT, 100                 # every size and the directory in fields of 64 bits
+    limit, zipfile.ZIP64_LIMIT = zipfile.ZIP64_LIMIT, 100                 # 64-bit fields for every size and for the directory
     with zipfile.ZipFile(folder / "zip64.npz", "w", zipfile.ZIP_DEFLATED) as z:
         for name, array in (("a", a), ("b", b)):
             with z.open(name + ".npy", "w", force_zip64=True) as f: np.lib.format.write_array(f, array)
@@ -116,30 +117,30 @@ def write_hdf5():
     with h5py.File(refused / "cycle.h5", "w") as f: f["a/b/x"] = np.arange(2); f["a/b/up"] = f["a"]; f["a/b/root"] = f["/"]
 
 def write_latest():
-    """Data layout version 5 of HDF5 2.0 with every kind of index but one: that of two axes that grow, which is refused."""
+    """Data layout version 5 of HDF5 2.0, with every kind of index except the unsupported index of two growing axes."""
     import h5py
     folder = HERE / "hdf5"; folder.mkdir(exist_ok=True)
     for name in ("latest", "latest-ordered"):
-        # Headers in order have messages with another head.
+        # Headers with creation order have messages with another head.
         h5py.get_config().track_order = name == "latest-ordered"
         with h5py.File(folder / f"{name}.h5", "w", libver="latest") as f:
             f.create_dataset("rgb", data=numbers((6, 40), "u1", 304), chunks=(2, 40), compression="gzip"); f["t"] = np.arange(6.0)
             f.create_dataset("whole", data=numbers((6, 40), "<f4", 305), chunks=(6, 40), compression="gzip", shuffle=True)
             f.create_dataset("grows", data=numbers((37, 3), "<f8", 306), chunks=(2, 3), maxshape=(None, 3), compression="lzf")
             f.create_dataset("grows-plain", data=numbers((37, 3), "<i2", 307), chunks=(5, 3), maxshape=(None, 3))
-            # More chunks than a page of the index has, and chunks that are not there.
+            # More chunks than one page of the index, and missing chunks.
             x = f.create_dataset("pages", (1100, 3), "<u2", chunks=(1, 3), fletcher32=True, fillvalue=7); x[::5] = numbers((220, 3), "<u2", 308)
             f.create_dataset("unfiltered", data=numbers((7, 5), ">i4", 309), chunks=(2, 2))
             f["group/deeper/half"] = numbers((5, 3), "<f2", 310)
             f.create_dataset("group/texts", data=["gel", "", "ü中"]); f.create_dataset("group/record", data=np.array([(1, 2.5), (3, 4.5)], [("n", "<i4"), ("Fz", "<f8")]), chunks=(1,), compression="gzip")
-            # So many that the header goes on elsewhere.
+            # So many that the header needs a continuation block.
             for k in range(7): f["whole"].attrs[f"note{k}"] = "x" * 90
     h5py.get_config().track_order = False
     with h5py.File(HERE / "refused" / "two-growing-axes.h5", "w", libver="latest") as f:
         f.create_dataset("rgb", data=numbers((6, 40), "u1", 311), chunks=(2, 40), maxshape=(None, None), compression="gzip"); f["t"] = np.arange(6.0)
 
 def write_links():
-    """Soft links in the default layout, one that leads nowhere, and links in the newer layout, which are refused by their name."""
+    """Soft links in the default layout, a dead soft link, and links in the newer layout, which are rejected by name."""
     import h5py
     refused = HERE / "refused"; refused.mkdir(exist_ok=True)
     with h5py.File(refused / "soft-links.h5", "w") as f:
@@ -251,11 +252,11 @@ def write_matlab():
     (folder / "seven-3.mat").unlink(missing_ok=True)
     del x["empty"], x["lines"]
     hdf5storage.savemat(str(folder / "seven-3.mat"), x | {"session": {"Fz": np.arange(4.0)[:, None]}}, format="7.3", oned_as="row", store_python_metadata=False, matlab_compatible=True)
-    with __import__("h5py").File(folder / "seven-3.mat", "a") as f:                            # as MATLAB itself writes long ones
+    with __import__("h5py").File(folder / "seven-3.mat", "a") as f:                            # as MATLAB writes long variables
         d = f.create_dataset("chunked", data=numbers((20, 6, 5), "<u2", 623), chunks=(4, 6, 5), compression="gzip"); d.attrs["MATLAB_class"] = np.bytes_("uint16")
 
 def matlab(name, x):
-    """The variables of a value of loadmat, named as the crate names them."""
+    """Variables of a loadmat value, named as in the crate."""
     full = lambda key: f"{name}.{key}"
     if x.dtype.names:
         one = x.shape in ((1, 1), ())
@@ -281,7 +282,7 @@ def read_mat(file):
     return found
 
 def columns(name, x):
-    """The columns of a value, named as the crate names them."""
+    """Columns of a value, named as in the crate."""
     if isinstance(x, np.ndarray) and x.dtype == object: x = x[()] if x.shape == () else list(x)
     full = lambda key: f"{name}.{key}" if name else str(key)
     if isinstance(x, dict): return {k: v for key, value in x.items() for k, v in columns(full(key), value).items()}

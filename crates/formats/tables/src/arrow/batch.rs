@@ -1,4 +1,4 @@
-//! Messages of a stream, and the locations of the buffers of a record batch.
+//! Messages of a stream, and locations of the buffers of a record batch.
 
 use std::fs::File;
 
@@ -8,7 +8,7 @@ use crate::flatbuffer::Table;
 use crate::limits;
 use crate::source::Source;
 
-/// The types of supported messages.
+/// Types of supported messages.
 pub(super) const SCHEMA: u8 = 1;
 pub(super) const RECORDS: u8 = 3;
 /// Marker before the length of a message, since Arrow 0.15.
@@ -16,7 +16,7 @@ const CONTINUED: u32 = u32::MAX;
 
 /// A message: its metadata, and the location of its body.
 pub(super) struct Message {
-    /// Offset of its first byte in the file.
+    /// Offset of the first byte in the file.
     pub(super) at: u64,
     pub(super) kind: u8,
     metadata: Vec<u8>,
@@ -25,7 +25,7 @@ pub(super) struct Message {
 }
 
 impl Message {
-    /// Reads the message at `at` and advances `at` past it; `None` at the end marker.
+    /// Reads the message at `at` and advances `at` past it. Returns `None` at the end marker.
     pub(super) fn next(
         source: &Source,
         file: &mut File,
@@ -33,7 +33,8 @@ impl Message {
     ) -> Result<Option<Message>, TableError> {
         let begin = *at;
         if begin >= source.length() {
-            let problem = "an Arrow stream without an end marker: it is cut short, or its writer was not closed";
+            let problem =
+                "the Arrow stream has no end marker: it is cut short, or its writer was not closed";
             return Err(source.damaged(Place::byte(begin), problem));
         }
         let mut word = |at: u64| {
@@ -85,7 +86,7 @@ impl Message {
 /// A record batch: rows stored column by column.
 #[derive(Debug)]
 pub(super) struct Batch {
-    /// Number of its first row in the table.
+    /// Number of the first row in the table.
     pub(super) first: u64,
     pub(super) rows: u64,
     /// Offsets of buffers in the file, and their lengths.
@@ -100,7 +101,7 @@ pub(super) struct Buffer {
 }
 
 impl Batch {
-    /// The batch in a message, whose schema has `buffers` buffers.
+    /// Batch in a message. The schema has `buffers` buffers.
     pub(super) fn new(message: &Message, first: u64, buffers: usize) -> Result<Batch, String> {
         let header = message.header()?;
         let rows =
@@ -116,7 +117,7 @@ impl Batch {
                     bytes,
                 }),
                 false => Err(format!(
-                    "a buffer of {bytes} bytes from byte {offset} of {}",
+                    "a buffer has {bytes} bytes from byte {offset}, but the body has {}",
                     message.body_bytes
                 )),
             }
@@ -132,7 +133,7 @@ impl Batch {
             None => None,
             Some(0) => Some(Codec::Lz4Frame),
             Some(1) => Some(Codec::Zstd),
-            Some(other) => return Err(format!("compression {other}, expected 0 or 1")),
+            Some(other) => return Err(format!("the compression is {other}, expected 0 or 1")),
         };
         Ok(Batch {
             first,

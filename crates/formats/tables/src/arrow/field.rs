@@ -1,11 +1,11 @@
-//! The schema of a stream: the types of its columns, and their buffers in a batch.
+//! Schema of a stream: the types of its columns, and their buffers in a batch.
 
 use crate::flatbuffer::Table;
 use crate::limits;
 use crate::parquet::{ColumnKind, LeafForm, Node, NodeKind};
 use crate::path::longest;
 
-/// The schema, as far as it is used.
+/// Used part of the schema.
 pub(super) struct Schema {
     pub(super) fields: Vec<Field>,
     /// Metadata of the schema, by key.
@@ -53,7 +53,7 @@ pub(super) enum Number {
     Float,
     Decimal(i32),
     Time(&'static str),
-    /// No number: plain bytes.
+    /// Plain bytes without a number.
     Opaque,
 }
 
@@ -63,7 +63,7 @@ const UNITS: [&str; 4] = ["s", "ms", "us", "ns"];
 const REMEDY: &str = "write Parquet: `ds.to_parquet(\"table.parquet\")` of datasets, `pyarrow.parquet.write_table(table, \
     \"table.parquet\")`";
 
-/// The schema in the header of a message; the error names the unsupported part, with the remedy.
+/// Parses the schema in the header of a message. The error names the unsupported part, with the remedy.
 pub(super) fn schema(header: Table<'_>) -> Result<Schema, String> {
     if header.short(0).is_some_and(|order| order != 0) {
         return Err(format!(
@@ -93,7 +93,7 @@ pub(super) fn schema(header: Table<'_>) -> Result<Schema, String> {
     })
 }
 
-/// Counts of the fields and buffers made so far.
+/// Counts of fields and buffers so far.
 struct Made {
     buffers: usize,
     fields: usize,
@@ -138,7 +138,7 @@ impl Made {
         Ok(Field { name, buffer, kind })
     }
 
-    /// The kind of a field without its children, and the number of its own buffers.
+    /// Kind of a field without its children, and number of its own buffers.
     fn kind(&self, field: Table<'_>, name: &str) -> Result<(Flat, usize), String> {
         let own = field.table(3);
         let short = |number, otherwise| own.and_then(|own| own.short(number)).unwrap_or(otherwise);
@@ -259,7 +259,7 @@ impl Made {
     }
 }
 
-/// A kind before its children are read.
+/// Kind of a field without its children.
 enum Flat {
     Leaf(FieldKind),
     Struct,
@@ -268,7 +268,7 @@ enum Flat {
 }
 
 impl Field {
-    /// The field as a Parquet column, for names, kinds and paths.
+    /// The field in the form of a Parquet column, for names, kinds and paths.
     pub(super) fn node(&self) -> Node {
         let leaf = |kind| NodeKind::Leaf {
             column: self.buffer,
@@ -304,7 +304,7 @@ impl Field {
     }
 }
 
-/// The field at the start of `name`, restricted to the members of structures that `name` selects.
+/// Field at the start of `name`, restricted to the members of structures that `name` selects.
 pub(super) fn named(fields: &[Field], name: &str) -> Option<Field> {
     let names = fields.iter().map(|field| field.name.as_str());
     let (at, rest) = longest(name, names)?;

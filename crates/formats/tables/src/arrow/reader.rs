@@ -40,7 +40,7 @@ impl<'t> Reader<'t> {
         })
     }
 
-    /// The cells of `count` entries of a field, from entry `begin` on.
+    /// Cells of `count` entries of a field, starting at entry `begin`.
     pub(super) fn cells(
         &mut self,
         field: &Field,
@@ -90,7 +90,7 @@ impl<'t> Reader<'t> {
                         (true, false) => Cell::Bytes(own.to_vec()),
                         (true, true) => match std::str::from_utf8(own) {
                             Ok(text) => Cell::Text(text.to_owned()),
-                            Err(_) => return Err(self.damaged("a text that is not UTF-8")),
+                            Err(_) => return Err(self.damaged("a text is not UTF-8")),
                         },
                     });
                 }
@@ -157,7 +157,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// The ends of `count` entries from entry `begin` on, after the start of the first.
+    /// Ends of `count` entries from entry `begin` on, relative to the start of the first.
     fn offsets(
         &mut self,
         index: usize,
@@ -167,7 +167,7 @@ impl<'t> Reader<'t> {
     ) -> Result<Vec<u64>, TableError> {
         let raw = self.entries(index, begin, count + 1, bytes)?;
         let offsets: Vec<u64> = raw.chunks_exact(bytes).map(unsigned).collect();
-        // A negative offset is beyond any buffer.
+        // A negative offset exceeds any buffer.
         match offsets.windows(2).all(|pair| pair[0] <= pair[1]) {
             true => Ok(offsets),
             false => Err(self.damaged("decreasing offsets")),
@@ -200,7 +200,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// `count` bytes of a buffer, from its byte `begin` on.
+    /// `count` bytes of a buffer, starting at byte `begin`.
     fn buffer(&mut self, index: usize, begin: u64, count: u64) -> Result<Vec<u8>, TableError> {
         if count == 0 {
             return Ok(Vec::new());
@@ -221,7 +221,7 @@ impl<'t> Reader<'t> {
                 self.source
                     .bytes(&mut self.file, buffer.at, buffer.bytes, limits::PAGE_BYTES)?;
             let whole = unpacked(codec, &packed).map_err(|problem| self.damaged(problem))?;
-            // The buffers of one column are needed together; others are not.
+            // Only the buffers of one column are needed at the same time.
             let held: usize = self.unpacked.values().map(Vec::len).sum();
             if (held + whole.len()) as u64 > limits::PAGE_BYTES {
                 self.unpacked.clear();

@@ -2,16 +2,16 @@
 
 use serde_json::Value;
 
-/// The last of the 12-bit codes of a depth map.
+/// Last of the 12-bit codes of a depth map.
 const LAST_CODE: u16 = 4095;
-/// Keys of the parameters, besides the one for logarithmic codes.
+/// Keys of the parameters. The key for logarithmic codes is separate.
 const PARAMETERS: [&str; 3] = ["video.depth_min", "video.depth_max", "video.shift"];
 const LOGARITHMIC: &str = "video.use_log";
 
 /// Distances of the codes 0 to 4095 of a depth map.
 ///
 /// # Units
-/// Millimetres from the camera. LeRobot states its parameters in metres, whatever unit was recorded.
+/// Millimetres from the camera. LeRobot states its parameters in metres, for any recorded unit.
 ///
 /// ```
 /// use taceva_tables::DepthCodes;
@@ -30,8 +30,8 @@ pub struct DepthCodes {
 }
 
 impl DepthCodes {
-    /// Codes of distances in the range `ends_m`, m. Logarithmic codes are linear in the logarithm of distance plus `shift_m`, m. `None` if
-    /// the ends form no range, or have no logarithm.
+    /// Codes of distances in the range `ends_m`, m. Logarithmic codes are linear in the logarithm of the distance plus `shift_m`, m. `None` if the
+    /// range is empty or has no logarithm.
     pub fn new(ends_m: [f64; 2], shift_m: f64, is_logarithmic: bool) -> Option<DepthCodes> {
         let [least_m, greatest_m] = ends_m;
         let are_finite = ends_m
@@ -48,7 +48,7 @@ impl DepthCodes {
         })
     }
 
-    /// The distance of a code, mm; `None` above 4095.
+    /// Distance of a code, mm; `None` above 4095.
     pub fn millimetres(&self, code: u16) -> Option<f64> {
         if code > LAST_CODE {
             return None;
@@ -62,7 +62,7 @@ impl DepthCodes {
             }
             false => between(self.least_m, self.greatest_m),
         };
-        // The stated ends are exact, whatever the rounding of their logarithms.
+        // The stated ends are exact, without the rounding of their logarithms.
         let metres = match code {
             0 => self.least_m,
             LAST_CODE => self.greatest_m,
@@ -71,20 +71,20 @@ impl DepthCodes {
         Some(metres * 1000.0)
     }
 
-    /// The first and the last distance, mm.
+    /// First and last distance, mm.
     pub fn ends_mm(&self) -> [f64; 2] {
         [self.least_m * 1000.0, self.greatest_m * 1000.0]
     }
 
     /// True if some neighbouring codes differ by less than a millimetre.
     pub fn is_finer_than_millimetres(&self) -> bool {
-        // Logarithmic codes are densest at their beginning.
+        // Logarithmic codes are densest at the start.
         let first = self.millimetres(0).zip(self.millimetres(1));
         first.is_some_and(|(first, second)| second - first < 1.0)
     }
 }
 
-/// The codes that a feature states under `info`; the error names the missing key.
+/// Codes of a feature, from its `info`. The error names the missing key.
 pub(super) fn codes(feature: &Value) -> Result<DepthCodes, String> {
     let own = |key: &str| {
         ["info", "video_info"]
@@ -108,13 +108,13 @@ pub(super) fn codes(feature: &Value) -> Result<DepthCodes, String> {
             .collect();
         missing.extend(is_logarithmic.is_none().then_some(LOGARITHMIC));
         return Err(format!(
-            "a depth map whose codes cannot be converted to millimetres without `{}`: {remedy}",
+            "the codes of the depth map cannot be converted to millimetres without `{}`: {remedy}",
             missing.join("`, `")
         ));
     };
     DepthCodes::new([least, greatest], shift, is_logarithmic).ok_or_else(|| {
         format!(
-            "a depth map from {least} m to {greatest} m with a shift of {shift} m, which is not a valid range of distances: {remedy}"
+            "the depth map is from {least} m to {greatest} m with a shift of {shift} m, which is not a valid range: {remedy}"
         )
     })
 }
@@ -123,7 +123,7 @@ pub(super) fn codes(feature: &Value) -> Result<DepthCodes, String> {
 mod tests {
     use super::*;
 
-    /// As `lerobot` 0.6.1 reads them in whole millimetres (`dequantize_depth` of NumPy).
+    /// Compares with `lerobot` 0.6.1, which reads whole millimetres (`dequantize_depth` of NumPy).
     #[test]
     fn codes_are_the_millimetres_that_lerobot_reads() {
         let codes = DepthCodes::new([0.01, 10.0], 3.5, true).expect("a range");

@@ -12,19 +12,19 @@ use crate::error::{Place, TableError};
 use crate::parquet::ParquetTable;
 use crate::source::Source;
 
-/// Path of the descriptions of episodes in version 3.
+/// Path of the episode descriptions in version 3.
 const EPISODES: &str = "meta/episodes/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet";
 
-/// A clip of a video: the part with one episode.
+/// Clip of a video with one episode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Clip {
     pub(super) chunk: u64,
     pub(super) file: u64,
-    /// Start, seconds from the beginning of the file.
+    /// Start in seconds from the beginning of the file.
     pub(super) from: f64,
 }
 
-/// The indices of the episodes of version 2.1, in the order of their lines.
+/// Episode indices of version 2.1, in the order of their lines.
 pub(super) fn of_lines(folder: &Path) -> Result<Vec<u64>, TableError> {
     let (source, lines) = json_lines(folder, "meta/episodes.jsonl")?;
     lines
@@ -32,13 +32,13 @@ pub(super) fn of_lines(folder: &Path) -> Result<Vec<u64>, TableError> {
         .map(|(at, line)| {
             let index = line.get("episode_index").and_then(Value::as_u64);
             index.ok_or_else(|| {
-                source.damaged(Place::byte(*at), "an episode without an `episode_index`")
+                source.damaged(Place::byte(*at), "an episode has no `episode_index`")
             })
         })
         .collect()
 }
 
-/// Number of rows of each episode that states it, with the path of its description.
+/// Number of rows of each episode, if stated, with the path of its description.
 pub(super) fn lengths(
     folder: &Path,
     is_in_lines: bool,
@@ -74,7 +74,7 @@ pub(super) fn lengths(
     Ok(lengths)
 }
 
-/// The clips of the video called `key` in version 3, by episode.
+/// Clips of the video `key` in version 3, by episode.
 pub(super) fn clips(folder: &Path, key: &str) -> Result<BTreeMap<u64, Clip>, TableError> {
     let mut clips = BTreeMap::new();
     for table in tables(folder)? {
@@ -103,7 +103,7 @@ pub(super) fn clips(folder: &Path, key: &str) -> Result<BTreeMap<u64, Clip>, Tab
             else {
                 let source = Source::new(table.path())?;
                 let problem = format!(
-                    "an episode {} without a file and a time in it",
+                    "episode {} has no video file or no start time",
                     episode.text()
                 );
                 return Err(source.damaged(Place::of(key), problem));
@@ -126,7 +126,7 @@ fn tables(folder: &Path) -> Result<Vec<ParquetTable>, TableError> {
         .collect()
 }
 
-/// The texts of tasks by their index.
+/// Texts of tasks, by index.
 pub(super) fn tasks(
     folder: &Path,
     is_in_lines: bool,

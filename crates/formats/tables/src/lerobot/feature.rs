@@ -17,16 +17,16 @@ use crate::parquet::{WrittenColumn, WrittenKind};
 pub struct WrittenFeature {
     /// Name, without `/`, and kind of the cells.
     pub column: WrittenColumn,
-    /// Shape in one row; for a picture height, width, colours.
+    /// Shape in one row. For a picture: height, width and colours.
     pub shape: Vec<u64>,
     /// Names of the elements, or of the axes of a picture.
     pub names: Option<Vec<String>>,
-    /// Unit of the numbers, or several in the order of the names; LeRobot ignores this key.
+    /// Unit of the numbers, or several units in the order of the names. LeRobot ignores this key.
     pub unit: Option<String>,
 }
 
 impl WrittenFeature {
-    /// A feature of this shape with unnamed elements. LeRobot reads a list of one number as a number, so it is written as one.
+    /// A feature of this shape with unnamed elements. A list of one number is written as a number, because LeRobot reads it so.
     pub fn new(column: WrittenColumn, shape: impl IntoIterator<Item = u64>) -> WrittenFeature {
         WrittenFeature {
             column,
@@ -36,7 +36,7 @@ impl WrittenFeature {
         }
     }
 
-    /// The same feature with names of its elements, or of the axes of a picture.
+    /// Sets the names of the elements, or of the axes of a picture.
     #[must_use]
     pub fn with_names<N: Into<String>>(self, names: impl IntoIterator<Item = N>) -> WrittenFeature {
         WrittenFeature {
@@ -45,7 +45,7 @@ impl WrittenFeature {
         }
     }
 
-    /// The same feature with the unit of its numbers.
+    /// Sets the unit of the numbers.
     #[must_use]
     pub fn with_unit(self, unit: impl Into<String>) -> WrittenFeature {
         WrittenFeature {

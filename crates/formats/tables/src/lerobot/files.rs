@@ -8,7 +8,7 @@ use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
 
-/// Resolves `path` in `folder`; rejects a link that leads outside.
+/// Resolves `path` in `folder`. Rejects a link that leads outside.
 pub(super) fn inside(folder: &Path, path: &Path) -> Result<PathBuf, TableError> {
     let whole = folder.join(path);
     let io = |source: std::io::Error| TableError::Io {
@@ -24,12 +24,12 @@ pub(super) fn inside(folder: &Path, path: &Path) -> Result<PathBuf, TableError> 
         false => Err(TableError::Unsupported {
             path: whole,
             place: Place::default(),
-            problem: "a link leads out of the folder; copy the folder with the targets of its links (`cp -rL`)".to_owned(),
+            problem: "a link leads outside the folder; copy the folder with the targets of its links (`cp -rL`)".to_owned(),
         }),
     }
 }
 
-/// The text of a metadata file.
+/// Text of a metadata file.
 fn description(folder: &Path, name: &str) -> Result<(Source, Vec<u8>), TableError> {
     let source = Source::new(&inside(folder, name.as_ref())?)?;
     let mut file = source.open()?;
@@ -37,7 +37,7 @@ fn description(folder: &Path, name: &str) -> Result<(Source, Vec<u8>), TableErro
     Ok((source, bytes))
 }
 
-/// The value of a JSON file.
+/// Value of a JSON file.
 pub(super) fn json_file(folder: &Path, name: &str) -> Result<(Source, Value), TableError> {
     let (source, bytes) = description(folder, name)?;
     let json = serde_json::from_slice(&bytes);
@@ -46,7 +46,7 @@ pub(super) fn json_file(folder: &Path, name: &str) -> Result<(Source, Value), Ta
     Ok((source, json))
 }
 
-/// The values of a file of JSON lines, each with the byte offset of its line.
+/// Values of a file of JSON lines, each with the byte offset of its line.
 pub(super) fn json_lines(
     folder: &Path,
     name: &str,

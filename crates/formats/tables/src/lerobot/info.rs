@@ -1,4 +1,4 @@
-//! `meta/info.json`: the version, the paths of files, and the features.
+//! `meta/info.json`: version, paths of files, and features.
 
 use serde_json::Value;
 
@@ -7,32 +7,32 @@ use super::pattern::Pattern;
 use crate::error::{Place, TableError, shown};
 use crate::source::Source;
 
-/// The supported layouts.
+/// Supported layouts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layout {
-    /// One file for each episode, described by JSON lines.
+    /// One file per episode, described by JSON lines.
     V21,
     /// Episodes in shared files, described by Parquet files.
     V30,
 }
 
-/// A column of a LeRobot dataset, as `meta/info.json` describes it.
+/// A column of a LeRobot dataset, from `meta/info.json`.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Feature {
-    /// Name, as `observation.state`.
+    /// Name, such as `observation.state`.
     pub name: String,
-    /// `video`, `image`, or the type of its numbers, such as `float32`.
+    /// `video`, `image`, or the type of the numbers, such as `float32`.
     pub dtype: String,
-    /// Lengths of its axes in one row; for pictures height, width and colours.
+    /// Lengths of the axes in one row. For pictures: height, width and colours.
     pub shape: Vec<u64>,
-    /// Names of its numbers, in order; empty if not stated.
+    /// Names of the numbers, in order; empty if not stated.
     pub names: Vec<String>,
-    /// Frame rate of a video, 1/s: its own if stated, else that of the dataset; 0 for other features if the dataset states none.
+    /// Frame rate of a video, 1/s: its own if stated, else that of the dataset. For other features without a dataset rate: 0.
     pub fps: f64,
-    /// True for a depth map, whose 12-bit codes are not brightness.
+    /// True for a depth map. Its 12-bit codes are distances, not brightness.
     pub is_depth: bool,
-    /// The distances of its codes; `None` if the feature does not state them, or is no depth map.
+    /// Distances of the codes; `None` if the feature does not state them, or is not a depth map.
     pub depth: Option<DepthCodes>,
 }
 
@@ -47,7 +47,7 @@ pub(super) struct Info {
     pub(super) unknown_depths: Vec<(String, String)>,
 }
 
-/// Parses the file at `source`.
+/// Parses the file of `source`.
 pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
     let wrong = |name: &str, problem: String| source.damaged(Place::of(name), problem);
     let text = |name: &str| {
@@ -85,7 +85,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
     let mut unknown_depths = Vec::new();
     for (name, feature) in listed {
         let dtype = feature.get("dtype").and_then(Value::as_str);
-        let dtype = dtype.ok_or_else(|| wrong(name, "a feature without a dtype".to_owned()))?;
+        let dtype = dtype.ok_or_else(|| wrong(name, "the feature has no `dtype`".to_owned()))?;
         let shape = feature.get("shape").and_then(Value::as_array);
         let own = ["info", "video_info"]
             .iter()

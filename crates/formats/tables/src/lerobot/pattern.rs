@@ -15,7 +15,7 @@ pub(super) struct Pattern {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Part {
     Text(String),
-    /// A number or a text by name, a number with at least this many digits.
+    /// A named field. A number has at least this many digits.
     Value {
         name: String,
         digits: usize,
@@ -30,7 +30,7 @@ pub(super) enum Value<'a> {
 }
 
 impl Pattern {
-    /// Parses `text`; the error is a message if it is no pattern of relative paths.
+    /// Parses `text`. The error is a message if it is not a pattern of relative paths.
     pub(super) fn parse(text: &str) -> Result<Pattern, String> {
         let wrong = || {
             format!(
@@ -71,7 +71,7 @@ impl Pattern {
         }
     }
 
-    /// The path with values in place of names; the error is a message if a name has no value, or the path would leave the folder.
+    /// Path with values in place of names. The error is a message if a name has no value, or the path would leave the folder.
     pub(super) fn fill(&self, values: &[(&str, Value<'_>)]) -> Result<PathBuf, String> {
         let mut path = String::new();
         for part in &self.parts {
@@ -80,7 +80,9 @@ impl Pattern {
                 Part::Value { name, digits } => {
                     let value = values.iter().find(|(known, _)| known == name);
                     match value
-                        .ok_or_else(|| format!("unknown `{}` in a pattern of paths", shown(name)))?
+                        .ok_or_else(|| {
+                            format!("unknown field `{}` in a path pattern", shown(name))
+                        })?
                         .1
                     {
                         Value::Number(number) => path.push_str(&format!("{number:0digits$}")),
@@ -91,11 +93,11 @@ impl Pattern {
         }
         match is_inside(&path) {
             true => Ok(PathBuf::from(path)),
-            false => Err(format!("`{}` leads out of the folder", shown(&path))),
+            false => Err(format!("`{}` leads outside the folder", shown(&path))),
         }
     }
 
-    /// The files in `folder` that match the pattern, with numbers for all names, sorted by these numbers.
+    /// Files in `folder` that match the pattern, with numbers for all names, sorted by these numbers.
     pub(super) fn files(&self, folder: &Path) -> Result<Vec<PathBuf>, std::io::Error> {
         let mut found = vec![(Vec::new(), PathBuf::new())];
         for component in self.components() {
@@ -123,7 +125,7 @@ impl Pattern {
         Ok(found.into_iter().map(|(_, path)| path).collect())
     }
 
-    /// The parts between slashes.
+    /// Parts between slashes.
     fn components(&self) -> Vec<Vec<Part>> {
         let mut components = vec![Vec::new()];
         for part in &self.parts {
@@ -148,7 +150,7 @@ impl Pattern {
     }
 }
 
-/// The numbers of `name` at the fields of `component`; `None` if it does not match.
+/// Numbers of `name` at the fields of `component`; `None` if it does not match.
 fn matches(component: &[Part], name: &str) -> Option<Vec<u64>> {
     let mut rest = name;
     let mut numbers = Vec::new();

@@ -1,8 +1,8 @@
-//! Statistics of a feature over all rows for `meta/stats.json`, by which policies normalise.
+//! Statistics of a feature over all rows, for `meta/stats.json`. Policies use them for normalisation.
 
 use serde_json::{Value, json};
 
-/// Minimum, maximum, mean and standard deviation of each element of a feature, in its unit. Policies normalise by them. They are no scores,
+/// Minimum, maximum, mean and standard deviation of each element of a feature, in its unit. Policies use them for normalisation. They are not scores,
 /// and rounding errors accumulate with each row.
 ///
 /// ```
@@ -26,7 +26,7 @@ struct Element {
     least: f64,
     greatest: f64,
     mean: f64,
-    /// The sum of squared differences from the mean (Welford 1962).
+    /// Sum of squared differences from the mean (Welford 1962).
     squares: f64,
 }
 
@@ -46,7 +46,7 @@ impl FeatureStats {
         }
     }
 
-    /// Adds a row, one number for each element; skips a number that is not finite.
+    /// Adds a row, one number per element. Skips a number that is not finite.
     pub fn add(&mut self, numbers: impl IntoIterator<Item = f64>) {
         self.rows += 1;
         let places = self.elements.iter_mut().zip(numbers);
@@ -60,7 +60,7 @@ impl FeatureStats {
         }
     }
 
-    /// Adds the pixels of a picture, with the elements of each pixel together. They count as one row.
+    /// Adds the pixels of a picture, with the elements of each pixel side by side. A picture counts as one row.
     pub fn add_picture(&mut self, numbers: impl IntoIterator<Item = f64>) {
         let length = self.elements.len().max(1);
         let rows = self.rows + 1;
@@ -79,12 +79,12 @@ impl FeatureStats {
         self.rows
     }
 
-    /// The mean of each element; 0 if it had no number.
+    /// Mean of each element; 0 if it had no number.
     pub fn mean(&self) -> Vec<f64> {
         self.elements.iter().map(|element| element.mean).collect()
     }
 
-    /// The statistics as in `meta/stats.json`; `None` if an element had no number. Elements of a picture are lists of lists.
+    /// Statistics in the form of `meta/stats.json`; `None` if an element had no number. Elements of a picture are lists of lists.
     pub(super) fn json(&self, is_picture: bool) -> Option<Value> {
         let is_seen = self.elements.iter().all(|element| element.count > 0.0);
         if !is_seen || self.elements.is_empty() {

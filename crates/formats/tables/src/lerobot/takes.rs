@@ -1,4 +1,4 @@
-//! Check of the rows of each episode against its description: two takes under one number would both get the pictures of the first.
+//! Check of the rows of each episode against its description. Two takes with one number would both get the pictures of the first.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ struct Take {
     last_s: f64,
 }
 
-/// Checks that every episode is one take with as many rows as its description states. Datasets without episode numbers are not checked.
+/// Checks that every episode is one take with the number of rows in its description. Datasets without episode numbers are not checked.
 pub(super) fn check(dataset: &LeRobot) -> Result<(), TableError> {
     let has = |name: &str| dataset.names.iter().any(|known| known == name);
     if !has("episode_index") {
@@ -28,7 +28,7 @@ pub(super) fn check(dataset: &LeRobot) -> Result<(), TableError> {
         false => Vec::new(),
     };
     let mut takes: BTreeMap<u64, Take> = BTreeMap::new();
-    // The first row whose time is not after that of the previous row of its episode.
+    // First row whose time is not after that of the previous row of its episode.
     let mut again: Option<(u64, u64)> = None;
     for (row, episode) in episodes.iter().enumerate() {
         let Cell::Integer(episode) = episode else {

@@ -18,7 +18,7 @@ pub struct VideoFrames {
 }
 
 impl VideoFrames {
-    /// The file, relative to the folder of the dataset, and the index of the frame in it, from 0; `None` beyond the last row.
+    /// File, relative to the folder of the dataset, and index of the frame in it, from 0; `None` beyond the last row.
     ///
     /// ```
     /// # use taceva_tables::LeRobot;
@@ -33,7 +33,7 @@ impl VideoFrames {
         Some((self.files.get(file as usize)?, frame))
     }
 
-    /// The files, in the order in which rows first need them.
+    /// Files, in the order in which rows first need them.
     pub fn files(&self) -> &[PathBuf] {
         &self.files
     }
@@ -42,7 +42,7 @@ impl VideoFrames {
 /// Maximum distance of a time stamp from the nearest frame, in frames.
 const TOLERANCE: f64 = 0.25;
 
-/// The frames of `dataset` in the video called `key`.
+/// Frames of `dataset` in the video `key`.
 pub(super) fn frames(dataset: &LeRobot, key: &str) -> Result<VideoFrames, TableError> {
     let videos = || {
         dataset
@@ -90,7 +90,7 @@ pub(super) fn frames(dataset: &LeRobot, key: &str) -> Result<VideoFrames, TableE
     })
 }
 
-/// The files of one video that rows need.
+/// Video files that rows need.
 struct Files<'a> {
     key: &'a str,
     pattern: &'a Pattern,
@@ -98,7 +98,7 @@ struct Files<'a> {
     /// Clips of episodes in shared files; `None` if each episode has its own file.
     clips: Option<BTreeMap<u64, Clip>>,
     paths: Vec<PathBuf>,
-    /// The file of each episode, and the start of the episode in it, seconds.
+    /// File of each episode, and start of the episode in it, seconds.
     places: BTreeMap<u64, (u32, f64)>,
 }
 
@@ -144,7 +144,7 @@ impl Files<'_> {
             ("episode_chunk", Value::Number(episode / self.chunks_size)),
             ("episode_index", Value::Number(episode)),
         ])?;
-        // Episodes that share a file are consecutive.
+        // Episodes in one file are consecutive.
         if self.paths.last() != Some(&path) {
             self.paths.push(path);
         }
@@ -155,7 +155,7 @@ impl Files<'_> {
     }
 }
 
-/// The frame nearest to a position in frames; `None` if every frame is further than [`TOLERANCE`].
+/// Frame nearest to a position in frames; `None` if every frame is further than [`TOLERANCE`].
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

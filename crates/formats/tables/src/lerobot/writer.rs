@@ -1,4 +1,4 @@
-//! Writer of LeRobot folders, version 3.0, episode after episode. Pictures are stored in the tables, so that no video encoder is needed.
+//! Writer of LeRobot folders, version 3.0, episode by episode. Pictures are stored in the tables, so no video encoder is needed.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -14,11 +14,11 @@ use crate::cell::Cell;
 use crate::error::TableError;
 use crate::parquet::{ParquetWriter, WrittenColumn, WrittenKind, huggingface_features};
 
-/// Size of a data file from which the next episode begins another, MiB.
+/// Size of a data file from which the next episode starts a new file, MiB.
 const FILE_MB: u64 = 100;
 /// Number of data files in one folder.
 pub(super) const FILES_A_CHUNK: u64 = 1000;
-/// The columns of every LeRobot dataset, after its features.
+/// Columns of every LeRobot dataset, after its features.
 const OWN: [(&str, WrittenKind, &str); 5] = [
     ("timestamp", WrittenKind::Single, "float32"),
     ("frame_index", WrittenKind::Integer, "int64"),
@@ -41,11 +41,11 @@ pub(super) struct Episode {
 #[derive(Debug)]
 struct DataFile {
     writer: ParquetWriter,
-    /// Index over all chunks.
+    /// Index of the file over all chunks.
     number: u64,
 }
 
-/// A LeRobot folder that is being written: `data`, then `meta`.
+/// A LeRobot folder during writing: `data`, then `meta`.
 ///
 /// ```
 /// use taceva_tables::{Cell, LeRobot, LeRobotWriter, WrittenColumn, WrittenFeature, WrittenKind};
@@ -83,11 +83,11 @@ pub struct LeRobotWriter {
 }
 
 impl LeRobotWriter {
-    /// Creates a dataset in the empty folder `folder`, for the robot called `robot`, at `rate_hz` frames a second.
+    /// Creates a dataset in the empty folder `folder`, for the robot `robot`, with `rate_hz` frames per second.
     ///
     /// # Errors
-    /// [`TableError::Mismatch`] if a feature has the name of one of LeRobot's own columns, or a name with `/`, or if the rate is not above
-    /// 0; [`TableError::Write`].
+    /// [`TableError::Mismatch`] if a feature has the name of one of LeRobot's own columns or a name with `/`, or if the rate is not above 0.
+    /// [`TableError::Write`].
     pub fn create(
         folder: &Path,
         robot: &str,
@@ -124,7 +124,7 @@ impl LeRobotWriter {
             if name.contains('/') {
                 return Err(refused(
                     name,
-                    "a `/` in the name of a feature, which LeRobot reads as a level; write `.`",
+                    "a feature name contains `/`, which LeRobot reads as a level; use `.`",
                 ));
             }
         }
@@ -154,7 +154,7 @@ impl LeRobotWriter {
         })
     }
 
-    /// Begins an episode with the task `task`; this ends the previous episode.
+    /// Begins an episode with the task `task`. This ends the previous episode.
     ///
     /// # Errors
     /// As [`ParquetWriter::create`] and [`ParquetWriter::finish`] if a data file is full.
@@ -182,17 +182,17 @@ impl LeRobotWriter {
         Ok(())
     }
 
-    /// Adds a row to the episode, one cell for each feature, without LeRobot's own columns.
+    /// Adds a row to the episode: one cell per feature, without LeRobot's own columns.
     ///
     /// # Errors
-    /// [`TableError::Mismatch`] if no episode was begun; else as [`ParquetWriter::push`].
+    /// [`TableError::Mismatch`] if no episode was begun. Otherwise as [`ParquetWriter::push`].
     pub fn push(&mut self, mut row: Vec<Cell>) -> Result<(), TableError> {
         let number = self.episodes.len();
         let (Some(data), Some(episode)) = (&mut self.data, self.episodes.last_mut()) else {
             return Err(TableError::Mismatch {
                 path: self.folder.clone(),
                 name: "episode_index".to_owned(),
-                problem: "a row before the first episode".to_owned(),
+                problem: "a row was added before the first episode".to_owned(),
             });
         };
         for (feature, cell) in self.features.iter().zip(&mut row) {
@@ -230,8 +230,8 @@ impl LeRobotWriter {
         Ok(())
     }
 
-    /// Ends the dataset and writes its metadata. `pictures` has the statistics of pictures by feature, with numbers from 0 to 1. Returns
-    /// the subfolders with files, so that the caller can sync them.
+    /// Ends the dataset and writes its metadata. `pictures` has the statistics of pictures by feature, for values from 0 to 1. Returns the subfolders
+    /// with files, so the caller can sync them.
     ///
     /// # Errors
     /// [`TableError::Write`].
@@ -285,7 +285,7 @@ impl LeRobotWriter {
         Ok(())
     }
 
-    /// The content of `meta/info.json`.
+    /// Content of `meta/info.json`.
     fn info(&self) -> Value {
         let mut features: Map<String, Value> = self
             .features
@@ -331,7 +331,7 @@ impl LeRobotWriter {
     }
 }
 
-/// The time of a frame in its episode, s, as LeRobot computes it.
+/// Time of a frame in its episode, s, computed as in LeRobot.
 #[expect(
     clippy::cast_precision_loss,
     reason = "frames of an episode are far fewer than 2^53"
@@ -349,10 +349,10 @@ fn rate(rate_hz: f64) -> Value {
     }
 }
 
-/// The number in a cell; NaN if there is none.
+/// Number in a cell; NaN if there is none.
 #[expect(
     clippy::cast_precision_loss,
-    reason = "what is said of a feature is rounded anyway"
+    reason = "statistics of a feature are rounded anyway"
 )]
 fn number(cell: &Cell) -> f64 {
     match cell {

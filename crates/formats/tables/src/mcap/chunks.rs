@@ -1,4 +1,4 @@
-//! Chunks of an MCAP file, unpacked one at a time, with checks of their checksums.
+//! Chunks of an MCAP file, unpacked one at a time, with verified checksums.
 
 use std::fs::File;
 use std::sync::Arc;
@@ -11,10 +11,10 @@ use crate::growth::Growth;
 use crate::limits;
 use crate::source::Source;
 
-/// Number of unpacked chunks in the cache: writers with several threads let the times of neighbours overlap.
+/// Number of unpacked chunks in the cache. Two are needed because the times of neighbours may overlap, if several threads wrote the file.
 const KEPT: usize = 2;
 
-/// Reader of records by offset, through one cursor.
+/// Reader of records by offset, with one cursor.
 pub(super) struct Chunks<'a> {
     source: &'a Source,
     file: File,
@@ -32,7 +32,7 @@ impl<'a> Chunks<'a> {
         })
     }
 
-    /// The code and the length of the record at `at`.
+    /// Code and length of the record at `at`.
     pub(super) fn head(&mut self, at: u64) -> Result<(u8, u64), TableError> {
         let head = self.source.bytes(&mut self.file, at, HEAD, HEAD)?;
         let mut bytes = Bytes::new(&head);
@@ -47,13 +47,13 @@ impl<'a> Chunks<'a> {
         match end.is_some_and(|end| end <= self.source.length()) {
             true => Ok((code, length)),
             false => {
-                let problem = format!("a record of {length} bytes, beyond the end of the file");
+                let problem = format!("a record has {length} bytes, beyond the end of the file");
                 Err(self.source.damaged(Place::byte(at), problem))
             }
         }
     }
 
-    /// The first `most` bytes of the fields of the record at `at`, which must have the code `expected`.
+    /// First `most` bytes of the fields of the record at `at`, which must have the code `expected`.
     pub(super) fn fields(
         &mut self,
         at: u64,
@@ -62,7 +62,7 @@ impl<'a> Chunks<'a> {
     ) -> Result<Vec<u8>, TableError> {
         let (code, length) = self.head(at)?;
         if code != expected {
-            let problem = format!("a record of code {code:#04x}, expected {expected:#04x}");
+            let problem = format!("a record has the code {code:#04x}, expected {expected:#04x}");
             return Err(self.source.damaged(Place::byte(at), problem));
         }
         self.source.bytes(
@@ -73,7 +73,7 @@ impl<'a> Chunks<'a> {
         )
     }
 
-    /// The unpacked records of the chunk at `at`.
+    /// Unpacked records of the chunk at `at`.
     pub(super) fn unpacked(&mut self, at: u64) -> Result<Arc<Vec<u8>>, TableError> {
         if let Some(found) = self.kept.iter().position(|(place, _)| *place == at) {
             let kept = self.kept.remove(found);
@@ -81,7 +81,7 @@ impl<'a> Chunks<'a> {
             self.kept.push(kept);
             return Ok(bytes);
         }
-        // The oldest is dropped before the next is unpacked, so that memory holds no more than `KEPT`.
+        // The oldest is dropped before the next is unpacked, so memory holds at most `KEPT`.
         if self.kept.len() >= KEPT {
             self.kept.remove(0);
         }
@@ -99,7 +99,7 @@ impl<'a> Chunks<'a> {
         let packed = fields.get(begin..).unwrap_or_default();
         if packed.len() as u64 != head.packed {
             return Err(damaged(format!(
-                "{} bytes, but its header announces {}",
+                "{} bytes, but its header states {}",
                 packed.len(),
                 head.packed
             )));
@@ -136,7 +136,7 @@ impl<'a> Chunks<'a> {
         match head.crc == 0 || head.crc == formed {
             true => Ok(bytes),
             false => Err(damaged(format!(
-                "its checksum is {formed:08x}, expected {:08x}: it was changed after it was written",
+                "its checksum is {formed:08x}, expected {:08x}: it was changed after writing",
                 head.crc
             ))),
         }

@@ -1,4 +1,4 @@
-//! Contents of a file: from its summary if that is complete, else from a walk over its records.
+//! Contents of a file: from its summary if that is complete, else from all records.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -14,13 +14,13 @@ use crate::source::Source;
 /// Message for a truncated record.
 const CUT: &str = "a record is cut short";
 
-/// Schemas, channels and the locations of messages.
+/// Schemas, channels and locations of messages.
 #[derive(Debug, Default)]
 pub(super) struct Contents {
     pub(super) schemas: BTreeMap<u16, Schema>,
     pub(super) channels: BTreeMap<u16, Channel>,
     pub(super) chunks: Vec<ChunkIndex>,
-    /// Offsets of the records of messages outside chunks, by channel.
+    /// Offsets of message records outside chunks, by channel.
     pub(super) loose: BTreeMap<u16, Vec<u64>>,
     /// Number of messages of each channel.
     pub(super) counts: BTreeMap<u16, u64>,
@@ -28,7 +28,7 @@ pub(super) struct Contents {
     described: u64,
 }
 
-/// Reads the contents of the file at `source`; checks the checksums of its summary and of its data.
+/// Reads the contents of the file of `source`. Verifies the checksums of its summary and data.
 pub(super) fn read(source: &Source) -> Result<Contents, TableError> {
     let mut chunks = Chunks::new(source)?;
     let footer_at = check_ends(source)?;
@@ -54,7 +54,7 @@ pub(super) fn read(source: &Source) -> Result<Contents, TableError> {
     walk(source)
 }
 
-/// Checks the marks at both ends; returns the offset of the footer.
+/// Checks the magic bytes at both ends. Returns the offset of the footer.
 fn check_ends(source: &Source) -> Result<u64, TableError> {
     let mut file = source.open()?;
     let least = 2 * MAGIC.len() as u64 + FOOTER;
@@ -71,11 +71,24 @@ fn check_ends(source: &Source) -> Result<u64, TableError> {
     }
     let end = source.length() - MAGIC.len() as u64;
     if source.bytes(&mut file, end, 8, 8)? != MAGIC {
-        let problem = "cut short or not closed: it does not end with the magic bytes of MCAP; recover the complete messages with `mcap \
-            recover`";
-        return Err(source.damaged(Place::byte(end), problem));
+        return Err(refusal(source, Place::byte(end)));
     }
     Ok(end - FOOTER)
+}
+
+/// Error for a file that was cut or not closed, with the number of messages before the cut.
+fn refusal(source: &Source, place: Place) -> TableError {
+    match walk_to_cut(source) {
+        Ok((contents, _)) => TableError::Cut {
+            path: source.path().to_owned(),
+            place,
+            problem: "cut short or not closed: it does not end with the magic bytes of MCAP"
+                .to_owned(),
+            messages: contents.counts.values().sum(),
+            remedy: "recover the complete messages with `mcap recover`",
+        },
+        Err(error) => error,
+    }
 }
 
 /// Checks the checksum over all data records, if it is stated.
@@ -84,7 +97,7 @@ fn check_data(source: &Source, chunks: &mut Chunks<'_>, data_end: u64) -> Result
         return Ok(());
     };
     let Ok((code::DATA_END, 4)) = chunks.head(at) else {
-        let problem = "the record that ends the data is not at the position in the footer";
+        let problem = "the data end record is not at the position in the footer";
         return Err(source.damaged(Place::byte(at), problem));
     };
     let fields = chunks.fields(at, code::DATA_END, 4)?;
@@ -105,14 +118,14 @@ fn check_data(source: &Source, chunks: &mut Chunks<'_>, data_end: u64) -> Result
         true => Ok(()),
         false => {
             let problem = format!(
-                "the checksum of the data is {formed:08x}, expected {crc:08x}: it was changed after it was written"
+                "the checksum of the data is {formed:08x}, expected {crc:08x}: it was changed after writing"
             );
             Err(source.damaged(Place::byte(at), problem))
         }
     }
 }
 
-/// The contents from the summary; `None` if it is incomplete.
+/// Contents from the summary; `None` if it is incomplete.
 fn summary(
     source: &Source,
     begin: u64,
@@ -126,7 +139,7 @@ fn summary(
     let formed = crc32fast::hash(&all);
     if crc != 0 && crc != formed {
         let problem = format!(
-            "the checksum of the summary is {formed:08x}, expected {crc:08x}: it was changed after it was written"
+            "the checksum of the summary is {formed:08x}, expected {crc:08x}: it was changed after writing"
         );
         return Err(source.damaged(Place::byte(begin), problem));
     }
@@ -139,7 +152,7 @@ fn summary(
         let read = match record::next(&mut bytes) {
             Some((code::CHUNK_INDEX, fields)) => match record::chunk_index(fields) {
                 Some(index) if index.end().is_none_or(|end| end > begin) => {
-                    Err("a chunk that is not before the summary")
+                    Err("a chunk is not before the summary")
                 }
                 Some(index) => {
                     contents.chunks.push(index);
@@ -176,15 +189,28 @@ fn summary(
     Ok(is_whole.then_some(contents))
 }
 
-/// The contents from all records up to the end of the data; every chunk is unpacked once.
+/// Contents from all records up to the end of the data. Every chunk is unpacked once.
 pub(super) fn walk(source: &Source) -> Result<Contents, TableError> {
-    let mut chunks = Chunks::new(source)?;
     let end = source.length() - MAGIC.len() as u64;
+    walk_records(source, end, false).map(|(contents, _)| contents)
+}
+
+/// The contents from the complete records of a file that was cut, with the end of these records.
+pub(super) fn walk_to_cut(source: &Source) -> Result<(Contents, u64), TableError> {
+    walk_records(source, source.length(), true)
+}
+
+fn walk_records(source: &Source, end: u64, is_to_cut: bool) -> Result<(Contents, u64), TableError> {
+    let mut chunks = Chunks::new(source)?;
     let mut contents = Contents::default();
     let mut loose = 0_usize;
     let mut at = MAGIC.len() as u64;
     while at < end {
-        let (code, length) = chunks.head(at)?;
+        let (code, length) = match chunks.head(at) {
+            // No record has the code 0: zeros, as a file system leaves them behind the last bytes that it stored.
+            Ok((0, _)) | Err(TableError::Damaged { .. }) if is_to_cut => break,
+            head => head?,
+        };
         let damaged = |problem: &str| source.damaged(Place::byte(at), problem);
         match code {
             code::DATA_END => break,
@@ -231,18 +257,18 @@ pub(super) fn walk(source: &Source) -> Result<Contents, TableError> {
         }
         at += HEAD + length;
     }
-    Ok(contents)
+    Ok((contents, at))
 }
 
 impl Contents {
-    /// Stores a schema or a channel; ignores other records.
+    /// Stores a schema or a channel. Ignores other records.
     fn describe(&mut self, code: u8, fields: &[u8]) -> Result<(), &'static str> {
         if !matches!(code, code::SCHEMA | code::CHANNEL) {
             return Ok(());
         }
         self.described += fields.len() as u64;
         if self.described > limits::DESCRIPTION_BYTES {
-            return Err("more schemas and channels than are accepted");
+            return Err("too many schemas and channels");
         }
         if code == code::SCHEMA {
             let (id, schema) = record::schema(fields).ok_or(CUT)?;

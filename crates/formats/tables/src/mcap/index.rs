@@ -11,9 +11,9 @@ use crate::limits;
 use crate::message::Entry;
 use crate::source::Source;
 
-/// All messages of `channels`, by time; at equal times in the order of the file.
+/// All messages of `channels`, sorted by time; at equal times in file order.
 ///
-/// If the indices of the file have fewer messages than its statistics state, all records are read.
+/// All records are read if the indices of the file have fewer messages than its statistics state.
 pub(super) fn index(
     source: &Source,
     contents: &Contents,
@@ -38,7 +38,7 @@ pub(super) fn index(
             return Err(source.damaged(Place::of("summary"), problem));
         }
     }
-    // Locations are unique, so the order is that of a stable sort, without its memory.
+    // Locations are unique, so this order equals that of a stable sort, without its memory.
     entries
         .sort_unstable_by_key(|entry| (entry.log_time, entry.chunk.unwrap_or(entry.at), entry.at));
     Ok(entries)
@@ -105,7 +105,7 @@ fn gather(
     Ok(entries)
 }
 
-/// Indexes the messages of the chunk at `chunk`, which has no index.
+/// Indexes the messages of the chunk at `chunk`, which has no index of its own.
 fn scan(
     source: &Source,
     chunks: &mut Chunks<'_>,

@@ -1,18 +1,18 @@
-//! MCAP records: a code, a length and fields of little-endian numbers, texts and maps.
+//! MCAP records: a code, a length, and fields of little-endian numbers, texts and maps.
 
 use std::collections::BTreeMap;
 
 use crate::bytes::Bytes;
 use crate::message::Schema;
 
-/// The first and the last eight bytes of a file.
+/// First and last eight bytes of a file.
 pub(crate) const MAGIC: [u8; 8] = *b"\x89MCAP0\r\n";
 /// Size of the code and the length of a record, bytes.
 pub(super) const HEAD: u64 = 9;
 /// Size of a footer, bytes.
 pub(super) const FOOTER: u64 = HEAD + 20;
 
-/// The codes of the supported records.
+/// Codes of the supported records.
 pub(super) mod code {
     pub(in crate::mcap) const FOOTER: u8 = 0x02;
     pub(in crate::mcap) const SCHEMA: u8 = 0x03;
@@ -25,7 +25,7 @@ pub(super) mod code {
     pub(in crate::mcap) const DATA_END: u8 = 0x0f;
 }
 
-/// Properties that messages of one topic by one writer share.
+/// Common properties of messages of one topic from one writer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Channel {
     pub(super) schema: u16,
@@ -50,7 +50,7 @@ pub(super) struct ChunkHead {
     pub(super) packed: u64,
 }
 
-/// Location of a chunk, and of the indices of its messages.
+/// Location of a chunk, and of its message indices.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ChunkIndex {
     pub(super) at: u64,
@@ -75,7 +75,7 @@ pub(super) struct Statistics {
     pub(super) of_channel: BTreeMap<u16, u64>,
 }
 
-/// The next record in `bytes`: its code and its fields; `None` if it is truncated.
+/// Next record in `bytes`: its code and fields; `None` if it is truncated.
 pub(super) fn next<'a>(bytes: &mut Bytes<'a>) -> Option<(u8, &'a [u8])> {
     let code = bytes.u8()?;
     let length = usize::try_from(bytes.u64()?).ok()?;
@@ -112,7 +112,7 @@ pub(super) fn channel(fields: &[u8]) -> Option<(u16, Channel)> {
     ))
 }
 
-/// The head of a message, and its bytes.
+/// Head of a message, and its bytes.
 pub(super) fn message(fields: &[u8]) -> Option<(MessageHead, &[u8])> {
     let mut bytes = Bytes::new(fields);
     let channel = bytes.u16()?;
@@ -125,7 +125,7 @@ pub(super) fn message(fields: &[u8]) -> Option<(MessageHead, &[u8])> {
     Some((head, bytes.rest()))
 }
 
-/// The head of a chunk, and its size in bytes.
+/// Head of a chunk, and its size in bytes.
 pub(super) fn chunk(fields: &[u8]) -> Option<(ChunkHead, usize)> {
     let mut bytes = Bytes::new(fields);
     let _times = (bytes.u64()?, bytes.u64()?);
@@ -163,7 +163,7 @@ pub(super) fn statistics(fields: &[u8]) -> Option<Statistics> {
     })
 }
 
-/// The message index of one channel in a chunk: the channel, and the time and the offset of each message.
+/// Message index of one channel in a chunk: the channel, and time and offset of each message.
 pub(super) fn message_index(fields: &[u8]) -> Option<(u16, Vec<(u64, u64)>)> {
     let mut bytes = Bytes::new(fields);
     let channel = bytes.u16()?;
@@ -176,7 +176,7 @@ pub(super) fn message_index(fields: &[u8]) -> Option<(u16, Vec<(u64, u64)>)> {
     Some((channel, places))
 }
 
-/// A footer: the offset of the summary and its checksum, each 0 if there is none.
+/// A footer: offset of the summary, and its checksum, each 0 if there is none.
 pub(super) fn footer(fields: &[u8]) -> Option<(u64, u32)> {
     let mut bytes = Bytes::new(fields);
     let summary = bytes.u64()?;

@@ -1,8 +1,8 @@
-//! Units of durations from the Arrow schema: Parquet has no type for durations and stores integers.
+//! Units of durations from the Arrow schema, because Parquet has no type for durations and stores integers.
 //!
-//! The text under `ARROW:schema` is the base64 of an Arrow IPC message, whose schema is a FlatBuffers table
-//! (<https://arrow.apache.org/docs/format/Columnar.html#encapsulated-message-format>). Only names, types, children and units of durations
-//! are read. An inconsistent schema, or one of other columns, is ignored.
+//! The text under `ARROW:schema` is the base64 of an Arrow IPC message. Its schema is a FlatBuffers table
+//! (<https://arrow.apache.org/docs/format/Columnar.html#encapsulated-message-format>). Only names, types, children and units of durations are read. A
+//! schema that is inconsistent or has other columns is ignored.
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
@@ -11,14 +11,14 @@ use super::kind::ColumnKind;
 use super::schema::{LeafForm, Node, NodeKind};
 use crate::flatbuffer::Table;
 
-/// The type code of a duration.
+/// Type code of a duration.
 const DURATION: u8 = 18;
-/// The header type of a schema message.
+/// Header type of a schema message.
 const SCHEMA: u8 = 1;
-/// Maximum length of a schema that is read, as text, bytes.
+/// Maximum length of the schema text, bytes.
 const LONGEST: usize = 1 << 20;
 
-/// Gives those of `columns` that are durations in `text` their unit.
+/// Sets the unit of those `columns` that are durations in `text`.
 pub(super) fn apply(text: &str, columns: &mut [Node]) {
     let Some(bytes) = (text.len() <= LONGEST)
         .then(|| BASE64_STANDARD.decode(text).ok())
@@ -38,7 +38,7 @@ pub(super) fn apply(text: &str, columns: &mut [Node]) {
     }
 }
 
-/// Columns and fields are trees of the same form and order.
+/// Columns and fields are trees of equal form and order.
 fn name_units(field: Table<'_>, node: &mut Node) {
     let child = |position| field.tables(5)?.at(position);
     match &mut node.kind {
@@ -69,13 +69,13 @@ fn name_units(field: Table<'_>, node: &mut Node) {
     }
 }
 
-/// The unit of a duration field; the default is that of the format.
+/// Unit of a duration field. The default is that of the format.
 fn duration(field: Table<'_>) -> Option<&'static str> {
     let unit = field.table(3)?.short(0).unwrap_or(1);
     ["s", "ms", "us", "ns"].get(usize::from(unit)).copied()
 }
 
-/// The table of a message after its length; newer writers put a marker before the length.
+/// Table of a message after its length. Newer writers put a marker before the length.
 fn message(bytes: &[u8]) -> Option<Table<'_>> {
     let begin = if bytes.get(..4)? == [0xff; 4] { 8 } else { 4 };
     Table::root(bytes.get(begin..)?)
@@ -98,7 +98,7 @@ mod tests {
         vec![leaf("d"), leaf("n")]
     }
 
-    /// As pyarrow 26 writes it for `d: duration[us]` and `n: int64`.
+    /// Schema of `d: duration[us]` and `n: int64`, written by pyarrow 26.
     const WRITTEN: &str = include_str!("arrow_schema.base64");
 
     #[test]
@@ -107,7 +107,7 @@ mod tests {
         apply(WRITTEN.trim(), &mut found);
         let kinds: Vec<ColumnKind> = found.iter().map(ColumnKind::of).collect();
         assert_eq!(kinds, [ColumnKind::Time("us"), ColumnKind::Integer]);
-        // A schema of other columns does not apply to these.
+        // A schema with other column names does not apply.
         let mut other = columns();
         other[0].name = "e".to_owned();
         apply(WRITTEN.trim(), &mut other);

@@ -1,4 +1,4 @@
-//! Assembly of rows from leaves: the levels of each entry tell whether a list begins, continues, is empty or is null.
+//! Assembly of rows from leaves. The levels of each entry tell whether a list begins, continues, is empty or is null.
 
 use parquet::file::metadata::RowGroupMetaData;
 
@@ -29,7 +29,7 @@ enum PartKind {
 }
 
 impl Assembly {
-    /// The column `node` of `group`.
+    /// Assembly of the column `node` of `group`.
     pub(super) fn new(
         source: &Source,
         group: &RowGroupMetaData,
@@ -50,14 +50,14 @@ impl Assembly {
         self.root.for_each_leaf(&mut |leaf| leaf.read(rows))?;
         for _ in 0..rows {
             each(self.root.row()?)?;
-            // A row that ends inside a list would shift all later ones.
+            // A row that ends inside a list would shift all later rows.
             if self
                 .root
                 .first()
                 .peek()
                 .is_some_and(|(_, repetition)| repetition != 0)
             {
-                return Err(source.damaged(Place::default(), "entries that belong to no list"));
+                return Err(source.damaged(Place::default(), "there are entries outside any list"));
             }
         }
         Ok(())
@@ -109,7 +109,7 @@ impl Part {
         }
     }
 
-    /// The leaf that gives the levels of this part: all leaves below it agree down to its own level.
+    /// Leaf that gives the levels of this part. All leaves below it agree down to its own level.
     fn first(&self) -> &Leaf {
         match &self.kind {
             PartKind::Leaf(leaf) => leaf,
@@ -120,7 +120,7 @@ impl Part {
         }
     }
 
-    /// The next row, or the next element of the enclosing list.
+    /// Next row, or next element of the enclosing list.
     fn row(&mut self) -> Result<Cell, TableError> {
         let next = self.first().peek();
         let definition = next.map_or(0, |(definition, _)| definition);
@@ -158,7 +158,7 @@ impl Part {
         }
     }
 
-    /// Consumes the entry of each leaf that marks a null.
+    /// Consumes the null entry of each leaf.
     fn drop_entry(&mut self) -> Result<(), TableError> {
         self.for_each_leaf(&mut |leaf| leaf.take().map(drop))
     }

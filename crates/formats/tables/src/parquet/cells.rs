@@ -1,4 +1,4 @@
-//! Cells of bytes in one row group: streamed from plain pages, else from decoded pages.
+//! Cells of bytes in one row group, streamed from plain pages, else from decoded pages.
 
 use parquet::file::metadata::RowGroupMetaData;
 

@@ -1,4 +1,4 @@
-//! Columns by name: the part of the schema that a name selects, and the part of its cells.
+//! Columns by name: the part of the schema and the part of a cell that a name selects.
 
 use super::kind::ColumnKind;
 use super::schema::{LeafForm, Node, NodeKind};
@@ -15,7 +15,7 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// The column at the start of `name`, restricted to the members of structures that `name` selects.
+    /// Column at the start of `name`, restricted to the members of structures that `name` selects.
     pub(crate) fn new(source: &Source, columns: &[Node], name: &str) -> Result<Found, TableError> {
         let top = longest(name, columns.iter().map(|node| node.name.as_str()));
         let found = top.and_then(|(at, rest)| Some((narrow(&columns[at], rest)?, rest)));
@@ -33,7 +33,7 @@ impl Found {
         &self.column
     }
 
-    /// The kind of the requested part of the cells.
+    /// Kind of the requested part of the cells.
     pub(crate) fn kind(&self) -> Option<ColumnKind> {
         inside(&self.column, &self.rest).map(ColumnKind::of)
     }
@@ -42,12 +42,12 @@ impl Found {
         &self.name
     }
 
-    /// The requested leaf, if its cells are plain bytes and the path has no list.
+    /// Requested leaf, if its cells are plain bytes and the path has no list.
     pub(crate) fn leaf_of_bytes(&self) -> Option<usize> {
         leaf_of_bytes(&self.column, &self.rest)
     }
 
-    /// The requested part of `cell`; null if a structure or a list on the way is null.
+    /// Requested part of `cell`; null if a structure or a list on the path is null.
     pub(crate) fn inside(
         &self,
         source: &Source,
@@ -66,7 +66,7 @@ impl Found {
     }
 }
 
-/// The leaf at `rest` inside `node`, through structures only, if its cells are plain bytes.
+/// Leaf at `rest` inside `node`, through structures only, if its cells are plain bytes.
 fn leaf_of_bytes(node: &Node, rest: &str) -> Option<usize> {
     match &node.kind {
         NodeKind::Leaf {
@@ -83,7 +83,7 @@ fn leaf_of_bytes(node: &Node, rest: &str) -> Option<usize> {
     }
 }
 
-/// The part of `node` at `rest`.
+/// Part of `node` at `rest`.
 fn inside<'n>(node: &'n Node, rest: &str) -> Option<&'n Node> {
     let mut node = node;
     let mut rest = rest;
@@ -154,7 +154,7 @@ fn narrow(node: &Node, rest: &str) -> Option<Node> {
     })
 }
 
-/// The names of all columns; a structure is replaced by its members.
+/// Names of all columns. A structure is replaced by its members.
 pub(crate) fn names(columns: &[Node]) -> Vec<String> {
     let mut names = Vec::new();
     for node in columns {

@@ -53,12 +53,12 @@ pub enum WrittenKind {
     Singles(Option<usize>),
     /// Lists of texts.
     Texts,
-    /// Pictures as the library `datasets` writes them: structures of `bytes`, a PNG or JPEG file, and `path`, its name.
+    /// Pictures as in the library `datasets`: structures of `bytes`, a PNG or JPEG file, and `path`, its name.
     Picture,
 }
 
 impl WrittenColumn {
-    /// The column called `name`, whose cells are of `kind`.
+    /// Column `name` with cells of `kind`.
     pub fn new(name: impl Into<String>, kind: WrittenKind) -> WrittenColumn {
         WrittenColumn {
             name: name.into(),
@@ -143,7 +143,7 @@ pub fn huggingface_features(columns: &[WrittenColumn]) -> String {
 }
 
 impl WrittenKind {
-    /// True if `cell` may be in such a column; null always may.
+    /// True if a column of this kind accepts `cell`. Null is always accepted.
     pub fn takes(&self, cell: &Cell) -> bool {
         let is_number = |cell: &Cell| matches!(cell, Cell::Number(_) | Cell::Null);
         let is_text = |cell: &Cell| matches!(cell, Cell::Text(_) | Cell::Null);
@@ -182,7 +182,7 @@ impl fmt::Display for WrittenKind {
     }
 }
 
-/// Writes the next column of a row group; its cells are of `kind`.
+/// Writes the next column of a row group. Its cells are of `kind`.
 pub(super) fn write_column<W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     kind: &WrittenKind,
@@ -214,7 +214,7 @@ pub(super) fn write_column<W: Write + Send>(
     }
 }
 
-/// Writes one value for each row.
+/// Writes one value per row.
 fn write_leaf<T: DataType, W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     cells: &[Cell],
@@ -225,8 +225,8 @@ fn write_leaf<T: DataType, W: Write + Send>(
     write::<T, W>(group, values, levels.collect(), None)
 }
 
-/// Writes one list for each row. Definition level 0 is no list, 1 an empty list, 2 a null element, 3 a value. Repetition level 1 marks all
-/// elements but the first.
+/// Writes one list per row. Definition level 0 is no list, 1 an empty list, 2 a null element, 3 a value. Repetition level 1 marks all elements except
+/// the first.
 fn write_lists<T: DataType, W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     cells: &[Cell],
@@ -260,9 +260,9 @@ fn write<T: DataType, W: Write + Send>(
     definitions: Vec<i16>,
     repetitions: Option<Vec<i16>>,
 ) -> Result<(), ParquetError> {
-    let mut column = group
-        .next_column()?
-        .ok_or_else(|| ParquetError::General("fewer columns than fields".to_owned()))?;
+    let mut column = group.next_column()?.ok_or_else(|| {
+        ParquetError::General("the table has fewer columns than fields".to_owned())
+    })?;
     column
         .typed::<T>()
         .write_batch(&values, Some(&definitions), repetitions.as_deref())?;
@@ -285,7 +285,7 @@ fn number(cell: &Cell) -> Option<f64> {
 
 #[expect(
     clippy::cast_possible_truncation,
-    reason = "a column of single precision is asked for"
+    reason = "the column has single precision"
 )]
 fn single(cell: &Cell) -> Option<f32> {
     number(cell).map(|value| value as f32)

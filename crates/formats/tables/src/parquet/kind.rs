@@ -22,13 +22,13 @@ pub enum ColumnKind {
     Bool,
     /// Integers.
     Integer,
-    /// Numbers of single, double or half precision, or decimal ones.
+    /// Numbers of half, single or double precision, or decimal numbers.
     Number,
     /// Texts.
     Text,
     /// Bytes, such as encoded pictures.
     Bytes,
-    /// Times in the unit `d`, `s`, `ms`, `us` or `ns`: points in time since 1970-01-01 00:00 (UTC with a time zone, else local time), times
+    /// Times in the unit `d`, `s`, `ms`, `us` or `ns`. They are points in time since 1970-01-01 00:00 (UTC with a time zone, else local time), times
     /// of day since midnight, and durations. Their cells are [`Cell::Time`](crate::Cell::Time).
     Time(&'static str),
     /// Lists of cells of this kind.

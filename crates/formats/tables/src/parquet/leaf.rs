@@ -1,4 +1,4 @@
-//! One leaf of a column: its values, and the levels that assign them to rows and lists.
+//! One leaf of a column: its values, and levels that assign them to rows and lists.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -27,7 +27,7 @@ pub(super) struct Leaf {
     values: Values,
     definitions: Vec<i16>,
     repetitions: Vec<i16>,
-    /// Indices of the next level, and of the next non-null value.
+    /// Indices of the next level and of the next non-null value.
     at: usize,
     next_value: usize,
 }
@@ -44,7 +44,7 @@ enum Values {
 }
 
 impl Leaf {
-    /// The leaf at index `column` of `group`.
+    /// Leaf at index `column` of `group`.
     pub(super) fn new(
         source: &Source,
         group: &RowGroupMetaData,
@@ -91,7 +91,7 @@ impl Leaf {
         })
     }
 
-    /// Reads the next `rows` rows; all earlier rows must have been taken.
+    /// Reads the next `rows` rows. All earlier rows must have been taken.
     pub(super) fn read(&mut self, rows: usize) -> Result<(), TableError> {
         self.handed.store(0, Ordering::Relaxed);
         (self.at, self.next_value) = (0, 0);
@@ -164,7 +164,7 @@ impl Leaf {
         }
     }
 
-    /// The levels of the next entry: definition and repetition; `None` at the end of the rows read.
+    /// Levels of the next entry: definition and repetition; `None` at the end of the rows read.
     pub(super) fn peek(&self) -> Option<(i16, i16)> {
         let definition = *self.definitions.get(self.at)?;
         let repetition = match self.has_repetition {
@@ -174,7 +174,7 @@ impl Leaf {
         Some((definition, repetition))
     }
 
-    /// The next entry: null if its definition level is not the highest.
+    /// Takes the next entry: null if its definition level is not the highest.
     pub(super) fn take(&mut self) -> Result<Cell, TableError> {
         let Some((definition, _)) = self.peek() else {
             return Err(self.damaged("it has fewer entries than the other columns"));
@@ -211,7 +211,7 @@ impl Leaf {
                 None => None,
             },
         };
-        cell.ok_or_else(|| self.damaged("fewer values than its levels announce"))
+        cell.ok_or_else(|| self.damaged("it has fewer values than its levels state"))
     }
 
     fn integer(&self, value: i128) -> Cell {
@@ -226,7 +226,7 @@ impl Leaf {
         Ok(match self.form {
             LeafForm::Text => match std::str::from_utf8(bytes) {
                 Ok(text) => Cell::Text(text.to_owned()),
-                Err(_) => return Err(self.damaged("a text that is not UTF-8")),
+                Err(_) => return Err(self.damaged("a text is not UTF-8")),
             },
             LeafForm::Decimal { scale } => match bytes.len() {
                 0 => Cell::Null,
@@ -239,19 +239,19 @@ impl Leaf {
                 }
                 more => {
                     return Err(self.damaged(format!(
-                        "a decimal number of {more} bytes, expected at most 16"
+                        "a decimal number has {more} bytes, expected at most 16"
                     )));
                 }
             },
             LeafForm::Half => match bytes {
                 [low, high] => Cell::Number(half(u16::from_le_bytes([*low, *high]))),
-                _ => return Err(self.damaged("a half-precision number without two bytes")),
+                _ => return Err(self.damaged("a half-precision number does not have two bytes")),
             },
             _ => Cell::Bytes(bytes.to_vec()),
         })
     }
 
-    /// Converts an error of the decoder, or unwraps one of ours.
+    /// Converts an error of the decoder, or unwraps an error of this crate.
     fn outer(&self, error: ParquetError) -> TableError {
         match error {
             ParquetError::External(inner) => match inner.downcast::<TableError>() {

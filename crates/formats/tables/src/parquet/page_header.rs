@@ -1,4 +1,4 @@
-//! Header of a page: a structure in the compact protocol of Thrift; only the fields that a reader needs are kept.
+//! Header of a page: a structure in the compact protocol of Thrift. Only the fields that a reader needs are kept.
 //!
 //! Field and type numbers are those of `parquet.thrift`, version 2.12. Statistics, which may contain two whole pictures, are skipped.
 
@@ -91,12 +91,12 @@ pub(super) fn read_header(from: &mut impl BufRead) -> Result<(PageHeader, u64), 
             (_, other) => thrift.skip(other, 0)?,
         }
     }
-    header.kind = kind.ok_or("a page header without a kind")?;
-    header.packed = packed.ok_or("a page header without the size of the page")?;
-    header.unpacked = unpacked.ok_or("a page header without the unpacked size")?;
+    header.kind = kind.ok_or("the page header has no kind")?;
+    header.packed = packed.ok_or("the page header has no packed size")?;
+    header.unpacked = unpacked.ok_or("the page header has no unpacked size")?;
     header.values = match header.kind {
         PageKind::Index => 0,
-        _ => values.ok_or("a page header without the number of values")?,
+        _ => values.ok_or("the page header has no number of values")?,
     };
     Ok((header, thrift.read))
 }
@@ -138,14 +138,14 @@ impl<R: BufRead> Thrift<'_, R> {
         }
         fields.count += 1;
         if fields.count > limits::NAMES {
-            return Err("a page header of too many fields".to_owned());
+            return Err("the page header has too many fields".to_owned());
         }
         let number = match byte >> 4 {
             0 => self.small()?,
             step => fields
                 .last
                 .checked_add(i32::from(step))
-                .ok_or("a field number that is too large")?,
+                .ok_or("a field number is too large")?,
         };
         fields.last = number;
         Ok(Some((number, Form::of(byte & 0x0f)?)))
@@ -153,7 +153,7 @@ impl<R: BufRead> Thrift<'_, R> {
 
     fn skip(&mut self, form: Form, depth: usize) -> Result<(), String> {
         if depth > limits::DEPTH {
-            return Err("a page header that nests too deeply".to_owned());
+            return Err("the page header nests too deeply".to_owned());
         }
         match form {
             Form::True | Form::False => Ok(()),
@@ -194,7 +194,7 @@ impl<R: BufRead> Thrift<'_, R> {
         }
     }
 
-    /// Skips elements of a list. Each takes at least a byte, including truth values, so that the end of the file ends the loop.
+    /// Skips elements of a list. Each element takes at least one byte, including truth values. The end of the file therefore ends the loop.
     fn skip_elements(&mut self, form: Form, count: u64, depth: usize) -> Result<(), String> {
         for _ in 0..count {
             match form {

@@ -32,7 +32,7 @@ pub(super) struct Pages {
     values: ValueSize,
     has_nulls: bool,
     has_lists: bool,
-    /// A header that was peeked at, and the offset of its page.
+    /// Header that was peeked at, and the offset of its page.
     peeked: Option<(PageHeader, u64)>,
     /// Number of values of all pages returned since the shared counter was reset.
     handed: Arc<AtomicU64>,
@@ -40,7 +40,7 @@ pub(super) struct Pages {
 }
 
 impl Pages {
-    /// The pages of `chunk` of the column called `name`.
+    /// Pages of `chunk` of the column `name`.
     pub(super) fn new(
         source: &Source,
         name: &str,
@@ -107,7 +107,7 @@ impl Pages {
         })
     }
 
-    /// The next header and the offset of its page; the cursor of the file is there.
+    /// Next header and the offset of its page. The cursor of the file is there.
     fn header(&mut self) -> Result<Option<&(PageHeader, u64)>, TableError> {
         if self.peeked.is_some() || self.at >= self.end {
             return Ok(self.peeked.as_ref());
@@ -134,14 +134,14 @@ impl Pages {
         Ok(self.peeked.as_ref())
     }
 
-    /// Skips the page whose header was peeked at.
+    /// Skips the page of the peeked header.
     fn pass(&mut self) {
         if let Some((header, begin)) = self.peeked.take() {
             self.at = begin + u64::from(header.packed);
         }
     }
 
-    /// The next header, of any kind, and the offset of its page; skips the page.
+    /// Next header of any kind, and the offset of its page. Skips the page.
     pub(super) fn next_header(&mut self) -> Result<Option<(PageHeader, u64)>, TableError> {
         let found = self.header()?.cloned();
         self.pass();
@@ -238,7 +238,7 @@ impl Pages {
         let levels = (header.definition_bytes as usize)
             .checked_add(header.repetition_bytes as usize)
             .filter(|levels| *levels <= packed.len() && *levels <= size)
-            .ok_or("levels longer than their page")?;
+            .ok_or("the levels are longer than their page")?;
         let is_packed = header.is_packed && self.codec != Codec::Plain && size > levels;
         if !is_packed {
             return match packed.len() == size {
@@ -273,7 +273,7 @@ impl Pages {
         let num_values = header.values;
         if header.kind == PageKind::Dictionary {
             if std::mem::replace(&mut self.is_dictionary_read, true) {
-                return Err("a second dictionary in one chunk".to_owned());
+                return Err("the chunk has a second dictionary".to_owned());
             }
             self.values.check_dictionary(num_values, buf.len())?;
             return Ok(Page::DictionaryPage {
@@ -288,7 +288,7 @@ impl Pages {
             Encoding::RLE_DICTIONARY | Encoding::PLAIN_DICTIONARY
         );
         if is_of_dictionary && !self.is_dictionary_read {
-            return Err("dictionary values in a chunk without a dictionary".to_owned());
+            return Err("the chunk has dictionary values but no dictionary".to_owned());
         }
         let values = u64::from(num_values);
         let handed = self.handed.fetch_add(values, Ordering::Relaxed);

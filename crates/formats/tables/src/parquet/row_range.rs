@@ -9,7 +9,7 @@ use crate::cell::Cell;
 use crate::error::TableError;
 
 impl ParquetTable {
-    /// Calls `each` with each cell of `rows` in the column called `name`. Row groups outside are not read, and pages before the first row
+    /// Calls `each` with each cell of `rows` in the column `name`. Row groups outside `rows` are not read, and pages before the first row
     /// are skipped. Memory holds a few hundred cells at a time.
     ///
     /// ```
@@ -26,7 +26,7 @@ impl ParquetTable {
     /// ```
     ///
     /// # Errors
-    /// As [`column`](Self::column); also [`TableError::Mismatch`] for rows that do not exist; and the errors of `each`.
+    /// As [`column`](Self::column). [`TableError::Mismatch`] for rows that do not exist. Errors of `each`.
     pub fn visit_rows(
         &self,
         name: &str,

@@ -24,7 +24,7 @@ pub(crate) enum NodeKind {
     },
     Struct(Vec<Node>),
     List {
-        /// Definition level from which there is an element, and repetition level of all elements but the first.
+        /// Definition level from which there is an element, and repetition level of all elements except the first.
         definition: i16,
         repetition: i16,
         element: Box<Node>,
@@ -34,7 +34,7 @@ pub(crate) enum NodeKind {
 /// Logical type of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LeafForm {
-    /// As the physical type.
+    /// Same as the physical type.
     Plain,
     Text,
     Unsigned,
@@ -47,7 +47,7 @@ pub(crate) enum LeafForm {
     Time(&'static str),
 }
 
-/// The top-level columns of a schema; the error names the unsupported part.
+/// Top-level columns of a schema. The error names the unsupported part.
 pub(crate) fn columns(schema: &SchemaDescriptor) -> Result<Vec<Node>, String> {
     let mut leaves = 0;
     let nodes = schema
@@ -111,14 +111,18 @@ fn node(field: &Type, above: Levels, leaves: &mut usize, depth: usize) -> Result
 /// The levels below an optional or a repeated field.
 fn deeper(above: Levels, is_repeated: bool) -> Result<Levels, String> {
     let step = i16::from(is_repeated);
-    let more = |level: i16| level.checked_add(step).ok_or("a schema of too many levels");
+    let more = |level: i16| {
+        level
+            .checked_add(step)
+            .ok_or("the schema has too many levels")
+    };
     Ok(Levels {
         definition: more(above.definition)?,
         repetition: more(above.repetition)?,
     })
 }
 
-/// A field whose own repetition is already in `levels`.
+/// Content of a field. `levels` includes its own repetition.
 fn content(field: &Type, levels: Levels, leaves: &mut usize, depth: usize) -> Result<Node, String> {
     let name = field.name().to_owned();
     let definition = levels.definition;
@@ -167,8 +171,9 @@ fn content(field: &Type, levels: Levels, leaves: &mut usize, depth: usize) -> Re
     }
 }
 
-/// The element of a list whose repeated group is `repeated`: its only field, or the group itself if it has several fields or a name that
-/// older writers repeat.
+/// Element of a list. `repeated` is its repeated group.
+///
+/// The element is the only field of the group. It is the group itself if the group has several fields or a name that older writers repeat.
 fn element(
     list: &Type,
     repeated: &Type,

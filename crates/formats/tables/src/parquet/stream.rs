@@ -1,7 +1,7 @@
 //! Cells of bytes read one at a time from plain pages.
 //!
-//! Some writers put a thousand pictures into one page. Cells of plain pages are read directly from the file, or from a streaming decoder,
-//! without the whole page in memory. Only blocks of snappy and LZ4 are unpacked as a whole.
+//! Some writers put a thousand pictures into one page. Cells of plain pages are read directly from the file or from a streaming decoder.
+//! The whole page is not in memory. Only blocks of snappy and LZ4 are unpacked as a whole.
 
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
@@ -22,7 +22,7 @@ use crate::source::Source;
 const PLAIN: i32 = 0;
 const RLE: i32 = 3;
 
-/// A column chunk of bytes, in no list, whose data pages are all plain.
+/// Column chunk of bytes outside lists. All its data pages are plain.
 pub(super) struct Stream {
     source: Source,
     name: String,
@@ -48,7 +48,7 @@ enum Body {
 }
 
 impl Stream {
-    /// The cells of `chunk`; `None` if its pages are of another kind.
+    /// Cells of `chunk`; `None` if its pages are of another kind.
     pub(super) fn new(
         source: &Source,
         chunk: &ColumnChunkMetaData,
@@ -82,7 +82,7 @@ impl Stream {
         }))
     }
 
-    /// Skips `rows` rows; of whole pages only the headers are read.
+    /// Skips `rows` rows. Only the headers of skipped pages are read.
     pub(super) fn skip(&mut self, rows: u64) -> Result<(), TableError> {
         let mut left = rows;
         while left > 0 {
@@ -104,7 +104,7 @@ impl Stream {
         Ok(())
     }
 
-    /// The cell of the next row; `None` if it is null.
+    /// Cell of the next row; `None` if it is null.
     pub(super) fn next(&mut self) -> Result<Option<Vec<u8>>, TableError> {
         while self.page.as_ref().is_none_or(|page| page.entries == 0) {
             let (header, begin) = self.next_data()?;
@@ -146,7 +146,7 @@ impl Stream {
         })
     }
 
-    /// Opens the page at the cursor of `file`. Levels of version 2 are not packed; those of version 1 are, after their length.
+    /// Opens the page at the cursor of `file`. Levels of version 2 are not packed. Levels of version 1 are packed, after their length.
     fn opened(
         &self,
         header: &PageHeader,
@@ -157,7 +157,7 @@ impl Stream {
         let levels = if is_v2 { header.definition_bytes } else { 0 };
         let rest = |size: u32| {
             size.checked_sub(levels)
-                .ok_or("levels longer than their page")
+                .ok_or("the levels are longer than their page")
         };
         let (packed, unpacked) = (rest(header.packed)?, rest(header.unpacked)?);
         let mut definitions = is_v2
@@ -207,7 +207,7 @@ fn body(codec: Codec, file: BufReader<File>, packed: u32, unpacked: u32) -> Resu
 }
 
 impl Open {
-    /// The next cell; `None` if it is null.
+    /// Next cell; `None` if it is null.
     fn take(&mut self, highest: i16) -> Result<Option<Vec<u8>>, String> {
         match self.is_null(highest)? {
             true => Ok(None),
@@ -218,7 +218,7 @@ impl Open {
         }
     }
 
-    /// Reads to the end after the last cell, where a codec has its checksum.
+    /// Reads to the end after the last cell. Some codecs have a checksum there.
     fn finish(&mut self) -> Result<(), String> {
         match &mut self.body {
             Body::Unpacked(reader) if self.bytes == 0 => reader
@@ -258,7 +258,7 @@ impl Open {
             None => Ok(false),
             Some(levels) => match levels.next() {
                 Some(level) => Ok(level < u32::from(highest.cast_unsigned())),
-                None => Err("fewer levels than values".to_owned()),
+                None => Err("there are fewer levels than values".to_owned()),
             },
         }
     }
@@ -296,7 +296,7 @@ impl Open {
     }
 }
 
-/// Reads `length` bytes; memory grows with the bytes present, not with the announced length.
+/// Reads `length` bytes. Memory grows with the bytes present, not with the announced length.
 fn read_exactly(reader: &mut impl Read, length: u64) -> Result<Vec<u8>, String> {
     let most = usize::try_from(length.min(1 << 20)).unwrap_or(0);
     let mut bytes = Vec::with_capacity(most);

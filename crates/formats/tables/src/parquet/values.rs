@@ -14,7 +14,7 @@ impl ValueSize {
             Physical::INT32 | Physical::FLOAT => 32,
             Physical::INT64 | Physical::DOUBLE => 64,
             Physical::INT96 => 96,
-            // The length before the bytes.
+            // Length before the bytes.
             Physical::BYTE_ARRAY => 32,
             Physical::FIXED_LEN_BYTE_ARRAY => u64::try_from(column.type_length()).unwrap_or(0) * 8,
         })
@@ -23,7 +23,7 @@ impl ValueSize {
     /// Checks that a dictionary of `values` values fits its bytes, because memory is allocated for the announced number.
     pub(super) fn check_dictionary(self, values: u32, bytes: usize) -> Result<(), String> {
         match self.0 {
-            1 => Err("a dictionary of booleans".to_owned()),
+            1 => Err("the dictionary has booleans".to_owned()),
             bits => ValueSize(bits.max(8)).check_plain(values, bytes),
         }
     }
@@ -45,7 +45,7 @@ pub(super) fn encoding(code: i32) -> Result<Encoding, String> {
         0 => Encoding::PLAIN,
         2 => Encoding::PLAIN_DICTIONARY,
         3 => Encoding::RLE,
-        #[expect(deprecated, reason = "older writers encode levels so")]
+        #[expect(deprecated, reason = "older writers use this encoding of levels")]
         4 => Encoding::BIT_PACKED,
         5 => Encoding::DELTA_BINARY_PACKED,
         6 => Encoding::DELTA_LENGTH_BYTE_ARRAY,
@@ -56,7 +56,7 @@ pub(super) fn encoding(code: i32) -> Result<Encoding, String> {
     })
 }
 
-/// The encoding of levels with this code; if there are none, writers state any.
+/// Encoding of levels with this code. If there are no levels, writers state any code.
 pub(super) fn level_encoding(code: i32, are_there: bool) -> Result<Encoding, String> {
     match (code, are_there) {
         (3 | 4, _) => encoding(code),

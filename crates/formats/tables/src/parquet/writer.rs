@@ -16,12 +16,12 @@ use super::column_writer::{WrittenColumn, write_column};
 use crate::cell::Cell;
 use crate::error::TableError;
 
-/// Maximum rows of a row group: reading one row reads its group.
+/// Maximum rows of a row group. Reading one row reads its group.
 const GROUP_ROWS: usize = 1000;
 /// Memory of cells that ends a row group early, bytes.
 const GROUP_BYTES: u64 = 16 << 20;
 
-/// A Parquet file that is being written. Memory holds one row group, compressed by snappy at its end. Equal rows give equal bytes.
+/// Writer of a Parquet file. Memory holds one row group. Each group is compressed by snappy at its end. Equal rows give equal bytes.
 ///
 /// ```
 /// use taceva_tables::{Cell, ParquetTable, ParquetWriter, WrittenColumn, WrittenKind};
@@ -46,7 +46,7 @@ pub struct ParquetWriter {
     path: PathBuf,
     columns: Vec<WrittenColumn>,
     writer: SerializedFileWriter<File>,
-    /// For each column, the cells of the rows that are in no group yet.
+    /// Cells of the rows that are in no group yet, per column.
     held: Vec<Vec<Cell>>,
     held_bytes: u64,
 }
@@ -55,7 +55,7 @@ impl ParquetWriter {
     /// Creates the file at `path`, with texts by key as its metadata.
     ///
     /// # Errors
-    /// [`TableError::Write`] if the file exists already or cannot be created; [`TableError::Mismatch`] if two columns have one name.
+    /// [`TableError::Write`] if the file exists already or cannot be created. [`TableError::Mismatch`] if two columns have the same name.
     pub fn create(
         path: &Path,
         columns: &[WrittenColumn],
@@ -103,7 +103,7 @@ impl ParquetWriter {
     /// Adds a row, one cell for each column.
     ///
     /// # Errors
-    /// [`TableError::Mismatch`] if a cell has the wrong kind or the number of cells is wrong; the row is then not written.
+    /// [`TableError::Mismatch`] if a cell has the wrong kind or the number of cells is wrong. The row is then not written.
     /// [`TableError::Write`] if a row group cannot be written.
     pub fn push(&mut self, row: Vec<Cell>) -> Result<(), TableError> {
         if row.len() != self.columns.len() {
@@ -179,7 +179,7 @@ fn mismatch(path: &Path, name: &str, problem: String) -> TableError {
     }
 }
 
-/// Extracts the error of the system from that of the crate.
+/// Extracts the system error from the crate error.
 fn failed(path: &Path, error: ParquetError) -> TableError {
     let source = match error {
         ParquetError::External(source) => match source.downcast::<io::Error>() {

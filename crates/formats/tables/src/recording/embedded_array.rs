@@ -1,4 +1,4 @@
-//! NumPy arrays in JSON messages: type, shape, and their bytes as base64.
+//! NumPy arrays in JSON messages. An array is its type, its shape and its bytes as base64.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -8,10 +8,10 @@ use crate::cell::Cell;
 
 /// Names of the member with the bytes.
 const BYTES: [&str; 3] = ["data_b64", "data_base64", "b64"];
-/// Number of elements above which arrays stay text.
+/// Maximum number of elements of an array as numbers. Larger arrays stay text.
 const MOST_NUMBERS: u64 = 1 << 16;
 
-/// The numbers of an object that is an array, as nested lists of its shape; `None` for another object.
+/// Numbers of an array object as nested lists of its shape; `None` for another object.
 ///
 /// # Errors
 /// A message if the bytes do not match the stated type and shape.
@@ -29,7 +29,7 @@ pub(super) fn cell(members: &Map<String, Value>) -> Result<Option<Cell>, String>
     };
     let bytes = STANDARD
         .decode(bytes)
-        .map_err(|error| format!("an array whose bytes are not base64: {error}"))?;
+        .map_err(|error| format!("the bytes of an array are not base64: {error}"))?;
     if bytes.len() as u64 != count * width as u64 {
         return Err(format!(
             "an array of {} bytes, expected {count} numbers `{kind}` of {width} bytes",

@@ -6,7 +6,7 @@ use super::embedded_array;
 use crate::cell::Cell;
 use crate::limits;
 
-/// Parses a message to a cell; the error is a message. `serde_json` limits the depth to 128 levels.
+/// Parses a message to a cell. The error is a message. `serde_json` limits the depth to 128 levels.
 pub(super) fn cell(message: &[u8]) -> Result<Cell, String> {
     if message.len() as u64 > limits::JSON_BYTES {
         return Err(format!("{} bytes of JSON", message.len()));
@@ -54,7 +54,7 @@ pub(super) fn add_absent_arrays(cell: &Cell, above: &str, into: &mut Vec<String>
     }
 }
 
-/// Collects the names of the members of a cell that are no objects.
+/// Collects the names of the members of a cell that are not objects.
 pub(super) fn add_names(cell: &Cell, above: &str, into: &mut Vec<String>) {
     let Cell::Struct(members) = cell else { return };
     for (name, member) in members {

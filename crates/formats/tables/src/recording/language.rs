@@ -14,10 +14,10 @@ use crate::message::MessageStore;
 use crate::protobuf::{self, ProtobufMessage};
 use crate::ros::{self, Dialect, Fields, Picture, PictureField, RosSchema};
 
-/// First bytes of messages of rosbag2 that are compressed one by one; no CDR message begins so.
+/// First bytes of rosbag2 messages that are compressed one by one. No CDR message begins with them.
 const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
-/// An encoding of messages.
+/// Encoding of messages.
 #[derive(Clone, Debug)]
 pub(super) enum Language {
     Ros(Arc<RosSchema>),
@@ -32,7 +32,7 @@ pub(super) type Reader<'a> = Box<dyn Fn(&[u8]) -> Result<Vec<Cell>, String> + 'a
 pub(super) type PictureReader<'a> = Box<dyn Fn(&[u8]) -> Result<Picture, String> + 'a>;
 
 impl Language {
-    /// A reader of the fields called `names`; the error is the first unknown name.
+    /// Reader of the fields `names`. The error is the first unknown name.
     pub(super) fn reader<'a>(&'a self, names: &[&'a str]) -> Result<Reader<'a>, &'a str> {
         match self {
             Language::Ros(schema) => {
@@ -56,7 +56,7 @@ impl Language {
         }
     }
 
-    /// A reader of the pictures in the field called `name`; the error is a message if it has none.
+    /// Reader of the pictures in the field `name`. The error is a message if the field has no pictures.
     pub(super) fn pictures<'a>(&'a self, name: &str) -> Result<PictureReader<'a>, String> {
         match self {
             Language::Json => Err("pictures in JSON messages are not supported".to_owned()),
@@ -74,7 +74,7 @@ impl Language {
     }
 }
 
-/// A ROS message, unpacked if the recorder compressed each message.
+/// ROS message. Unpacks it if the recorder compressed each message.
 fn unpacked(message: &[u8]) -> Result<Cow<'_, [u8]>, String> {
     match message.starts_with(&ZSTANDARD) {
         false => Ok(Cow::Borrowed(message)),
@@ -82,7 +82,7 @@ fn unpacked(message: &[u8]) -> Result<Cow<'_, [u8]>, String> {
     }
 }
 
-/// The encoding of the messages of `topic`; all must share one encoding and one schema.
+/// Encoding of the messages of `topic`. All must have the same encoding and the same schema.
 pub(super) fn of_topic(store: &dyn MessageStore, topic: &Topic) -> Result<Language, String> {
     let channels = store.channels().values();
     let channels = channels.filter(|channel| channel.topic == topic.name);
@@ -133,7 +133,7 @@ pub(super) fn of_topic(store: &dyn MessageStore, topic: &Topic) -> Result<Langua
     Ok(Language::Ros(Arc::new(parsed)))
 }
 
-/// The names of the fields of ROS and protobuf messages.
+/// Names of the fields of ROS and protobuf messages.
 pub(super) fn names(language: &Language) -> Result<Vec<String>, String> {
     match language {
         Language::Ros(schema) => ros::names(schema),
@@ -142,7 +142,7 @@ pub(super) fn names(language: &Language) -> Result<Vec<String>, String> {
     }
 }
 
-/// The channels of `topic`, by number.
+/// Channels of `topic`, by number.
 pub(super) fn channels(store: &dyn MessageStore, topic: &Topic) -> BTreeSet<u32> {
     let channels = store.channels().iter();
     let channels = channels.filter(|(_, channel)| channel.topic == topic.name);

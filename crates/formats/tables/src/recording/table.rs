@@ -15,11 +15,11 @@ use crate::ros::{self, Picture};
 use crate::rows::check_sorted;
 use crate::source::Source;
 
-/// The messages of one topic by log time; at equal times in the order of the file.
+/// Messages of one topic by log time, and at equal times in the order of the file.
 ///
-/// Columns are the fields of the messages by dotted name (`wrench.force.x`, `position[2]`), and the times of each message: `log_time` and
-/// `publish_time` in seconds, `log_time.ns` and `publish_time.ns` as whole nanoseconds. A field that is a time is one number too:
-/// `header.stamp` in seconds, `header.stamp.ns` in nanoseconds, with `sec` and `nanosec` inside.
+/// Columns are the fields of the messages by dotted name (`wrench.force.x`, `position[2]`), and the times of each message.
+/// `log_time` and `publish_time` are in seconds, `log_time.ns` and `publish_time.ns` in whole nanoseconds. A time field is also one
+/// number: `header.stamp` in seconds and `header.stamp.ns` in nanoseconds. Its members are `sec` and `nanosec`.
 ///
 /// ```
 /// use taceva_tables::{Cell, Recording};
@@ -80,9 +80,9 @@ impl TopicTable {
         self.entries.len() as u64
     }
 
-    /// The columns: times, then fields in the order of the schema, one name for each list. For JSON those of the first message.
+    /// Columns: the times, then the fields in the order of the schema. A list has one name. For JSON the fields are from the first message.
     ///
-    /// # Errors
+    /// [`TableError::Unsupported`] if the schema has too many fields. For JSON as [`columns`](Self::columns).
     /// [`TableError::Unsupported`] if the schema has too many fields; for JSON as [`columns`](Self::columns).
     pub fn names(&self) -> Result<Vec<String>, TableError> {
         let mut names: Vec<String> = TIMES.iter().map(|(name, _)| (*name).to_owned()).collect();
@@ -124,11 +124,11 @@ impl TopicTable {
         Ok(names)
     }
 
-    /// The cells of the columns called `names`, column by column. The file is read once for all of them.
+    /// Cells of the columns `names`, column by column. The file is read once for all columns.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such field; [`TableError::TooLarge`] if the cells exceed 96 to 320 MiB of memory, by the size
-    /// of the file; [`TableError::Damaged`] if a chunk or a message cannot be parsed.
+    /// [`TableError::Missing`] if there is no such field. [`TableError::TooLarge`] if the cells exceed 96 to 320 MiB of memory, depending
+    /// on the file size. [`TableError::Damaged`] if a chunk or a message cannot be parsed.
     pub fn columns(&self, names: &[&str]) -> Result<Vec<Vec<Cell>>, TableError> {
         let is_time = |name: &&str| TIMES.iter().any(|(time, _)| time == name);
         let of_message: Vec<&str> = names
@@ -151,7 +151,7 @@ impl TopicTable {
         }
         let mut columns = vec![vec![Cell::Null; self.entries.len()]; names.len()];
         let mut bytes = 0_u64;
-        // In the order of the file, so that every chunk is unpacked once.
+        // In the order of the file: every chunk is unpacked once.
         let mut order: Vec<usize> = (0..self.entries.len()).collect();
         order.sort_by_key(|row| {
             (
@@ -185,7 +185,7 @@ impl TopicTable {
         Ok(columns)
     }
 
-    /// The cells of the column called `name`: [`columns`](Self::columns) for one.
+    /// Cells of the column `name`. See [`columns`](Self::columns).
     ///
     /// # Errors
     /// As [`columns`](Self::columns).
@@ -193,14 +193,14 @@ impl TopicTable {
         Ok(self.columns(&[name])?.pop().unwrap_or_default())
     }
 
-    /// Calls `each` with each row of `sorted` and its picture in the field called `name`, such as `data` of `sensor_msgs/Image` and
+    /// Calls `each` with each row of `sorted` and its picture in the field `name`. An example is `data` of `sensor_msgs/Image` and
     /// `sensor_msgs/CompressedImage`. Memory holds two chunks at a time.
     ///
-    /// `sorted` must ascend; a row listed twice is passed twice.
+    /// `sorted` must ascend. A row listed twice is passed twice.
     ///
     /// # Errors
-    /// [`TableError::Mismatch`] if the field has no bytes, or if `sorted` does not ascend or names a row that does not exist;
-    /// [`TableError::Damaged`] if a chunk or a message cannot be parsed, or a picture is of an unsupported kind; and the errors of `each`.
+    /// [`TableError::Mismatch`] if the field has no bytes, or if `sorted` does not ascend or names a row that does not exist.
+    /// [`TableError::Damaged`] if a chunk or message cannot be parsed, or a picture is of an unsupported kind. Errors of `each`.
     pub fn visit_pictures<E: From<TableError>>(
         &self,
         name: &str,
@@ -225,7 +225,7 @@ impl TopicTable {
         Ok(())
     }
 
-    /// A reader of the fields called `names`.
+    /// Reader of the fields `names`.
     fn reader<'a>(&'a self, names: &[&'a str]) -> Result<Reader<'a>, TableError> {
         match self.language.reader(names) {
             Ok(reader) => Ok(reader),
@@ -261,10 +261,10 @@ impl TopicTable {
     }
 }
 
-/// Value of a column that every message has.
+/// Value of a column of message times.
 type OfHead = fn(&Message) -> Cell;
 
-/// The time columns of every topic.
+/// Time columns of every topic.
 const TIMES: [(&str, OfHead); 4] = [
     ("log_time", |head| seconds(head.log_time)),
     ("log_time.ns", |head| Cell::Integer(head.log_time.into())),

@@ -1,5 +1,6 @@
-//! Decoder of CDR, the encoding of ROS 2: numbers are aligned to their own size, counted after the first four bytes. ROS 1 messages are
-//! packed without alignment from the first byte on.
+//! Decoder of CDR, the encoding of ROS 2. Numbers are aligned to their own size, counted after the first four bytes.
+//!
+//! ROS 1 messages are packed without alignment from the first byte on.
 
 use super::schema::{Count, Dialect, Field, Kind, Message, RosSchema};
 use crate::cell::Cell;
@@ -10,15 +11,15 @@ use crate::limits;
 pub(crate) enum Want {
     /// Skipped.
     Nothing,
-    /// The whole, into the slot of this number.
+    /// Whole field, into the slot of this number.
     Whole(usize),
-    /// The bytes of a list of `uint8`, into the slot of this number.
+    /// Bytes of a list of `uint8`, into the slot of this number.
     Bytes(usize),
-    /// A request for each field.
+    /// Request for each field.
     Fields(Vec<Want>),
 }
 
-/// The bytes of a message while they are read.
+/// Reader of the bytes of a message.
 #[derive(Debug)]
 pub(crate) struct Cdr<'a> {
     bytes: &'a [u8],
@@ -30,7 +31,7 @@ pub(crate) struct Cdr<'a> {
 }
 
 impl<'a> Cdr<'a> {
-    /// The body of `message`; in ROS 2 it follows four bytes that state the encoding.
+    /// Body of `message`. In ROS 2 it follows four bytes that state the encoding.
     pub(crate) fn new(message: &'a [u8], dialect: Dialect) -> Result<Cdr<'a>, String> {
         if dialect == Dialect::Ros1 {
             return Ok(Cdr {
@@ -71,7 +72,7 @@ impl<'a> Cdr<'a> {
         })
     }
 
-    /// Reads the message and fills `slots` as `want` requests.
+    /// Reads the message. Fills `slots` as `want` requests.
     pub(crate) fn read(
         &mut self,
         schema: &RosSchema,
@@ -160,7 +161,7 @@ impl<'a> Cdr<'a> {
         Ok(())
     }
 
-    /// A field as a cell: a list if it has several elements.
+    /// Field as a cell; a list if it has several elements.
     fn cell(&mut self, schema: &RosSchema, field: &Field) -> Result<Cell, String> {
         if field.count == Count::One {
             return self.one(schema, field.kind);
@@ -212,7 +213,7 @@ impl<'a> Cdr<'a> {
         })
     }
 
-    /// Number of elements of a field. Each takes at least a byte, so that more than the bytes left are rejected.
+    /// Number of elements of a field. Each takes at least one byte. More elements than remaining bytes are rejected.
     fn count(&mut self, field: &Field) -> Result<usize, String> {
         let count = match field.count {
             Count::One => 1,
@@ -232,7 +233,7 @@ impl<'a> Cdr<'a> {
         }
     }
 
-    /// The bytes of a text, after their length.
+    /// Bytes of a text, after their length.
     fn text_bytes(&mut self) -> Result<&'a [u8], String> {
         let length = u32::from_le_bytes(self.number()?) as usize;
         self.take(length)
@@ -242,10 +243,10 @@ impl<'a> Cdr<'a> {
         let bytes = self.text_bytes()?;
         // The length includes a zero at the end.
         let text = bytes.strip_suffix(&[0]).unwrap_or(bytes);
-        std::str::from_utf8(text).map_err(|_| "a text that is not UTF-8".to_owned())
+        std::str::from_utf8(text).map_err(|_| "a text is not UTF-8".to_owned())
     }
 
-    /// The bytes of the next number, little-endian.
+    /// Next number as little-endian bytes.
     fn number<const N: usize>(&mut self) -> Result<[u8; N], String> {
         self.align(N);
         let bytes = self.take(N)?;
@@ -270,5 +271,5 @@ impl<'a> Cdr<'a> {
     }
 }
 
-/// Message for a message that is shorter than its schema.
+/// Error message if a message is shorter than its schema.
 const CUT: &str = "the message is shorter than its schema";

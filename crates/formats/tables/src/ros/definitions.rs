@@ -127,7 +127,7 @@ pub(super) const KNOWN: [(&str, &str); 43] = [
     ),
 ];
 
-/// The definition of the message called `name`, as `sensor_msgs/msg/Image`; `None` if it is no standard message.
+/// Definition of the message `name`, such as `sensor_msgs/msg/Image`; `None` if it is not a standard message.
 pub(crate) fn known_definition(name: &str) -> Option<&'static str> {
     let short = super::schema::short(name);
     let found = KNOWN.iter().find(|(known, _)| *known == short);

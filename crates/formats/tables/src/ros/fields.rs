@@ -1,4 +1,4 @@
-//! Fields of messages by dotted name, and the columns made from them.
+//! Fields of messages by dotted name, and their columns.
 
 use super::cdr::{Cdr, Want};
 use super::schema::{Count, Field, Kind, Message, RosSchema};
@@ -6,7 +6,7 @@ use crate::cell::Cell;
 use crate::limits;
 use crate::path::longest;
 
-/// The fields that some columns need.
+/// Fields that some columns need.
 #[derive(Debug)]
 pub(crate) struct Fields {
     want: Want,
@@ -14,7 +14,7 @@ pub(crate) struct Fields {
     picks: Vec<Pick>,
 }
 
-/// A column: its slot, the path in it, and the form of a time.
+/// Column: its slot, the path in the slot, and the form of a time.
 #[derive(Clone, Debug)]
 struct Pick {
     slot: usize,
@@ -30,14 +30,14 @@ enum Form {
 }
 
 impl Fields {
-    /// The columns called `names`; the error is the first name that the schema lacks.
+    /// Columns `names`. The error is the first name that the schema lacks.
     pub(crate) fn new<'n>(schema: &RosSchema, names: &[&'n str]) -> Result<Fields, &'n str> {
         let mut fields = Fields {
             want: Want::Nothing,
             slots: 0,
             picks: Vec::new(),
         };
-        // Containers first, so that their members find them.
+        // Containers come first, so that their members find them.
         let mut order: Vec<usize> = (0..names.len()).collect();
         order.sort_by_key(|at| names[*at].len());
         let mut picks = vec![None; names.len()];
@@ -48,7 +48,7 @@ impl Fields {
         Ok(fields)
     }
 
-    /// The cells of one message, one for each column; the error is a message.
+    /// Cells of one message, one for each column. The error is a message.
     pub(crate) fn read(&self, schema: &RosSchema, message: &[u8]) -> Result<Vec<Cell>, String> {
         let mut slots = vec![Cell::Null; self.slots];
         Cdr::new(message, schema.dialect())?.read(schema, &self.want, &mut slots)?;
@@ -97,17 +97,17 @@ impl Fields {
     }
 }
 
-/// The index of a field in each message on the path to it, with the rest of the name.
+/// Index of a field in each message on the path to it, with the rest of the name.
 type Steps<'n> = Vec<(usize, &'n str)>;
 
-/// The path to a field, and its form.
+/// Path to a field, and its form.
 struct Way<'n> {
     steps: Steps<'n>,
     form: Form,
 }
 
 impl<'n> Way<'n> {
-    /// The path to the field called `name`; a time is one number, and `ns` inside it another.
+    /// Path to the field `name`. A time is one number, and its `ns` is another number.
     fn to(schema: &RosSchema, name: &'n str) -> Option<Way<'n>> {
         if let Some((steps, end)) = steps(schema, name) {
             let form = match end.is_some_and(is_time) {
@@ -124,7 +124,7 @@ impl<'n> Way<'n> {
     }
 }
 
-/// The steps to the field called `name`, and its message type if it is a single message.
+/// Steps to the field `name`, and its message type if it is a single message.
 fn steps<'s, 'n>(schema: &'s RosSchema, name: &'n str) -> Option<(Steps<'n>, Option<&'s Message>)> {
     let mut message = schema.root();
     let mut steps = Vec::new();
@@ -147,7 +147,7 @@ fn steps<'s, 'n>(schema: &'s RosSchema, name: &'n str) -> Option<(Steps<'n>, Opt
     }
 }
 
-/// The message type of a field with one message.
+/// Message type of a field with one message.
 fn inner<'s>(schema: &'s RosSchema, field: &Field) -> Option<&'s Message> {
     match (field.kind, field.count) {
         (Kind::Message(place), Count::One) => Some(schema.message(place)),
@@ -165,7 +165,7 @@ fn is_time(message: &Message) -> bool {
         && matches!(message.fields.as_slice(), [sec, nanosec] if sec.name == "sec" && nanosec.name == "nanosec")
 }
 
-/// The names of all fields: members of messages by dotted names, a list and a time by one name each.
+/// Names of all fields. Members of messages have dotted names. A list and a time have one name each.
 pub(crate) fn names(schema: &RosSchema) -> Result<Vec<String>, String> {
     let mut names = Vec::new();
     add_names(schema, schema.root(), "", &mut names)?;
@@ -207,10 +207,10 @@ impl Form {
 
 const NANO: i128 = 1_000_000_000;
 
-/// Seconds and nanoseconds as one number, computed as the ROS libraries do.
+/// Converts seconds and nanoseconds to one number, as the ROS libraries do.
 #[expect(
     clippy::cast_precision_loss,
-    reason = "both have at most 64 bits, of which 53 count"
+    reason = "both have at most 64 bits; an f64 keeps 53 of them"
 )]
 pub(crate) fn seconds(seconds: i128, nanoseconds: i128) -> f64 {
     seconds as f64 + nanoseconds as f64 / 1e9
@@ -224,7 +224,7 @@ mod tests {
     const JOINTS: &str = "std_msgs/Header header\nstring[] name\nfloat64[] position\nPair[2] pairs\n\
         ===\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n===\nMSG: a/Pair\nuint8 low\nint16 high";
 
-    /// A message of it, with numbers in the requested byte order.
+    /// Message with numbers in the requested byte order.
     fn message(is_big_endian: bool) -> Vec<u8> {
         let mut bytes = vec![0, u8::from(!is_big_endian), 0, 0];
         let mut put = |number: &[u8]| {

@@ -1,11 +1,11 @@
-//! Pictures in messages: encoded ones, such as JPEG, in their original bytes, and raw samples row by row, without padding.
+//! Pictures in messages. Encoded pictures such as JPEG keep their original bytes. Raw samples are row by row, without padding.
 
 use super::cdr::{Cdr, Want};
 use super::schema::{Count, Kind, Message, RosSchema};
 use crate::cell::Cell;
 use crate::limits;
 
-/// A picture in a message.
+/// Picture in a message.
 ///
 /// ```
 /// use taceva_tables::{Picture, Recording, TableError};
@@ -21,13 +21,13 @@ use crate::limits;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Picture {
-    /// A picture file, such as JPEG or PNG, unchanged.
+    /// Picture file such as JPEG or PNG, unchanged.
     Encoded(Vec<u8>),
     /// Uncompressed samples.
     Samples(Samples),
 }
 
-/// An uncompressed picture.
+/// Uncompressed picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Samples {
@@ -37,11 +37,11 @@ pub struct Samples {
     pub height: u32,
     /// Pixel format.
     pub form: SampleForm,
-    /// The samples row by row from the top, without padding; two-byte samples are little-endian.
+    /// Samples row by row from the top, without padding. Two-byte samples are little-endian.
     pub bytes: Vec<u8>,
 }
 
-/// Pixel format, by the names of `sensor_msgs/Image`.
+/// Pixel format, named as in `sensor_msgs/Image`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SampleForm {
@@ -49,9 +49,9 @@ pub enum SampleForm {
     Mono8,
     /// Two bytes of brightness.
     Mono16,
-    /// Red, green and blue of a byte each.
+    /// One byte each of red, green and blue.
     Rgb8,
-    /// Blue, green and red of a byte each.
+    /// One byte each of blue, green and red.
     Bgr8,
 }
 
@@ -66,14 +66,14 @@ impl SampleForm {
     }
 }
 
-/// The picture field in messages of a schema.
+/// Picture field in messages of a schema.
 #[derive(Debug)]
 pub(crate) struct PictureField {
     want: Want,
     is_raw: bool,
 }
 
-/// The slots of the fields of a picture.
+/// Slots of the fields of a picture.
 const DATA: usize = 0;
 const FORMAT: usize = 1;
 const HEIGHT: usize = 2;
@@ -84,7 +84,7 @@ const STEP: usize = 6;
 const SLOTS: usize = 7;
 
 impl PictureField {
-    /// The field called `name`, a list of `uint8`; the error is a message if it is none.
+    /// Field `name`, a list of `uint8`. The error is a message if it is another type.
     pub(crate) fn new(schema: &RosSchema, name: &str) -> Result<PictureField, String> {
         let mut message = schema.root();
         let mut places = Vec::new();
@@ -140,7 +140,7 @@ impl PictureField {
         Ok(PictureField { want, is_raw })
     }
 
-    /// The picture of `message`; the error is a message.
+    /// Picture of `message`. The error is a message.
     pub(crate) fn read(&self, schema: &RosSchema, message: &[u8]) -> Result<Picture, String> {
         let mut slots = vec![Cell::Null; SLOTS];
         Cdr::new(message, schema.dialect())?.read(schema, &self.want, &mut slots)?;
@@ -168,7 +168,7 @@ fn position(message: &Message, name: &str) -> Option<usize> {
 fn raw(slots: &[Cell], data: Vec<u8>) -> Result<RawPicture, String> {
     let number = |slot: usize| match slots[slot] {
         Cell::Integer(value) => u32::try_from(value).map_err(|_| format!("a size of {value}")),
-        _ => Err("a size that is not a number".to_owned()),
+        _ => Err("a size is not a number".to_owned()),
     };
     Ok(RawPicture {
         width: number(WIDTH)?,
@@ -180,7 +180,7 @@ fn raw(slots: &[Cell], data: Vec<u8>) -> Result<RawPicture, String> {
     })
 }
 
-/// A picture as its message describes it, unchecked.
+/// Picture as its message describes it, unchecked.
 #[derive(Clone, Debug)]
 pub(crate) struct RawPicture {
     pub(crate) width: u32,
@@ -193,7 +193,7 @@ pub(crate) struct RawPicture {
 }
 
 impl RawPicture {
-    /// The picture without padding, its numbers little-endian; the error is a message if the format is not supported.
+    /// Picture without padding, its numbers little-endian. The error is a message if the format is not supported.
     pub(crate) fn samples(self) -> Result<Samples, String> {
         let RawPicture {
             width,

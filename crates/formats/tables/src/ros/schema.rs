@@ -1,5 +1,6 @@
-//! Message definitions in the language of `.msg` files, as ROS 2 writes them into recordings: the message itself, then those that it uses,
-//! each after a line of `=` and one of `MSG: package/Name`.
+//! Message definitions in the language of `.msg` files, as ROS 2 writes them into recordings.
+//!
+//! The message itself comes first, then the messages that it uses. Each follows a line of `=` and a line `MSG: package/Name`.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +8,7 @@ use super::definitions::KNOWN;
 use crate::error::shown;
 use crate::limits;
 
-/// The dialect of ROS 1 or ROS 2. Their schemas are alike; the encoding of numbers and some types differ.
+/// Dialect of ROS 1 or ROS 2. Their schemas are alike. The encoding of numbers and some types differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dialect {
     /// Packed little-endian numbers.
@@ -16,7 +17,7 @@ pub(crate) enum Dialect {
     Ros2,
 }
 
-/// The messages of a schema; the first is the root.
+/// Messages of a schema. The first is the root.
 #[derive(Clone, Debug)]
 pub(crate) struct RosSchema {
     messages: Vec<Message>,
@@ -59,7 +60,7 @@ pub(crate) enum Kind {
     F32,
     F64,
     Text,
-    /// Another message, by its index in the schema.
+    /// Another message: its index in the schema.
     Message(usize),
 }
 
@@ -76,21 +77,21 @@ impl Kind {
     }
 }
 
-/// A field as written, with the name of its type.
+/// Unresolved field, with the name of its type.
 struct Written {
     name: String,
     kind: String,
     count: Count,
 }
 
-/// The time types of ROS 1, which are keywords there, with their ROS 2 names.
+/// Time types of ROS 1, which are keywords there, with their ROS 2 names.
 const OF_ROS_1: [(&str, &str); 2] = [
     ("builtin_interfaces/Time", "uint32 sec\nuint32 nanosec"),
     ("builtin_interfaces/Duration", "int32 sec\nint32 nanosec"),
 ];
 
 impl RosSchema {
-    /// Parses the schema of the message called `name`, as `sensor_msgs/msg/Image`; the error names the invalid part of `text`.
+    /// Parses the schema of the message `name`, such as `sensor_msgs/msg/Image`. The error names the invalid part of `text`.
     pub(crate) fn parse(name: &str, text: &str, dialect: Dialect) -> Result<RosSchema, String> {
         let mut parts = vec![(short(name), fields_of("")?)];
         let mut body = String::new();
@@ -121,7 +122,7 @@ impl RosSchema {
             }
         }
         close(&mut parts, &mut body)?;
-        // Messages that some recorders omit from schemas, because every installation has them.
+        // Some recorders omit these messages from schemas, because every installation has them.
         let known: &[(&str, &str)] = match dialect {
             Dialect::Ros1 => &OF_ROS_1,
             Dialect::Ros2 => &KNOWN,
@@ -135,7 +136,7 @@ impl RosSchema {
         RosSchema::resolve(parts, dialect)
     }
 
-    /// Replaces names of types by indices; of two messages with one name the first is used.
+    /// Replaces names of types by indices. The first of two messages with the same name is used.
     fn resolve(parts: Vec<(String, Vec<Written>)>, dialect: Dialect) -> Result<RosSchema, String> {
         let mut places = BTreeMap::new();
         for (at, (name, _)) in parts.iter().enumerate() {
@@ -161,7 +162,7 @@ impl RosSchema {
         Ok(schema)
     }
 
-    /// The dialect of its messages.
+    /// Dialect of the messages.
     pub(crate) fn dialect(&self) -> Dialect {
         self.dialect
     }
@@ -174,7 +175,7 @@ impl RosSchema {
         &self.messages[place]
     }
 
-    /// Checks that messages nest within the limit below `place`; a message inside itself has no end.
+    /// Checks that messages below `place` nest within the limit. A message inside itself has no end.
     fn check_depth(
         &self,
         place: usize,
@@ -210,7 +211,7 @@ impl RosSchema {
     }
 }
 
-/// The fields in the lines of a message, without its constants.
+/// Fields in the lines of a message, without its constants.
 fn fields_of(body: &str) -> Result<Vec<Written>, String> {
     let mut fields = Vec::new();
     for line in body.lines() {
@@ -224,7 +225,7 @@ fn fields_of(body: &str) -> Result<Vec<Written>, String> {
         let rest = rest.trim_start();
         let end = rest.find(|letter: char| !(letter.is_alphanumeric() || letter == '_'));
         let (name, after) = rest.split_at(end.unwrap_or(rest.len()));
-        // A constant has a value after `=`; a value without it is a default.
+        // A constant has a value after `=`. A value without `=` is a default.
         if after.trim_start().starts_with('=') {
             continue;
         }
@@ -244,7 +245,7 @@ fn fields_of(body: &str) -> Result<Vec<Written>, String> {
     Ok(fields)
 }
 
-/// A type without its brackets, and the number of elements in them: `float64[6]`, `float64[]`, `float64[<=6]`.
+/// Splits a type into its name and the number of elements in brackets: `float64[6]`, `float64[]`, `float64[<=6]`.
 fn counted(written: &str) -> Result<(&str, Count), String> {
     let Some((kind, rest)) = written.split_once('[') else {
         return Ok((written, Count::One));

@@ -1,10 +1,15 @@
 //! Records of a bag: a head of named fields, then data.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use crate::bytes::Bytes;
+use crate::message::{Channel, Schema};
 
-/// The codes of records.
+/// Nanoseconds of a second.
+pub(super) const NANO: u64 = 1_000_000_000;
+
+/// Codes of records.
 pub(super) mod op {
     pub(in crate::rosbag1) const MESSAGE: u8 = 0x02;
     pub(in crate::rosbag1) const BAG: u8 = 0x03;
@@ -14,18 +19,18 @@ pub(super) mod op {
     pub(in crate::rosbag1) const CONNECTION: u8 = 0x07;
 }
 
-/// The head of a record.
+/// Head of a record.
 #[derive(Debug)]
 pub(super) struct Head {
     fields: Vec<u8>,
-    /// Begin of the data.
+    /// Offset of the data.
     pub(super) data_at: u64,
     /// End of the record.
     pub(super) end: u64,
 }
 
 impl Head {
-    /// Parses the head from `fields`, each with its length, its name, `=` and its value; `None` if they do not fill it.
+    /// Parses the head from `fields`. Each field is its length, its name, `=` and its value. `None` if they do not fill `fields`.
     pub(super) fn new(fields: Vec<u8>, data_at: u64, end: u64) -> Option<Head> {
         let mut bytes = Bytes::new(&fields);
         while !bytes.rest().is_empty() {
@@ -38,7 +43,7 @@ impl Head {
         })
     }
 
-    /// The value of the field called `name`.
+    /// Value of the field `name`.
     pub(super) fn bytes(&self, name: &str) -> Option<&[u8]> {
         let mut bytes = Bytes::new(&self.fields);
         while !bytes.rest().is_empty() {
@@ -50,23 +55,30 @@ impl Head {
         None
     }
 
-    /// The little-endian bytes of a number in the field called `name`.
+    /// Little-endian bytes of a number in the field `name`.
     pub(super) fn number<const N: usize>(&self, name: &str) -> Option<[u8; N]> {
         self.bytes(name)?.try_into().ok()
     }
 
-    /// The text in the field called `name`.
+    /// Text in the field `name`.
     pub(super) fn text(&self, name: &str) -> Option<String> {
         String::from_utf8(self.bytes(name)?.to_vec()).ok()
     }
 
-    /// The code of the record.
+    /// Code of the record.
     pub(super) fn op(&self) -> Option<u8> {
         self.number::<1>("op").map(|[code]| code)
     }
+
+    /// The time of a message, ns since 1970.
+    pub(super) fn time_ns(&self) -> Option<u64> {
+        let [a, b, c, d, rest @ ..] = self.number::<8>("time")?;
+        let seconds = u64::from(u32::from_le_bytes([a, b, c, d]));
+        Some(seconds * NANO + u64::from(u32::from_le_bytes(rest)))
+    }
 }
 
-/// The name and the value of the next field.
+/// Name and value of the next field.
 fn next<'b>(bytes: &mut Bytes<'b>) -> Option<(&'b [u8], &'b [u8])> {
     let length = usize::try_from(bytes.u32()?).ok()?;
     let field = bytes.take(length)?;
@@ -74,7 +86,7 @@ fn next<'b>(bytes: &mut Bytes<'b>) -> Option<(&'b [u8], &'b [u8])> {
     Some((&field[..end], &field[end + 1..]))
 }
 
-/// The head of the record at `at` of an unpacked chunk, and the range of its data.
+/// Head of the record at `at` of an unpacked chunk, and the range of its data.
 pub(super) fn within(held: &[u8], at: usize) -> Option<(Head, Range<usize>)> {
     let mut bytes = Bytes::new(held.get(at..)?);
     let length = usize::try_from(bytes.u32()?).ok()?;
@@ -83,4 +95,22 @@ pub(super) fn within(held: &[u8], at: usize) -> Option<(Head, Range<usize>)> {
     let begin = at + bytes.at();
     bytes.take(data)?;
     Some((Head::new(fields, 0, 0)?, begin..begin + data))
+}
+
+/// The number of a connection, and its channel.
+pub(super) fn connection(head: &Head, data: &[u8]) -> Option<(u32, Channel)> {
+    let number = head.number::<4>("conn").map(u32::from_le_bytes)?;
+    let said = Head::new(data.to_vec(), 0, 0)?;
+    let schema = Schema {
+        name: said.text("type")?,
+        encoding: "ros1msg".to_owned(),
+        text: said.bytes("message_definition")?.to_vec(),
+    };
+    let channel = Channel {
+        topic: head.text("topic")?,
+        encoding: "ros1".to_owned(),
+        schema: Some(Arc::new(schema)),
+        count: 0,
+    };
+    Some((number, channel))
 }

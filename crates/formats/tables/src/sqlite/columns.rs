@@ -1,14 +1,14 @@
 //! Columns of a table, from its SQL text.
 
-/// The columns of a table.
+/// Columns of a table.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Columns {
     pub(super) names: Vec<String>,
-    /// The column that is an alias of the row number.
+    /// Column that is an alias of the row number.
     pub(super) id: Option<usize>,
 }
 
-/// The columns in `CREATE TABLE name (…)`; `None` for a table that is stored otherwise, or another text.
+/// Columns in `CREATE TABLE name (…)`; `None` for a table that is stored differently, or for another text.
 pub(super) fn columns(sql: &str) -> Option<Columns> {
     let (_, behind) = sql.split_once('(')?;
     let (inside, after) = behind.rsplit_once(')')?;
@@ -69,7 +69,7 @@ fn parts(text: &str) -> Vec<&str> {
     parts
 }
 
-/// The first word of a part, without its quotes, and the rest.
+/// First word of a part without its quotes, and the rest.
 fn first_word(part: &str) -> (String, &str) {
     let closing = match part.chars().next() {
         Some(quote @ ('"' | '`' | '\'')) => Some(quote),

@@ -1,16 +1,20 @@
-//! Pages of a database through one cursor.
+//! Pages of a database, read with one cursor.
 
 use std::fs::File;
 use std::sync::Arc;
 
-use super::Database;
+use super::{Database, RowPlace};
 use crate::error::{Place, TableError};
 
-/// Pages of a database; the last one is cached.
+/// Pages of a database; the last one is cached. A cursor reads each row once, or several times in succession.
 pub(crate) struct Pages<'a> {
     pub(super) database: &'a Database,
     file: File,
     kept: Option<(u32, Arc<Vec<u8>>)>,
+    /// The last row.
+    row: Option<RowPlace>,
+    /// Size of all rows so far, bytes.
+    row_bytes: u64,
 }
 
 impl<'a> Pages<'a> {
@@ -19,10 +23,12 @@ impl<'a> Pages<'a> {
             database,
             file: database.source.open()?,
             kept: None,
+            row: None,
+            row_bytes: 0,
         })
     }
 
-    /// The page with this number, from 1.
+    /// Page with this number, from 1.
     pub(super) fn page(&mut self, number: u32) -> Result<Arc<Vec<u8>>, TableError> {
         if let Some((kept, page)) = &self.kept
             && *kept == number
@@ -34,7 +40,7 @@ impl<'a> Pages<'a> {
         Ok(page)
     }
 
-    /// The page with this number, read again and not cached.
+    /// Page with this number, read again and not cached.
     pub(super) fn read(&mut self, number: u32) -> Result<Vec<u8>, TableError> {
         let database = self.database;
         if number == 0 || number > database.pages {
@@ -44,6 +50,33 @@ impl<'a> Pages<'a> {
         let bytes = u64::from(database.page_bytes);
         let at = u64::from(number - 1) * bytes;
         database.source.bytes(&mut self.file, at, bytes, bytes)
+    }
+
+    /// Counts the row at `place`.
+    ///
+    /// # Errors
+    /// [`TableError::Damaged`] if the rows are longer than the file: a file is made to cost hours if rows share bytes.
+    pub(super) fn count(&mut self, place: RowPlace, bytes: u64) -> Result<(), TableError> {
+        if self.row != Some(place) {
+            self.row = Some(place);
+            self.row_bytes = self.row_bytes.saturating_add(bytes);
+        }
+        let length = self.database.source.length();
+        match self.row_bytes <= length {
+            true => Ok(()),
+            false => {
+                let problem = format!(
+                    "{} bytes of rows up to here, but the file has {length}: rows share their bytes. Repair a copy with `sqlite3 FILE \".recover\"`",
+                    self.row_bytes
+                );
+                Err(self.damaged(place.page, problem))
+            }
+        }
+    }
+
+    /// True for a page that the header announces and a cut took away.
+    pub(super) fn is_beyond_cut(&self, number: u32) -> bool {
+        number > self.database.pages && number <= self.database.announced
     }
 
     /// The error for a damaged page with this number.

@@ -1,4 +1,4 @@
-//! Rows: a row number, and values after a head with their types. A row that does not fit its page continues in overflow pages.
+//! Rows: a row number, then a head with the types, then the values. A row that does not fit its page continues in overflow pages.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -9,35 +9,35 @@ use super::{RowPlace, SqliteTable};
 use crate::error::TableError;
 use crate::limits;
 
-/// A value of a row.
+/// Value of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Value {
     Null,
     Integer(i64),
     Real(f64),
     Text(String),
-    /// Range of its bytes in those of the row.
+    /// Range of the value in the bytes of the row.
     Blob(Range<usize>),
 }
 
-/// A row; only the bytes that its values need are read.
+/// Row. Only the bytes that its values need are read.
 pub(crate) struct Record<'p, 'd> {
     pages: &'p mut Pages<'d>,
     page: u32,
     id: Option<usize>,
     number: i64,
-    /// The type and the range of each value.
+    /// Type and range of each value.
     values: Vec<(u64, Range<usize>)>,
-    /// The bytes of the row read so far.
+    /// Bytes of the row read so far.
     read: Vec<u8>,
     /// Size of the whole row, bytes.
     length: usize,
-    /// The next overflow page.
+    /// Next overflow page.
     next: u32,
 }
 
 impl<'p, 'd> Record<'p, 'd> {
-    /// Opens the row at `place` and reads the bytes in its own page.
+    /// Opens the row at `place`. Reads the bytes in its own page.
     pub(crate) fn read(
         pages: &'p mut Pages<'d>,
         table: &SqliteTable,
@@ -65,6 +65,7 @@ impl<'p, 'd> Record<'p, 'd> {
             );
             return Err(source.too_large(crate::error::Place::of(&table.name), problem));
         }
+        pages.count(place, length)?;
         let length = usize::try_from(length).unwrap_or(usize::MAX);
         let local = in_page(length, pages.database.usable as usize);
         let read = rest
@@ -97,9 +98,18 @@ impl<'p, 'd> Record<'p, 'd> {
         self.length as u64
     }
 
-    /// The bytes of the row read so far: at least up to the last value requested.
+    /// Bytes of the row read so far: at least up to the last requested value.
     pub(crate) fn into_bytes(self) -> Vec<u8> {
         self.read
+    }
+
+    /// True if no part of the row is on a page that a cut took away.
+    pub(crate) fn is_before_cut(&mut self) -> Result<bool, TableError> {
+        match self.read_to(self.length) {
+            Ok(()) => Ok(true),
+            Err(_) if self.pages.is_beyond_cut(self.next) => Ok(false),
+            Err(error) => Err(error),
+        }
     }
 
     /// The value in the column at `position`, from 0; null if the row was written before the column existed.
@@ -131,12 +141,12 @@ impl<'p, 'd> Record<'p, 'd> {
             kind if kind % 2 == 0 => Value::Blob(range),
             _ => match std::str::from_utf8(bytes) {
                 Ok(text) => Value::Text(text.to_owned()),
-                Err(_) => return Err(self.pages.damaged(self.page, "a text that is not UTF-8")),
+                Err(_) => return Err(self.pages.damaged(self.page, "a text is not UTF-8")),
             },
         })
     }
 
-    /// The text in the column at `position`; empty for null.
+    /// Text in the column at `position`; empty for null.
     pub(crate) fn text(&mut self, position: usize) -> Result<String, TableError> {
         match self.value(position)? {
             Value::Text(text) => Ok(text),
@@ -210,7 +220,7 @@ impl<'p, 'd> Record<'p, 'd> {
     }
 }
 
-/// Number of bytes of a row of `length` that its own page holds, of which `usable` are usable.
+/// Number of bytes of a row of `length` bytes in its own page. `usable` is the usable size of the page.
 fn in_page(length: usize, usable: usize) -> usize {
     let most = usable - 35;
     if length <= most {
@@ -221,7 +231,7 @@ fn in_page(length: usize, usable: usize) -> usize {
     if even <= most { even } else { least }
 }
 
-/// A varint of one to nine bytes, the highest first, and the rest.
+/// Varint of one to nine bytes, the highest first, and the rest.
 fn varint(bytes: &[u8]) -> Option<(u64, &[u8])> {
     let mut number = 0_u64;
     for at in 0..8 {

@@ -1,4 +1,4 @@
-//! B-trees of tables: interior pages refer to others, leaf pages have rows in the order of their numbers.
+//! B-trees of tables. Interior pages refer to other pages. Leaf pages have rows in the order of their numbers.
 
 use std::collections::HashSet;
 
@@ -13,11 +13,11 @@ const LEAF: u8 = 13;
 /// Maximum depth of a tree: enough for all pages with two children each.
 const DEPTH: usize = 40;
 
-/// The head of a page of a table.
+/// Head of a page of a table.
 pub(super) struct Head {
     kind: u8,
     cells: u16,
-    /// The last child of an interior page.
+    /// Last child of an interior page.
     last: u32,
     /// Offset of the list of cells.
     places: usize,
@@ -38,7 +38,7 @@ impl Head {
         })
     }
 
-    /// The bytes from the start of this cell on.
+    /// Bytes from the start of this cell on.
     pub(super) fn cell<'p>(&self, page: &'p [u8], cell: u16) -> Option<&'p [u8]> {
         if cell >= self.cells {
             return None;
@@ -48,24 +48,27 @@ impl Head {
         page.get(usize::from(u16::from_be_bytes([place[0], place[1]]))..)
     }
 
-    /// True if it is a leaf page, with rows.
+    /// True for a leaf page, which has rows.
     pub(super) fn is_leaf(&self) -> bool {
         self.kind == LEAF
     }
 }
 
-/// Calls `each` with every row of `table`.
+/// Calls `each` with every row of `table`; of a file that was cut, with those on pages before the cut.
 pub(super) fn walk(
     pages: &mut Pages<'_>,
     table: &SqliteTable,
     each: &mut dyn FnMut(RowPlace, &mut Record<'_, '_>) -> Result<(), TableError>,
 ) -> Result<(), TableError> {
     let mut seen = HashSet::new();
-    // Pages still to be read, the next one last, each with its depth.
+    // Pages to read, the next one last, each with its depth.
     let mut open = vec![(table.root, 0)];
     while let Some((number, depth)) = open.pop() {
         if !seen.insert(number) || depth > DEPTH {
             return Err(pages.damaged(number, "its B-tree leads to it twice"));
+        }
+        if pages.is_beyond_cut(number) {
+            continue;
         }
         let page = pages.page(number)?;
         let Some(head) = Head::of(number, &page) else {

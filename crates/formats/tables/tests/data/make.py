@@ -1,8 +1,8 @@
-"""Writes the small files that are not among the shared recordings, by pyarrow, and what pyarrow reads back of them as JSON.
+"""Writes the small files that are not shared recordings with pyarrow, and the values that pyarrow reads back as JSON.
 
     python make.py [KIND ...]      kinds: nested arrow plain times mcap lerobot
 
-pyarrow 26, numpy, mcap 1.6, mcap-ros2-support 0.6, pillow. Numbers are drawn in closed form."""
+pyarrow 26, numpy, mcap 1.6, mcap-ros2-support 0.6, pillow. Numbers come from closed formulas."""
 import datetime, decimal, json, sys
 from pathlib import Path
 
@@ -14,12 +14,12 @@ HERE = Path(__file__).parent
 
 
 def plain(value):
-    """As Rust's test compares it: bytes in hexadecimal digits, times as integers, NaN as a text."""
+    """Converts a value for the Rust test: bytes as hexadecimal digits, times as integers, NaN as a text."""
     if isinstance(value, dict):
         return {k: plain(v) for k, v in value.items()}
     if isinstance(value, list):
         return [plain(v) for v in value]
-    if isinstance(value, tuple):  # an entry of a map
+    if isinstance(value, tuple):  # entry of a map
         return {"key": plain(value[0]), "value": plain(value[1])}
     if isinstance(value, bytes):
         return value.hex()
@@ -31,7 +31,7 @@ def plain(value):
 
 
 def nested():
-    """Nulls, empty lists and structures at every depth, in every encoding that pyarrow writes, several pages a group."""
+    """Writes nulls, empty lists and structures at every depth, in every encoding of pyarrow, with several pages per group."""
     rows = 700
     some = lambda k, value: None if k % 7 == 3 else value
     deep = pa.list_(pa.list_(pa.struct([("a", pa.list_(pa.int32())), ("b", pa.string())])))
@@ -76,7 +76,7 @@ def nested():
 
 
 def arrow():
-    """The first rows of `nested` and columns of types that Parquet has not, as a stream and as files with a footer; and the example of the documentation."""
+    """Writes the first rows of `nested` and columns of types that Parquet lacks, as a stream and as files with a footer. Writes the documentation example."""
     rows = 300
     table = pq.read_table(HERE / "nested" / "plain.parquet").slice(0, rows)
     table = table.set_column(table.schema.get_field_index("kind"), "kind", table["kind"].cast(pa.string()))
@@ -108,7 +108,7 @@ def arrow():
 
 
 def plain():
-    """Cells of bytes in plain pages, of both versions and of every codec, with nulls at both depths."""
+    """Writes cells of bytes in plain pages of both versions and every codec, with nulls at both depths."""
     rows = 90
     cell = lambda k: None if k % 6 == 4 else {"bytes": None if k % 10 == 7 else bytes((k * i) % 251 for i in range(k * 7 % 400)) + bytes([k]) * (k % 50)}
     table = pa.table({"image": pa.array([cell(k) for k in range(rows)], pa.struct([("bytes", pa.binary())])), "raw": pa.array([bytes([k, 255 - k]) * k for k in range(rows)], pa.binary()), "row": list(range(rows))},
@@ -122,7 +122,7 @@ def plain():
 
 
 def times():
-    """Every type of a time that pyarrow writes, and what each is in seconds as exact decimals."""
+    """Writes every time type of pyarrow, and the seconds of each value as exact decimals."""
     counts = [-1, 0, 1, 86_399, None, 1_700_000_000]
     per = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}
     def seconds(count, unit):
@@ -190,7 +190,7 @@ def stamp(ns):
 
 
 def messages(k):
-    """The messages at tick k, every 100 ms."""
+    """Messages at tick k, every 100 ms."""
     ns = 1_700_000_000_000_000_000 + k * 100_000_007
     v = lambda a: dict(zip("xyz", a))
     yield "/pose", "geometry_msgs/msg/PoseStamped", ns, {"header": stamp(ns), "pose": {"position": v([0.1 * k, -0.5, 1e-12]), "orientation": {**v([0.0, 0.0, 0.1]), "w": 0.9}}}
@@ -205,7 +205,7 @@ def messages(k):
 
 
 def attributes(value):
-    """A message of the peer as JSON."""
+    """Message of the peer as JSON."""
     if hasattr(value, "__slots__"):
         return {name: attributes(getattr(value, name)) for name in value.__slots__}
     if isinstance(value, (list, tuple)) or type(value).__module__ == "numpy":
@@ -274,7 +274,7 @@ def picture(value):
 
 
 def lerobot():
-    """LeRobot by its documented layout: 2.1 with a file an episode, 3.0 with several files of data, videos and descriptions."""
+    """Writes LeRobot folders of the documented layout: 2.1 with one file per episode, 3.0 with several files of data, videos and descriptions."""
     import shutil
 
     fps = 10
@@ -327,7 +327,7 @@ def lerobot():
     rows = [3, 2, 4, 1, 2]
     data, clip = "data/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet", "videos/{video_key}/chunk-{chunk_index:03d}/file-{file_index:03d}.mp4"
     info(folder, "v3.0", rows, data, clip, video | image)
-    # Episodes 0 and 1 in the first file of data, 2 in the second, 3 and 4 in the first of another chunk; the video is cut elsewhere.
+    # Episodes 0 and 1 in the first file of data, 2 in the second, 3 and 4 in the first of another chunk. The video is split elsewhere.
     of_data, of_video = [(0, 0), (0, 0), (0, 1), (1, 0), (1, 0)], [(0, 0), (0, 1), (0, 1), (0, 1), (1, 0)]
     for place in dict.fromkeys(of_data):
         path = folder / data.format(chunk_index=place[0], file_index=place[1])

@@ -1,4 +1,4 @@
-//! Copies of a file cut short and with flipped bits, and what reading them may do: give a result or an error of ours, soon.
+//! Truncated copies of a file and copies with flipped bits. Reading them gives a result or an error of ours, soon.
 
 use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe};
@@ -10,20 +10,20 @@ thread_local! {
     static PANICKED_AT: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
-/// How reading damaged copies ended.
+/// Counts of the results of reading damaged copies.
 #[derive(Debug, Default)]
 pub(crate) struct Endings {
     pub(crate) read: usize,
     pub(crate) refused: usize,
-    /// Panics of decoders that are not ours.
+    /// Panics of decoders from other crates.
     pub(crate) panicked: usize,
 }
 
-/// Reads six copies of the file at `path` that were cut short and forty with flipped bits; `read` reads a copy that lies in the place
-/// of the file, inside a copy of its folder `root`.
+/// Reads six truncated copies of the file at `path` and forty copies with flipped bits. `read` reads a copy in a copy of the folder
+/// `root`.
 ///
 /// # Panics
-/// If code of ours panics, or a copy takes longer than ten seconds.
+/// If our code panics, or a copy takes longer than ten seconds.
 pub(crate) fn damage<T, E: std::fmt::Display>(
     root: &Path,
     path: &Path,
@@ -42,7 +42,7 @@ pub(crate) fn damage<T, E: std::fmt::Display>(
             Ok(Ok(_)) => endings.read += 1,
             Ok(Err(error)) => {
                 let message = error.to_string();
-                // It may be a file beside it that does not fit any more.
+                // The error may name a file beside it that no longer fits.
                 let is_named = message.contains(&*folder.path().to_string_lossy());
                 assert!(is_named, "{name}: {message}");
                 endings.refused += 1;
@@ -65,7 +65,7 @@ pub(crate) fn damage<T, E: std::fmt::Display>(
     }
 }
 
-/// What `read` gives; if it panics, the file of the code that did.
+/// Result of `read`. If it panics, the error is the source file of the panic.
 pub(crate) fn attempt<T>(read: impl FnOnce() -> T) -> Result<T, String> {
     listen();
     PANICKED_AT.with_borrow_mut(|at| *at = Some(String::new()));
@@ -74,7 +74,7 @@ pub(crate) fn attempt<T>(read: impl FnOnce() -> T) -> Result<T, String> {
     result.map_err(|_| place)
 }
 
-/// The most memory that this process has had, in bytes; none where the system does not say.
+/// Peak memory of this process, bytes; `None` if the system does not report it.
 pub(crate) fn peak_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status
@@ -107,7 +107,7 @@ fn copies(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     };
     for copy in 0..40 {
         let mut flipped = bytes.to_vec();
-        // Half of them where files describe themselves: at the beginning or at the end.
+        // Half of them are where files describe themselves: at the beginning or at the end.
         let within = if copy % 2 == 0 {
             length
         } else {
@@ -123,7 +123,7 @@ fn copies(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     copies
 }
 
-/// Remembers where a panic of this thread began, instead of printing it.
+/// Records the location of a panic of this thread instead of printing it.
 fn listen() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {

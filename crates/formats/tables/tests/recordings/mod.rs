@@ -1,4 +1,4 @@
-//! The recordings under `tests/data` and `../../../tests/recordings`, and what the libraries that wrote them read back.
+//! Recordings under `tests/data` and `../../../tests/recordings`, with the values that their own libraries read back.
 
 #![allow(dead_code, reason = "each test program uses a part")]
 
@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 use sha2::{Digest, Sha256};
 
-/// The folder of a recording: of this crate, or else of those that all crates share.
+/// Folder of a recording: in this crate, or else among the shared recordings.
 pub(crate) fn recording(name: &str) -> PathBuf {
     let crate_folder = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     let own = crate_folder.join("tests/data").join(name);
@@ -19,19 +19,19 @@ pub(crate) fn recording(name: &str) -> PathBuf {
     }
 }
 
-/// The `expected.json` of a recording.
+/// `expected.json` of a recording.
 pub(crate) fn expected(name: &str) -> serde_json::Value {
     let text =
         std::fs::read_to_string(recording(name).join("expected.json")).expect("expected.json");
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// A number of it.
+/// Number in it.
 pub(crate) fn number(value: &serde_json::Value) -> f64 {
     value.as_f64().expect("a number")
 }
 
-/// The SHA-256 of `bytes` in hexadecimal digits.
+/// SHA-256 of `bytes` in hexadecimal digits.
 pub(crate) fn digest(bytes: &[u8]) -> String {
     Sha256::digest(bytes)
         .iter()
@@ -39,13 +39,13 @@ pub(crate) fn digest(bytes: &[u8]) -> String {
         .collect()
 }
 
-/// The SHA-256 of the samples of a PNG file.
+/// SHA-256 of the samples of a PNG file.
 pub(crate) fn picture_digest(png: &[u8]) -> String {
     let picture = image::load_from_memory(png).expect("a picture");
     digest(&picture.into_rgb8())
 }
 
-/// A row as a place in a list.
+/// Row as an index of a list.
 pub(crate) fn at(row: u64) -> usize {
     usize::try_from(row).expect("a row of a small file")
 }

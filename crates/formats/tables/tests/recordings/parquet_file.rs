@@ -1,4 +1,4 @@
-//! Parquet files that tests write themselves.
+//! Parquet files that tests write.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
 
-/// A Parquet file of one column, `message` by the language of the format, that `write` fills.
+/// Parquet file of one column. `message` is its schema in the Parquet language. `write` fills it.
 pub(crate) fn parquet_file(
     message: &str,
     write: impl FnOnce(&mut ColumnWriter<'_>),

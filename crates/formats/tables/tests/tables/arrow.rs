@@ -1,4 +1,4 @@
-//! Tables in files of Arrow: every type and nesting as pyarrow reads it back, and what is refused.
+//! Tests of tables in Arrow files: every type and nesting as pyarrow reads it back, and rejected files.
 
 use std::fs;
 use std::path::PathBuf;
@@ -40,7 +40,7 @@ fn every_type_and_nesting_of_a_stream_and_of_a_file_is_read_as_pyarrow_reads_it(
     }
 }
 
-/// The cell of a row of `make.py` that is null in every fifth.
+/// Cell of a row of `make.py`. Every fifth row is null.
 fn some(row: u16, cell: Cell) -> Cell {
     match row % 5 {
         2 => Cell::Null,
@@ -151,7 +151,7 @@ fn files_that_end_early_are_damaged_wherever_they_end() {
     let folder = tempfile::tempdir().expect("a folder");
     let copy = folder.path().join("cut.arrow");
     let whole = fs::read(file("stream.arrow")).expect("readable");
-    // The mark of the end has eight bytes.
+    // The end marker has eight bytes.
     for end in (0..whole.len() - 8).step_by(97).chain([whole.len() - 8]) {
         fs::write(&copy, &whole[..end]).expect("written");
         let error = ArrowTable::open(&copy).expect_err("cut short");

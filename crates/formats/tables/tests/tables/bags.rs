@@ -1,4 +1,4 @@
-//! Databases of rosbag2 and bags of ROS 1: every message as it was given to the program that wrote them (`tests/data/bags/make.py`).
+//! Tests of rosbag2 databases and ROS 1 bags: every message as given to the program that wrote it (`tests/data/bags/make.py`).
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -34,7 +34,7 @@ fn numbers(column: &[Cell]) -> Vec<f64> {
     column.iter().map(number).collect()
 }
 
-/// Everything of `file`, as far as it reads.
+/// Reads all of `file` up to the first error.
 fn read_all(path: &Path) -> Result<usize, TableError> {
     let recording = Recording::open(path)?;
     let mut cells = 0;
@@ -197,7 +197,7 @@ fn bags_of_other_versions_and_forms_are_refused_with_what_mends_them() {
     refused(&at("a.db3", b"no recording at all"), &["not a recording"]);
     refused(&at("empty.mcap", b""), &["not a recording"]);
 
-    // One word of the database is another: the version of the schema, a column of topics.
+    // One word of the database differs: the version of the schema, a column of topics.
     let iron = fs::read(data("iron.db3")).expect("there");
     let with = |old: &[u8], new: &[u8]| {
         let mut bytes = iron.clone();
@@ -225,7 +225,7 @@ fn bags_of_other_versions_and_forms_are_refused_with_what_mends_them() {
             ],
         );
     }
-    // A recorder that was killed never wrote where the index begins.
+    // A killed recorder does not write the start of the index.
     let place = whole
         .windows(10)
         .position(|part| part == b"index_pos=")
@@ -263,7 +263,7 @@ fn a_cut_bag_states_how_many_messages_are_whole_before_its_cut() {
             steps.insert(messages);
         }
         assert_eq!(before, 16, "{file}");
-        // Messages of a chunk that is not packed are counted one by one.
+        // Messages of an uncompressed chunk are counted one by one.
         assert!(is_by_chunk || steps.len() > 8, "{file}: {steps:?}");
     }
 }
@@ -273,7 +273,7 @@ fn pages_that_lead_to_one_another_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("loop.db3");
     let whole = fs::read(data("small_pages.db3")).expect("there");
-    // Every inner page of a table (kind 5) leads to itself last.
+    // Every interior page of a table (kind 5) leads to itself last.
     let mut bytes = whole.clone();
     let mut changed = 0;
     for page in 1..bytes.len() / 512 {
@@ -287,6 +287,43 @@ fn pages_that_lead_to_one_another_are_refused() {
     assert!(changed > 0);
     fs::write(&path, &bytes).expect("written");
     refused(&path, &["leads to it twice"]);
+}
+
+/// K5.
+#[test]
+fn rows_that_share_their_bytes_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("shared.db3");
+    let mut bytes = fs::read(data("small_pages.db3")).expect("there");
+    // Every cell of a leaf page (kind 13) with a picture leads to that picture.
+    let mut changed = 0;
+    for page in 1..bytes.len() / 512 {
+        let at = page * 512;
+        if bytes[at] != 13 {
+            continue;
+        }
+        let cells = usize::from(bytes[at + 4]);
+        let places: Vec<[u8; 2]> = (0..cells)
+            .map(|cell| at + 8 + 2 * cell)
+            .map(|place| [bytes[place], bytes[place + 1]])
+            .collect();
+        let is_picture = |place: &&[u8; 2]| {
+            let cell = at + usize::from(u16::from_be_bytes(**place));
+            // A length from 3968 to 16383, in two bytes.
+            bytes[cell] >= 0x9f && bytes[cell + 1] < 0x80
+        };
+        let Some(picture) = places.iter().find(is_picture).copied() else {
+            continue;
+        };
+        for cell in 0..cells {
+            let place = at + 8 + 2 * cell;
+            bytes[place..place + 2].copy_from_slice(&picture);
+            changed += 1;
+        }
+    }
+    assert_eq!(changed, 12);
+    fs::write(&path, &bytes).expect("written");
+    refused(&path, &["the file has 28160", "rows share their bytes"]);
 }
 
 #[test]
@@ -310,7 +347,7 @@ fn changed_bytes_of_a_small_bag_are_an_error_or_a_result_and_never_a_panic() {
         let whole = fs::read(data(file)).expect("there");
         let path = folder.path().join(file);
         let (mut errors, mut results) = (0, 0);
-        // The first kilobytes describe the rest; behind them every so many.
+        // The first kilobytes describe the rest. Later bytes are sampled.
         let places = (0..1024.min(whole.len()))
             .step_by(3)
             .chain((1024..whole.len()).step_by(193));

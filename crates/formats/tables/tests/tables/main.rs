@@ -1,10 +1,11 @@
-//! Files that other libraries wrote, and files that this crate writes: every value as those libraries read it back.
+//! Tests with files of other libraries and of this crate: every value as those libraries read it back.
 
 #[path = "../recordings/mod.rs"]
 mod recordings;
 
 mod arrow;
 mod bags;
+mod cut;
 mod lerobot;
 mod mcap;
 mod nested;

@@ -1,4 +1,4 @@
-//! MCAP files that the libraries of Foxglove wrote: every message as those libraries read it back.
+//! Tests with MCAP files that the Foxglove libraries wrote: every message as those libraries read it back.
 
 use crate::recordings::{at, digest, expected, number, picture_digest, recording};
 use serde_json::Value;
@@ -87,14 +87,14 @@ fn forces_and_pictures_are_those_that_were_written() {
             let (Cell::Integer(stamp), Cell::Integer(logged)) = (stamp, logged) else {
                 panic!()
             };
-            // Both were rounded to nanoseconds when they were written.
+            // Both were rounded to nanoseconds in writing.
             assert!((logged - stamp - 2_000_000).abs() <= 1, "{stamp} {logged}");
         }
         for row in THREE {
             let labels = &expected["labels"][row.to_string()];
             let stamp = stamps[at(row)];
             assert!((stamp - 1_700_000_000.0 - number(&labels["t_s"])).abs() < 3e-7);
-            // The force whose stamp is nearest to 40 ms later.
+            // Force with the stamp nearest to 40 ms later.
             let distance = |at: &usize| (force_stamps[*at] - stamp - 0.040).abs();
             let nearest = (0..200)
                 .min_by(|a, b| distance(a).total_cmp(&distance(b)))
@@ -145,7 +145,7 @@ fn forces_and_pictures_are_those_that_were_written() {
     }
 }
 
-/// The fields of a message of `expected.json` with their dotted names, times and lists as a whole.
+/// Collects the fields of a message of `expected.json` with dotted names. Times and lists stay whole.
 fn flat(value: &Value, above: &str, into: &mut Vec<(String, Value)>) {
     match value {
         Value::Object(members) if members.len() == 2 && members.contains_key("nanosec") => {

@@ -1,10 +1,10 @@
-//! Columns of every type and nesting that pyarrow writes, in its encodings, as pyarrow reads them back.
+//! Tests of columns of every type, nesting and encoding that pyarrow writes, as pyarrow reads them back.
 
 use crate::recordings::{at, expected, recording};
 use serde_json::Value;
 use taceva_tables::{Cell, ColumnKind, ParquetTable, TableError};
 
-/// A cell as `make.py` writes it.
+/// Cell as `make.py` writes it.
 pub(crate) fn plain(cell: &Cell) -> Value {
     match cell {
         Cell::Null => Value::Null,
@@ -13,7 +13,7 @@ pub(crate) fn plain(cell: &Cell) -> Value {
             Ok(value) => Value::from(value),
             Err(_) => Value::from(i64::try_from(*value).expect("of 64 bits")),
         },
-        // `make.py` has the one column of times in nanoseconds.
+        // `make.py` has one column of times in nanoseconds.
         Cell::Time(nanoseconds) => Value::from(i64::try_from(*nanoseconds).expect("of 64 bits")),
         Cell::Number(value) if value.is_nan() => Value::from("NaN"),
         Cell::Number(value) => Value::from(*value),

@@ -1,15 +1,15 @@
-//! Lists as older writers have them: without a group of their own, without a name for their kind, or with the one that Hive gave.
+//! Tests of lists of older writers: without their own group, without a name for their kind, or with the name from Hive.
 
 use crate::recordings::parquet_file::parquet_file;
 use parquet::column::writer::ColumnWriter;
 use taceva_tables::ParquetTable;
 
-/// A column of integers by its schema, the levels of its entries, and the texts of its rows.
+/// Column of integers: its schema, the levels of its entries, and the texts of its rows.
 type Written<'a> = (&'a str, &'a [i16], &'a [i16], &'a [&'a str]);
 
 #[test]
 fn every_form_of_list_gives_the_same_rows() {
-    // Rows: 1 and 2, none, null where that can be said, 3.
+    // Rows: 1 and 2, none, null if the form can state it, 3.
     let forms: [Written<'_>; 6] = [
         (
             "repeated int32 a;",

@@ -1,4 +1,4 @@
-//! Parquet files that pyarrow and Hugging Face's datasets wrote: every value and every picture as those libraries read them back.
+//! Tests with Parquet files that pyarrow and Hugging Face datasets wrote: every value and picture as those libraries read them back.
 
 use crate::recordings::{at, expected, number, picture_digest, recording};
 use taceva_tables::{Cell, ParquetTable, TableError};
@@ -6,7 +6,7 @@ use taceva_tables::{Cell, ParquetTable, TableError};
 const THREE: [u64; 3] = [0, 7, 23];
 const CHANNELS: [&str; 6] = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
 
-/// Each codec, with the version of pages that it was written with.
+/// Codecs of the files.
 const CODECS: [&str; 5] = ["zstd", "gzip", "brotli", "lz4", "none"];
 
 #[test]
@@ -135,7 +135,7 @@ fn pictures_of_hugging_face_come_in_their_own_bytes() {
                         picture_digest(&bytes),
                         expected["frames_sha256"][row.to_string()]
                     ),
-                    // Decoders of JPEG differ; the bytes are those of the file, whole.
+                    // Decoders of JPEG differ. The bytes are the whole bytes of the file.
                     _ => {
                         assert!(bytes.starts_with(&[0xff, 0xd8]) && bytes.ends_with(&[0xff, 0xd9]))
                     }

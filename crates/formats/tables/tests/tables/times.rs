@@ -1,4 +1,4 @@
-//! Columns of times that pyarrow writes, of every type and unit: seconds by what the file says of them, digit by digit.
+//! Tests of time columns that pyarrow writes, of every type and unit. Seconds match the file exactly, digit by digit.
 
 use crate::recordings::{expected, recording};
 use taceva_tables::{Cell, ColumnKind, ParquetTable};
@@ -29,7 +29,7 @@ fn times_of_every_type_are_in_seconds_by_what_the_file_says() {
 fn columns_of_times_say_their_unit_and_integers_have_none() {
     let table = table("times.parquet");
     for unit in ["s", "ms", "us", "ns"] {
-        // Parquet itself knows no seconds: pyarrow writes milliseconds instead, but of durations, which it writes as integers.
+        // Parquet has no seconds. pyarrow writes milliseconds instead, except for durations, which it writes as integers.
         let counted = if unit == "s" { "ms" } else { unit };
         for (name, counted) in [
             ("stamp", counted),

@@ -1,4 +1,4 @@
-//! What is written is what is read: columns of every kind, and folders of LeRobot over several data files.
+//! Tests that written data is read back: columns of every kind, and LeRobot folders with several data files.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use taceva_tables::{
     WrittenColumn, WrittenFeature, WrittenKind,
 };
 
-/// A row of each kind of column, absent wherever `number` is a multiple of one of the numbers.
+/// Row of each kind of column. A cell is null if `number` is a multiple of its divisor.
 fn row(number: i16) -> Vec<Cell> {
     let unless = |every: i16, cell: Cell| match number % every {
         0 => Cell::Null,
@@ -125,8 +125,11 @@ fn a_folder_of_lerobot_is_read_with_its_tasks_episodes_and_stats() {
     ];
     let mut writer = LeRobotWriter::create(folder.path(), "bench", 2.0, features).expect("new");
     let early = writer.push(Vec::new()).expect_err("no episode").to_string();
-    assert!(early.contains("a row before the first episode"), "{early}");
-    // Pictures of 1 MiB that no compression makes smaller: the first data file is full after two episodes.
+    assert!(
+        early.contains("a row was added before the first episode"),
+        "{early}"
+    );
+    // Incompressible pictures of 1 MiB: the first data file is full after two episodes.
     let mut state = 1_u32;
     let mut noise = || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -184,7 +187,7 @@ fn a_folder_of_lerobot_is_read_with_its_tasks_episodes_and_stats() {
         stats["observation.images.gel"]["max"],
         serde_json::json!([[[1.0]]])
     );
-    // Of a channel without any number nothing can be said.
+    // A channel without numbers has no statistics.
     assert_eq!(stats["observation.state"], serde_json::Value::Null);
     let episodes = ParquetTable::open(
         &folder

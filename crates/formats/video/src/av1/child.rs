@@ -1,4 +1,4 @@
-//! The child process: confines itself, then decodes the packets of its parent.
+//! Child process: confines itself, then decodes the packets of its parent.
 
 use std::io::{self, Read, Write};
 
@@ -6,14 +6,14 @@ use super::rav1d::{Decoder, Refused};
 use super::sandbox::confine;
 use super::wire::{Answer, Greeting, Unit, plane_bytes};
 
-/// Reasons for which a child ends before its parent.
+/// Reason why a child ends before its parent.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ServeError {
     /// The parent cannot be read from or written to, or is another program.
     #[error("the AV1 decoder cannot communicate with its parent process: {0}")]
     Parent(#[from] io::Error),
-    /// The process could not be confined; nothing was decoded.
+    /// The process could not be confined. Nothing was decoded.
     #[error("the AV1 decoder cannot be confined: {0}")]
     Confinement(String),
     /// The decoder could not be created.
@@ -23,12 +23,12 @@ pub enum ServeError {
 
 /// Decodes AV1 for a parent that writes to `input` and reads from `output`, until `input` is closed.
 ///
-/// Confines the whole process for good before the first byte of a clip is decoded. On Linux it can then open no file or connection, start
-/// no process, and use only the memory for frames of that size. This needs seccomp filters, on x86-64 or a 64-bit ARM. On other systems the
-/// process keeps its rights. Call it from a command of its own: it is the last act of the program.
+/// Confines the whole process permanently before it decodes the first byte of a clip. On Linux the process can then open no file or
+/// connection and start no process. It can use memory only for frames of that size. This needs seccomp filters, on x86-64 or a 64-bit ARM.
+/// On other systems the process keeps its rights. Call it last in a separate command.
 ///
 /// # Errors
-/// [`ServeError`]; the parent sees the child exit. A panic in the decoder ends the process.
+/// [`ServeError`]. The parent sees the child exit. A panic in the decoder ends the process.
 ///
 /// ```no_run
 /// // The whole of a program that `Decoders::av1` may name.
@@ -56,7 +56,7 @@ pub fn serve(mut input: impl Read, mut output: impl Write) -> Result<(), ServeEr
     Ok(())
 }
 
-/// Memory limit of the decoder, in bytes: the program itself, and the frames that a codec keeps with their side data.
+/// Memory limit of the decoder, bytes: the program itself, and the frames that a codec keeps with their side data.
 fn memory_bytes(size: Greeting) -> u64 {
     (512 << 20) + 48 * plane_bytes(size.width, size.height, false)
 }

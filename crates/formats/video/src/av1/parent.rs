@@ -17,7 +17,7 @@ use crate::mp4::{Sample, Track};
 use crate::process::{Piece, Running};
 use crate::source::Source;
 
-/// An AV1 clip, decoded by a child process.
+/// AV1 clip, decoded by a child process.
 #[derive(Debug)]
 pub(crate) struct Av1Clip {
     source: Source,
@@ -34,7 +34,7 @@ pub(crate) struct Av1Clip {
 pub(crate) const DECODER: &str = "rav1d 1.1";
 
 impl Av1Clip {
-    /// Pixel format by the settings `av1C`; `None` if the child does not decode it.
+    /// Pixel format from the settings `av1C`; `None` if the child does not decode it.
     pub(crate) fn pixel_format(settings: &[u8]) -> Option<&'static str> {
         let &[version, _, flags, ..] = settings else {
             return None;
@@ -147,7 +147,7 @@ impl Av1Clip {
     }
 }
 
-/// A visit of a clip: a running child process.
+/// Visit of a clip: a running child process.
 struct Session<'a> {
     clip: &'a Av1Clip,
     colours: Colours,
@@ -165,7 +165,7 @@ impl<'a> Session<'a> {
         };
         let mut command = Command::new(program);
         command.args(arguments).stdin(Stdio::piped());
-        // The child could not read the files of a backtrace.
+        // The child cannot read the files of a backtrace.
         command.env("RUST_BACKTRACE", "0");
         let size = clip.size;
         let take = Box::new(move |from: &mut dyn std::io::Read| Answer::take(from, size));
@@ -175,7 +175,7 @@ impl<'a> Session<'a> {
             return Err(clip.failed("has no standard input"));
         };
         let (to, units) = sync_channel(1);
-        // A separate thread, since a child that stops reading would block the writer.
+        // A separate thread, because a child that stops reading would block the writer.
         let writer = thread::Builder::new().spawn(move || write_units(input, size, &units));
         writer.map_err(not_started)?;
         Ok(Session {
@@ -188,7 +188,7 @@ impl<'a> Session<'a> {
         })
     }
 
-    /// Sends a unit and returns the answer of the child.
+    /// Sends a unit. Returns the answer of the child.
     fn ask(&mut self, unit: Unit, frame: u64) -> Result<Answer, VideoError> {
         let is_sent = self.to.send(unit).is_ok();
         loop {

@@ -1,4 +1,4 @@
-//! Binding of `rav1d`, whose interface is that of a C library.
+//! Binding of `rav1d`, which has the interface of a C library.
 #![expect(unsafe_code, reason = "the library has no other interface")]
 
 use std::mem::MaybeUninit;
@@ -16,19 +16,19 @@ use rav1d::src::lib::{
 
 use super::wire::{Answer, Yuv};
 
-/// Error of the library that asks for another call: `-EAGAIN`.
+/// Library error that requests another call: `-EAGAIN`.
 const AGAIN: i32 = -11;
 
-/// Reasons for which a packet was not decoded.
+/// Reason why a packet was not decoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Refused {
     /// Error of the library, a negative system error number.
     Code(i32),
-    /// Unsupported data, in words.
+    /// Unsupported data, as text.
     Kind(&'static str),
 }
 
-/// A single-threaded decoder without frame delay.
+/// Single-threaded decoder without frame delay.
 pub(super) struct Decoder {
     context: Option<Dav1dContext>,
 }
@@ -37,16 +37,16 @@ impl Decoder {
     /// Creates a decoder of frames of at most `pixels`.
     pub(super) fn open(pixels: u32) -> Result<Decoder, i32> {
         let mut settings = MaybeUninit::<Dav1dSettings>::uninit();
-        // SAFETY: the place is valid for the settings, which the function writes in full.
+        // SAFETY: the pointer is valid for the settings, and the function writes all of them.
         unsafe { dav1d_default_settings(NonNull::from(&mut settings).cast()) };
-        // SAFETY: the call above has initialised them.
+        // SAFETY: the call above initialised them.
         let mut settings = unsafe { settings.assume_init() };
         settings.n_threads = 1;
         settings.max_frame_delay = 1;
         settings.all_layers = 0;
         settings.frame_size_limit = pixels;
         let mut context = None;
-        // SAFETY: both places are valid for what the function reads and writes there.
+        // SAFETY: both pointers are valid for the reads and writes of the function.
         let result = unsafe {
             dav1d_open(
                 Some(NonNull::from(&mut context)),
@@ -76,11 +76,13 @@ impl Decoder {
             }
             let had = picture.is_some();
             while let Some(next) = self.next()? {
-                // A packet has one shown frame; the last of its layers is complete.
+                // A packet has one shown frame. The last of its layers is complete.
                 picture = Some(next);
             }
             if packet.0.sz == before && picture.is_some() == had {
-                return Err(Refused::Kind("the decoder accepts no more of the packet"));
+                return Err(Refused::Kind(
+                    "the decoder accepts no more data of the packet",
+                ));
             }
         }
         while let Some(next) = self.next()? {
@@ -96,7 +98,7 @@ impl Decoder {
 
     fn next(&mut self) -> Result<Option<Shown>, Refused> {
         let mut picture = Shown(Dav1dPicture::default());
-        // SAFETY: the context is open, and the place holds an empty picture.
+        // SAFETY: the context is open, and the pointer leads to an empty picture.
         let result =
             unsafe { dav1d_get_picture(self.context, Some(NonNull::from(&mut picture.0))) };
         match result.0 {
@@ -109,7 +111,7 @@ impl Decoder {
 
 impl Drop for Decoder {
     fn drop(&mut self) {
-        // SAFETY: the context is from `dav1d_open`, or none, and is closed once.
+        // SAFETY: the context is from `dav1d_open` or null, and is closed once.
         unsafe { dav1d_close(Some(NonNull::from(&mut self.context))) };
     }
 }
@@ -120,10 +122,10 @@ struct Packet(Dav1dData);
 impl Packet {
     fn new(bytes: &[u8]) -> Option<Packet> {
         let mut packet = Packet(Dav1dData::default());
-        // SAFETY: the place holds a packet without bytes.
+        // SAFETY: the pointer leads to a packet without bytes.
         let place = unsafe { dav1d_data_create(Some(NonNull::from(&mut packet.0)), bytes.len()) };
         let place = NonNull::new(place)?;
-        // SAFETY: the library has just allocated as many bytes there, for this packet alone.
+        // SAFETY: the library has just allocated that many bytes there, only for this packet.
         let place = unsafe { slice::from_raw_parts_mut(place.as_ptr(), bytes.len()) };
         place.copy_from_slice(bytes);
         Some(packet)
@@ -137,21 +139,21 @@ impl Drop for Packet {
     }
 }
 
-/// A picture owned by the library.
+/// Picture owned by the library.
 struct Shown(Dav1dPicture);
 
 impl Shown {
-    /// Copies its planes, row by row.
+    /// Copies the planes of the picture, row by row.
     fn yuv(&self) -> Result<Yuv, Refused> {
         let picture = &self.0;
         let is_gray = picture.p.layout == DAV1D_PIXEL_LAYOUT_I400;
         if picture.p.bpc != 8 || !(is_gray || picture.p.layout == DAV1D_PIXEL_LAYOUT_I420) {
-            return Err(Refused::Kind("pixels that are not 8-bit 4:2:0"));
+            return Err(Refused::Kind("the pixels are not 8-bit 4:2:0"));
         }
         let sides = u32::try_from(picture.p.w)
             .ok()
             .zip(u32::try_from(picture.p.h).ok());
-        let (width, height) = sides.ok_or(Refused::Kind("a picture without a size"))?;
+        let (width, height) = sides.ok_or(Refused::Kind("the picture has no size"))?;
         let mut planes = Vec::new();
         self.copy_plane(0, width, height, &mut planes)?;
         if !is_gray {
@@ -160,7 +162,7 @@ impl Shown {
         }
         let header = picture
             .seq_hdr
-            .ok_or(Refused::Kind("a picture without a sequence header"))?;
+            .ok_or(Refused::Kind("the picture has no sequence header"))?;
         // SAFETY: the picture keeps its header alive.
         let header = unsafe { header.as_ref() };
         Ok(Yuv {
@@ -180,13 +182,13 @@ impl Shown {
         height: u32,
         into: &mut Vec<u8>,
     ) -> Result<(), Refused> {
-        let first = self.0.data[plane].ok_or(Refused::Kind("a picture without a plane"))?;
+        let first = self.0.data[plane].ok_or(Refused::Kind("the picture lacks a plane"))?;
         let first = first.as_ptr().cast::<u8>().cast_const();
         let stride = self.0.stride[plane.min(1)];
         for row in 0..height as isize {
             // SAFETY: the plane has `height` rows, `stride` bytes from one to the next, all in one allocation.
             let line = unsafe { first.offset(row * stride) };
-            // SAFETY: each row has `width` bytes of its plane, initialised by the decoder; nobody writes them while the picture is held.
+            // SAFETY: each row has `width` bytes of its plane, initialised by the decoder. Nothing writes them while the picture is held.
             let line = unsafe { slice::from_raw_parts(line, width as usize) };
             into.extend_from_slice(line);
         }

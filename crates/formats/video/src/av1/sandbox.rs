@@ -21,7 +21,7 @@ mod linux {
         SeccompFilter, SeccompRule, TargetArch, apply_filter_all_threads,
     };
 
-    /// System calls that are allowed with any arguments: for open files, memory, time, and exit.
+    /// System calls allowed with any arguments: for open files, memory, time and exit.
     const ALWAYS: [i64; 21] = [
         libc::SYS_brk,
         libc::SYS_clock_gettime,

@@ -1,13 +1,13 @@
-//! Protocol between a parent and the child that decodes AV1: fixed-size integers, little-endian.
+//! Protocol between a parent and the child that decodes AV1. Integers have a fixed size and are little-endian.
 //!
-//! The parent sends a [`Greeting`], then [`Unit`]s, each answered before the next.
+//! The parent sends a [`Greeting`], then [`Unit`]s. Each unit is answered before the next.
 
 use std::io::{self, Read, Write};
 
 #[cfg(feature = "av1")]
 use crate::limits;
 
-/// First bytes of the protocol; the last one is its version.
+/// First bytes of the protocol. The last byte is the version.
 const LETTERS: [u8; 8] = *b"tacAV1\x00\x01";
 
 /// Size of all frames.
@@ -30,7 +30,7 @@ pub(super) struct Unit {
 /// Answer to a unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Answer {
-    /// Decoded; `has_picture` is true if it gave a picture.
+    /// Decoded. `has_picture` is true if it gave a picture.
     Decoded { has_picture: bool },
     /// Decoded, with its picture.
     Picture(Yuv),
@@ -38,13 +38,13 @@ pub(super) enum Answer {
     Refused(String),
 }
 
-/// A picture of 8 bits a sample: luma, then two chroma planes of half its sides unless it is gray.
+/// Picture of 8 bits a sample: luma, then two chroma planes with half its sides unless it is gray.
 #[derive(Clone, PartialEq, Eq)]
 pub(super) struct Yuv {
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) is_gray: bool,
-    /// Matrix number of ITU-T H.273; 2 is unspecified.
+    /// Matrix number of ITU-T H.273. 2 is unspecified.
     pub(super) matrix: u16,
     pub(super) is_full_range: bool,
     pub(super) planes: Vec<u8>,
@@ -56,7 +56,7 @@ impl std::fmt::Debug for Yuv {
     }
 }
 
-/// Size of the planes of a picture, in bytes, for sides within the limits.
+/// Size of the planes of a picture, bytes, for sides within the limits.
 pub(super) fn plane_bytes(width: u32, height: u32, is_gray: bool) -> u64 {
     let (width, height) = (u64::from(width), u64::from(height));
     width * height
@@ -111,7 +111,7 @@ impl Unit {
         }
         let [b, c, d] = take(from)?;
         let size = u32::from_le_bytes([first[0], b, c, d]);
-        // A packet preceded by the settings of its stream.
+        // A packet after the settings of its stream.
         if u64::from(size) > limits::PACKET_BYTES + limits::HEADER_BYTES {
             return Err(wrong("packet too large"));
         }
@@ -126,9 +126,9 @@ impl Unit {
     }
 }
 
-/// Size of the header of a picture, in bytes.
+/// Size of the header of a picture, bytes.
 const PICTURE_HEAD: usize = 12;
-/// Greatest length of a refusal, in bytes.
+/// Maximum length of a refusal, bytes.
 #[cfg(feature = "av1")]
 const MOST_WORDS: usize = 1024;
 
@@ -155,7 +155,7 @@ impl Answer {
         }
     }
 
-    /// Reads the bytes of the next answer, for frames of the size of `greeting`; empty at the end.
+    /// Reads the bytes of the next answer, for frames of the size of `greeting`. Empty at the end.
     pub(super) fn take(from: &mut dyn Read, greeting: Greeting) -> io::Result<Vec<u8>> {
         let mut answer = Vec::new();
         let mut more = |answer: &mut Vec<u8>, count: u64| {
@@ -181,7 +181,7 @@ impl Answer {
                 let Some(head) = Yuv::head(&answer) else {
                     return Err(wrong("a picture without a header"));
                 };
-                // The planes of another size are not read.
+                // Planes of another size are not read.
                 if (head.width, head.height) == (greeting.width, greeting.height) {
                     more(
                         &mut answer,
@@ -189,7 +189,7 @@ impl Answer {
                     )?;
                 }
             }
-            _ => return Err(wrong("an answer of no known kind")),
+            _ => return Err(wrong("an answer of an unknown kind")),
         }
         Ok(answer)
     }
@@ -213,7 +213,7 @@ impl Answer {
 }
 
 impl Yuv {
-    /// Parses the header before the planes, behind the letter of the kind.
+    /// Parses the header before the planes, after the letter of the kind.
     fn head(answer: &[u8]) -> Option<Yuv> {
         let head: &[u8; PICTURE_HEAD] = answer.get(1..)?.first_chunk()?;
         let &[

@@ -5,7 +5,7 @@ use std::fmt;
 use crate::error::VideoError;
 use crate::source::Source;
 
-/// The four letters of a chunk or list.
+/// Four letters of a chunk or list.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) struct ChunkId(pub(super) [u8; 4]);
 
@@ -35,11 +35,11 @@ impl fmt::Display for ChunkId {
 #[derive(Clone, Debug)]
 pub(super) struct Chunk {
     pub(super) id: ChunkId,
-    /// Offset of its first letter.
+    /// Offset of the first letter.
     pub(super) at: u64,
-    /// Offset of its content.
+    /// Offset of the content.
     pub(super) body: u64,
-    /// Size of its content, without padding.
+    /// Size of the content without padding, bytes.
     pub(super) size: u64,
 }
 
@@ -63,7 +63,7 @@ impl Chunk {
     /// Iterates over the chunks of a list.
     pub(super) fn list<'a>(&self, source: &'a Source) -> Result<Chunks<'a>, VideoError> {
         if self.size < 4 {
-            return Err(source.damaged(self.at, "a list without its type of four letters"));
+            return Err(source.damaged(self.at, "the list has no type of four letters"));
         }
         // The end was checked when the chunk was found.
         Ok(Chunks::new(source, self.body + 4, self.body + self.size))
@@ -75,12 +75,12 @@ pub(super) struct Chunks<'a> {
     source: &'a Source,
     at: u64,
     end: u64,
-    /// Read buffer and its offset: many small chunks are read at once.
+    /// Read buffer and its offset. Many small chunks are read at once.
     window: Vec<u8>,
     window_at: u64,
 }
 
-/// Size of the read buffer, in bytes.
+/// Size of the read buffer, bytes.
 const WINDOW_BYTES: u64 = 1 << 10;
 
 impl<'a> Chunks<'a> {
@@ -94,7 +94,7 @@ impl<'a> Chunks<'a> {
         }
     }
 
-    /// Header at the present offset, eight bytes.
+    /// Header at the current offset, eight bytes.
     fn head(&mut self) -> Result<[u8; 8], VideoError> {
         let in_window = |chunks: &Chunks<'_>| -> Option<[u8; 8]> {
             let from = usize::try_from(chunks.at.checked_sub(chunks.window_at)?).ok()?;

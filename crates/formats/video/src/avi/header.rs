@@ -21,7 +21,7 @@ pub(crate) struct StreamHeader {
     pub(super) rate: u32,
 }
 
-/// Reads the first video stream in the list of headers; `None` without one.
+/// Reads the first video stream in the list of headers; `None` if there is none.
 pub(super) fn read(source: &Source, headers: &Chunk) -> Result<Option<StreamHeader>, VideoError> {
     let mut chunks = headers.list(source)?;
     let mut number = 0;
@@ -60,7 +60,7 @@ fn read_stream(
                 let bytes = read_whole(source, &chunk, 20)?;
                 let mut codec = [0; 4];
                 codec.copy_from_slice(&bytes[16..20]);
-                // A negative height means rows from the top down.
+                // A negative height means rows from top to bottom.
                 let height = i32::from_le_bytes([bytes[8], bytes[9], bytes[10], bytes[11]]);
                 let (width, height) = (number_at(&bytes, 4), height.unsigned_abs());
                 for side in [width, height] {
@@ -104,7 +104,7 @@ fn read_whole(source: &Source, chunk: &Chunk, least: u64) -> Result<Vec<u8>, Vid
     )
 }
 
-/// Little-endian integer at `at`, which the caller has checked.
+/// Little-endian integer at `at`. The caller has checked `at`.
 fn number_at(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
 }

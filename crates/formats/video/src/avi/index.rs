@@ -13,14 +13,14 @@ pub(super) struct Index {
 }
 
 impl Index {
-    /// Adds one such index.
+    /// Adds an OpenDML index.
     pub(super) fn add(&mut self, source: &Source, chunk: &Chunk) -> Result<(), VideoError> {
         let wrong = |problem: String| broken(source, chunk.at, problem);
         let bytes = read_index(source, chunk)?;
         let Some((head, entries)) = bytes.split_at_checked(24) else {
             return Err(wrong(format!("{} bytes, expected 24 or more", bytes.len())));
         };
-        // Layout: two integers for each entry, the second of which is a size.
+        // Layout: two integers for each entry. The second is a size.
         if head[..2] != [2, 0] || head[3] != 1 {
             return Err(wrong("unknown layout".to_owned()));
         }
@@ -36,14 +36,14 @@ impl Index {
             let offset = base.checked_add(number(&entry[..4]));
             let offset =
                 offset.ok_or_else(|| wrong("the offset of an entry overflows".to_owned()))?;
-            // The highest bit marks a frame that is no key frame.
+            // The highest bit marks a frame that is not a key frame.
             let size = number(&entry[4..]) & 0x7fff_ffff;
             self.entries.push((at, Packet { offset, size }));
         }
         Ok(())
     }
 
-    /// Checks the entries, if any, against the packets found.
+    /// Checks the entries, if there are any, against the packets found.
     pub(super) fn check(&self, source: &Source, packets: &[Packet]) -> Result<(), VideoError> {
         if self.entries.is_empty() {
             return Ok(());
@@ -56,7 +56,7 @@ impl Index {
     }
 }
 
-/// Checks the index at the end of a part against the `packets` of stream `number` in that part, whose list begins at `base`.
+/// Checks the index at the end of a part against the `packets` of stream `number` in that part. The list of the part begins at `base`.
 pub(super) fn check_idx1(
     source: &Source,
     chunk: &Chunk,
@@ -78,7 +78,7 @@ pub(super) fn check_idx1(
             continue;
         };
         let offset = number(&entry[8..12]);
-        // Offsets of chunks count from the list or, by some writers, from the beginning of the file.
+        // Some writers count offsets of chunks from the list, others from the beginning of the file.
         let from = *offsets_from.get_or_insert_with(|| match found.offset.checked_sub(8) {
             Some(chunk_at) if chunk_at == offset => 0,
             _ => base,

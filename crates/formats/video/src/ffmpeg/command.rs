@@ -15,7 +15,7 @@ pub(super) fn command(path: &Path, program: &Path, output: &[&str]) -> Result<Co
     let file = File::open(path).map_err(VideoError::io("open", path))?;
     let mut command = Command::new(program);
     command.args(["-nostdin", "-nostats", "-loglevel", "level+info"]);
-    // Treats damage as an error, bounds sizes, and opens only files; playlists that name other files are not read.
+    // Treats damage as an error, limits sizes and opens only files. Playlists that name other files are not read.
     command.args([
         "-xerror",
         "-max_pixels",
@@ -48,7 +48,7 @@ pub(super) fn command(path: &Path, program: &Path, output: &[&str]) -> Result<Co
 const MAX_PIXELS: &str = "67108864";
 const MAX_ALLOCATED: &str = "1073741824";
 
-/// Containers and raw streams that contain their own frames, by the names of ffmpeg.
+/// Containers and raw streams with their own frames, as ffmpeg names them.
 const CONTAINERS: &str = "avi,matroska,mov,mpegts,mpeg,mpegvideo,m4v,h264,hevc,obu,ivf,ogg,flv,asf,mxf,nut,dv,gif,mjpeg,yuv4mpegpipe";
 
 pub(super) fn not_started(

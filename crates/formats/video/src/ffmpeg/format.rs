@@ -3,13 +3,13 @@
 /// Layout of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layout {
-    /// A luma plane and two chroma planes, with one byte a sample, or two in little-endian order.
+    /// Luma plane and two chroma planes, with one byte a sample, or two in little-endian order.
     Planar {
         shifts: (u32, u32),
         bits: u32,
         is_full_range: bool,
     },
-    /// A luma plane, then a plane of chroma pairs, red first if `is_red_first`.
+    /// Luma plane, then a plane of chroma pairs, red first if `is_red_first`.
     Paired { is_red_first: bool },
     /// Luma and chroma of two pixels in four bytes: offsets of luma, blue chroma and red chroma.
     Woven {
@@ -17,7 +17,7 @@ pub(super) enum Layout {
         blue: usize,
         red: usize,
     },
-    /// A luma plane.
+    /// Luma plane.
     Gray { bits: u32 },
     /// Pixels of `step` bytes, with the offsets of red, green and blue.
     Packed { step: usize, order: [usize; 3] },
@@ -84,7 +84,7 @@ impl Layout {
         })
     }
 
-    /// Size of a frame, in bytes; `None` on overflow, or if the layout does not allow the width.
+    /// Size of a frame, bytes; `None` on overflow, or if the layout does not allow the width.
     pub(super) fn frame_bytes(self, width: u32, height: u32) -> Option<usize> {
         let (width, height) = (width as usize, height as usize);
         let pixels = width.checked_mul(height)?;
@@ -115,7 +115,7 @@ pub(super) fn chroma_side(length: usize, shift: u32) -> usize {
     length.div_ceil(1 << shift)
 }
 
-/// Bytes of a sample.
+/// Size of a sample, bytes.
 pub(super) fn bytes_of(bits: u32) -> usize {
     if bits > 8 { 2 } else { 1 }
 }

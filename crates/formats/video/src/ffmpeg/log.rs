@@ -1,6 +1,6 @@
 //! Parser of the log of ffmpeg: lines with their level.
 
-/// A line of the log, `[context] [level] text`.
+/// Line of the log, `[context] [level] text`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Said<'a> {
     /// Source of the line, if any: `h264 @ 0x55…`.
@@ -43,7 +43,7 @@ impl<'a> Said<'a> {
                 .any(|start| self.context.starts_with(start))
     }
 
-    /// Text behind `[Parsed_showinfo_0 …]`; `None` for other lines.
+    /// Text after `[Parsed_showinfo_0 …]`; `None` for other lines.
     pub(super) fn shown(&self) -> Option<&'a str> {
         self.context
             .starts_with("Parsed_showinfo")
@@ -51,14 +51,14 @@ impl<'a> Said<'a> {
     }
 }
 
-/// Value behind `key` up to the next blank or comma.
+/// Value after `key`, up to the next blank or comma.
 pub(super) fn value<'a>(text: &'a str, key: &str) -> Option<&'a str> {
     let (_, rest) = text.split_once(key)?;
     let value = rest.trim_start().split([' ', ',']).next()?;
     (!value.is_empty()).then_some(value)
 }
 
-/// Matrix number of ITU-T H.273 by its name in ffmpeg; `None` if unspecified.
+/// Matrix number of ITU-T H.273 for its name in ffmpeg; `None` if unspecified.
 pub(super) fn matrix(name: &str) -> Option<u16> {
     Some(match name {
         "gbr" => 0,
@@ -71,7 +71,7 @@ pub(super) fn matrix(name: &str) -> Option<u16> {
         "bt2020nc" => 9,
         "bt2020c" => 10,
         "unknown" | "reserved" => return None,
-        // Any other is an unsupported matrix.
+        // Any other name is an unsupported matrix.
         _ => u16::MAX,
     })
 }

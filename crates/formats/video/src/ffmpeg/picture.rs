@@ -1,4 +1,4 @@
-//! Conversion of raw frames of ffmpeg to pictures.
+//! Conversion of raw ffmpeg frames to pictures.
 
 use super::format::{Layout, bytes_of, chroma_side};
 use crate::clip::{Colours, Picture};
@@ -13,14 +13,14 @@ pub(super) struct RawFrame {
     pub(super) coding: YuvCoding,
 }
 
-/// Reasons for which a frame has no picture of the requested colours.
+/// Reason why a frame has no picture of the requested colours.
 pub(super) enum Refused {
     NoLuma,
     Matrix(UnknownMatrix),
 }
 
 impl RawFrame {
-    /// Converts the frame `bytes`, which must have the size of its layout.
+    /// Converts the frame `bytes`. They must have the size of its layout.
     pub(super) fn picture(&self, bytes: Vec<u8>, colours: Colours) -> Result<Picture, Refused> {
         let (width, height) = (self.width, self.height);
         let pixels = width as usize * height as usize;
@@ -107,7 +107,7 @@ impl RawFrame {
                 planes(&luma, Some([&blue, &red]), (1, 0))
             }
             Layout::Gray { bits } => planes(&of_8_bits(bytes, bits), None, (0, 0)),
-            // Already colours; handled by the caller.
+            // Already colours. The caller handles them.
             Layout::Packed { .. } | Layout::Planes => Ok(Vec::new()),
         }
     }

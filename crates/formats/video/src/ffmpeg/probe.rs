@@ -26,7 +26,7 @@ pub(super) struct Look {
 }
 
 impl Look {
-    /// Decodes the whole clip, whose known properties are `known`.
+    /// Decodes the whole clip with the properties `known`.
     pub(super) fn at(path: &Path, program: &Path, known: &Known) -> Result<Look, VideoError> {
         let arguments = ["-vf", "showinfo=checksum=0", "-f", "null", "-"];
         let command = command(path, program, &arguments)?;

@@ -7,7 +7,7 @@ pub(super) struct Bits {
 }
 
 impl Bits {
-    /// Reads the unit `unit` behind its first byte.
+    /// Reads the unit `unit` after its first byte.
     pub(super) fn new(unit: &[u8]) -> Bits {
         let mut bytes = Vec::with_capacity(unit.len());
         let mut zeros = 0;

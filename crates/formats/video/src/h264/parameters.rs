@@ -1,4 +1,4 @@
-//! Sequence parameter sets of H.264: properties of a stream needed before decoding.
+//! Sequence parameter sets of H.264: properties of a stream that are needed before decoding.
 
 use super::bits::Bits;
 
@@ -25,7 +25,7 @@ pub(crate) struct Sequence {
     pub(super) matrix: Option<u16>,
 }
 
-/// Limits of level 6.2: macroblocks of a frame, and of all reference frames (ITU-T H.264, table A-1).
+/// Limits of level 6.2: macroblocks of a frame, and macroblocks of all reference frames (ITU-T H.264, table A-1).
 const MOST_BLOCKS: u64 = 139_264;
 const MOST_KEPT_BLOCKS: u64 = 696_320;
 
@@ -130,7 +130,7 @@ impl Sequence {
         format!("H.264 {profile}")
     }
 
-    /// Pixel format by the names of FFmpeg.
+    /// Pixel format as FFmpeg names it.
     pub(crate) fn pixel_format(&self) -> String {
         let planes = match self.chroma {
             0 => "gray",

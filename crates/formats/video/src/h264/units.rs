@@ -7,7 +7,7 @@ use crate::source::Source;
 /// Contents of `avcC`.
 #[derive(Clone, Debug)]
 pub(crate) struct Settings {
-    /// Size of the length of a unit, in bytes: 1, 2 or 4.
+    /// Size of the length of a unit, bytes: 1, 2 or 4.
     length_bytes: usize,
     /// All parameter sets, with start codes.
     pub(super) parameters: Vec<u8>,
@@ -18,13 +18,13 @@ pub(crate) struct Settings {
 /// Kind of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum UnitKind {
-    /// A part of a picture.
+    /// Part of a picture.
     Slice,
-    /// A part of a picture at which decoding can begin.
+    /// Part of a picture at which decoding can begin.
     KeySlice,
-    /// A sequence parameter set.
+    /// Sequence parameter set.
     Sequence,
-    /// Anything else.
+    /// Any other unit.
     Other,
 }
 
@@ -53,7 +53,7 @@ impl Settings {
         }
         let length_bytes = usize::from(lengths & 3) + 1;
         if length_bytes == 3 {
-            return Err(wrong(4, "lengths of 3 bytes, expected 1, 2 or 4"));
+            return Err(wrong(4, "the lengths have 3 bytes, expected 1, 2 or 4"));
         }
         let mut settings = Settings {
             length_bytes,
@@ -64,12 +64,12 @@ impl Settings {
         for _ in 0..counts & 31 {
             let unit = sized(bytes, &mut at).ok_or_else(|| wrong(at, "cut"))?;
             let sequence = Sequence::read(unit)
-                .ok_or_else(|| wrong(at, "a sequence parameter set of unknown layout"))?;
+                .ok_or_else(|| wrong(at, "a sequence parameter set has an unknown layout"))?;
             match &settings.sequence {
                 None => settings.sequence = Some(sequence),
                 Some(first) if (first.width, first.height) == (sequence.width, sequence.height) => {
                 }
-                Some(_) => return Err(wrong(at, "sequences of two sizes")),
+                Some(_) => return Err(wrong(at, "the sequences have different sizes")),
             }
             push_unit(&mut settings.parameters, unit);
         }
@@ -110,9 +110,10 @@ impl Settings {
                 )));
             };
             if let Some(inner) = unit.windows(3).position(|three| three == [0, 0, 1]) {
-                return Err(
-                    source.damaged(offset + (from + inner) as u64, "a start code within a unit")
-                );
+                return Err(source.damaged(
+                    offset + (from + inner) as u64,
+                    "a unit contains a start code",
+                ));
             }
             if !unit.is_empty() {
                 units.push((offset + from as u64, unit));
@@ -154,7 +155,7 @@ pub(super) fn push_unit(stream: &mut Vec<u8>, unit: &[u8]) {
     stream.extend_from_slice(unit);
 }
 
-/// Bytes behind a length of two bytes; advances `at`. `None` if they are truncated.
+/// Bytes after a length of two bytes. Advances `at`. `None` if they are truncated.
 fn sized<'a>(bytes: &'a [u8], at: &mut usize) -> Option<&'a [u8]> {
     let length = bytes.get(*at..*at + 2)?;
     let length = usize::from(u16::from_be_bytes([length[0], length[1]]));

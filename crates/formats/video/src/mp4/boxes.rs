@@ -8,11 +8,11 @@ use crate::source::Source;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxAt {
     pub(super) kind: [u8; 4],
-    /// Offset of its first byte.
+    /// Offset of the first byte.
     pub(super) at: u64,
-    /// Offset of its content.
+    /// Offset of the content.
     pub(super) body: u64,
-    /// Offset behind its content.
+    /// Offset after the content.
     pub(super) end: u64,
 }
 
@@ -21,7 +21,7 @@ impl BoxAt {
         self.end - self.body
     }
 
-    /// Child boxes, behind `skipped` bytes of its own.
+    /// Child boxes, after `skipped` bytes of the box itself.
     pub(super) fn boxes<'a>(&self, source: &'a Source, skipped: u64) -> Boxes<'a> {
         Boxes {
             source,
@@ -204,7 +204,7 @@ impl Fields {
         Ok(())
     }
 
-    /// Reads a count of entries of `entry` bytes each, and checks that they fit.
+    /// Reads a count of entries of `entry` bytes each. Checks that they fit.
     pub(super) fn count(&mut self, source: &Source, entry: usize) -> Result<usize, VideoError> {
         let at = self.offset();
         let count = self.u32(source)?;

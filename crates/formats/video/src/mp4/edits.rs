@@ -1,18 +1,18 @@
-//! Edit list of a track: the part that is presented.
+//! Edit list of a track: the presented part.
 
 use super::boxes::BoxAt;
 use crate::error::VideoError;
 use crate::limits;
 use crate::source::Source;
 
-/// Part of a track that is presented.
+/// Presented part of a track.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Edit {
-    /// Delay before it, in ticks of the movie.
+    /// Delay before the part, in ticks of the movie.
     pub(super) delay: u64,
     /// First presented tick of the track.
     pub(super) from: i64,
-    /// Duration, in ticks of the movie; `None` means to the end.
+    /// Duration in ticks of the movie; `None` for the rest of the track.
     pub(super) duration: Option<u64>,
 }
 
@@ -44,7 +44,7 @@ pub(super) fn read(source: &Source, edits: &BoxAt) -> Result<Option<Edit>, Video
         if from == -1 && edit.is_none() {
             delay = delay
                 .checked_add(duration)
-                .ok_or_else(|| source.damaged(at, "a delay that is too large"))?;
+                .ok_or_else(|| source.damaged(at, "the delay is too large"))?;
         } else if from >= 0 && edit.is_none() && speed == 1 << 16 {
             edit = Some(Edit {
                 delay,

@@ -8,7 +8,7 @@ use crate::source::Source;
 /// Description of a track's samples.
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
-    /// Number of descriptions, of which this is the first.
+    /// Number of descriptions. This is the first.
     pub(super) count: u32,
     pub(crate) coding: Coding,
     /// Size in the container, pixels.
@@ -18,10 +18,10 @@ pub(crate) struct Entry {
     pub(crate) colour: Option<ColourTag>,
 }
 
-/// A codec, with the settings that its decoder needs.
+/// Codec with the settings for its decoder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Coding {
-    /// H.264: the content of `avcC`, and its offset.
+    /// H.264: the content of `avcC` and its offset.
     H264(Vec<u8>, u64),
     /// AV1: the content of `av1C`.
     Av1(Vec<u8>),
@@ -42,7 +42,7 @@ impl Coding {
     }
 }
 
-/// Matrix and range of colours, by the numbers of ITU-T H.273.
+/// Matrix and range of colours, as numbers of ITU-T H.273.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ColourTag {
     pub(crate) matrix: u16,
@@ -57,10 +57,10 @@ pub(super) fn read(source: &Source, descriptions: &BoxAt) -> Result<Entry, Video
     let Some(found) = descriptions.boxes(source, 8).next()? else {
         return Err(source.damaged(
             descriptions.at,
-            "a track without a description of its frames",
+            "the track has no description of its frames",
         ));
     };
-    // Fields of all pictures: 24 bytes before their size, 50 behind it.
+    // Fields of all pictures: 24 bytes before their size, 50 after it.
     let mut fields = found.fields(source, "bytes of a description", limits::HEADER_BYTES)?;
     fields.skip(source, 24)?;
     let at = fields.offset();
@@ -94,7 +94,7 @@ pub(super) fn read(source: &Source, descriptions: &BoxAt) -> Result<Entry, Video
     })
 }
 
-/// Returns the next part of a description; ignores padding that is no box, which some writers leave at the end.
+/// Returns the next part of a description. Ignores padding that is not a box. Some writers leave it at the end.
 fn next_part(inner: &mut Boxes<'_>) -> Result<Option<BoxAt>, VideoError> {
     match inner.next() {
         Err(VideoError::Damaged { .. }) => Ok(None),
@@ -107,7 +107,7 @@ fn coding(source: &Source, found: &BoxAt, settings: Option<BoxAt>) -> Result<Cod
         let settings = settings.filter(|settings| &settings.kind == kind);
         let Some(settings) = settings else {
             let problem = format!(
-                "a description without its settings (`{}`)",
+                "the description has no settings (`{}`)",
                 kind.escape_ascii()
             );
             return Err(source.damaged(found.at, problem));
@@ -185,7 +185,7 @@ fn read_colour(source: &Source, found: &BoxAt) -> Result<Option<ColourTag>, Vide
     }))
 }
 
-/// Checks that the samples are in the file itself, by the box `minf` of its track.
+/// Checks that the samples are in the file itself, with the box `minf` of its track.
 pub(super) fn check_is_in_file(source: &Source, information: &BoxAt) -> Result<(), VideoError> {
     let references = match information.find(source, b"dinf")? {
         Some(place) => place.find(source, b"dref")?,

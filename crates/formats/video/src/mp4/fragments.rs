@@ -1,4 +1,4 @@
-//! Samples of fragmented MP4 files: each fragment has its own tables, beside its frames.
+//! Samples of fragmented MP4 files. Each fragment has its own tables beside its frames.
 
 use super::boxes::{BoxAt, Boxes, Fields};
 use super::samples::{Sample, too_many};
@@ -6,7 +6,7 @@ use crate::error::VideoError;
 use crate::limits;
 use crate::source::Source;
 
-/// Defaults for samples whose fragment states no values.
+/// Defaults for samples without their own values in a fragment.
 #[derive(Clone, Copy, Debug, Default)]
 struct Defaults {
     duration: u32,
@@ -17,7 +17,7 @@ struct Defaults {
 /// Flag of a sample at which decoding cannot begin.
 const IS_NO_SYNC: u32 = 0x1_0000;
 
-/// Appends the samples of the track `number` in all fragments of the file. Returns false if only ffmpeg can read them.
+/// Appends the samples of the track `number` in all fragments of the file. False if only ffmpeg can read them.
 pub(super) fn append(
     source: &Source,
     movie: &BoxAt,
@@ -68,7 +68,7 @@ fn fields_of(source: &Source, found: &BoxAt) -> Result<Fields, VideoError> {
     found.fields(source, "bytes of a fragment's table", limits::FRAMES * 16)
 }
 
-/// Reads the flags of a box that has some.
+/// Reads the flags of a box.
 fn flags_of(source: &Source, fields: &mut Fields) -> Result<u32, VideoError> {
     Ok(fields.u32(source)? & 0xff_ffff)
 }
@@ -77,7 +77,7 @@ struct Reader<'a> {
     source: &'a Source,
     number: u32,
     defaults: Defaults,
-    /// Total size of the samples so far, in bytes; they cannot overlap.
+    /// Total size of the samples so far, bytes. Samples cannot overlap.
     bytes: u64,
     samples: &'a mut Vec<Sample>,
 }

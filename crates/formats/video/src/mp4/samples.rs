@@ -1,4 +1,4 @@
-//! Samples of a track: their places, times and key frames.
+//! Samples of a track: their locations, times and key frames.
 
 use super::boxes::{BoxAt, Fields};
 use crate::error::VideoError;
@@ -10,9 +10,9 @@ use crate::source::Source;
 pub(crate) struct Sample {
     /// Byte offset in the file.
     pub(crate) offset: u64,
-    /// Size, in bytes.
+    /// Size, bytes.
     pub(crate) size: u32,
-    /// True if decoding can begin here, by the container.
+    /// True if decoding can begin here, as stated by the container.
     pub(crate) is_sync: bool,
     /// Presentation time, in ticks of the track, before edits.
     pub(crate) time: i64,
@@ -111,7 +111,7 @@ fn read_small_sizes(source: &Source, found: &BoxAt) -> Result<Vec<u32>, VideoErr
             }
         }
     }
-    // A byte has two sizes of 4 bits; the last one may be unused.
+    // A byte has two sizes of 4 bits. The last one may be unused.
     sizes.truncate(usize::try_from(count).unwrap_or(usize::MAX));
     Ok(sizes)
 }
@@ -220,7 +220,7 @@ fn add_delays(source: &Source, found: &BoxAt, times: &mut [i64]) -> Result<(), V
     let mut rest = times.iter_mut();
     for _ in 0..fields.count(source, 8)? {
         let at = fields.offset();
-        // Signed in version 1. Some writers use signed values in version 0 too, and no delay reaches 2^31 ticks.
+        // Signed in version 1. Some writers use signed values in version 0 too. No delay reaches 2^31 ticks.
         let (run, delay) = (
             fields.u32(source)?,
             i32::from_be_bytes(fields.take(source)?),

@@ -1,4 +1,4 @@
-//! Choice of the decoder of a clip, by its container.
+//! Choice of the decoder of a clip by its container.
 
 use std::path::Path;
 

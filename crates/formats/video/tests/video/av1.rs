@@ -1,4 +1,4 @@
-//! AV1 by a confined child: the luma that libdav1d decodes, and a child that dies is an error that names the clip.
+//! Tests of AV1 in a confined child. Luma equals that of libdav1d. A child that dies gives an error with the name of the clip.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use taceva_video::{Colours, Decoders, Video, VideoError};
 
 const CLIPS: [&str; 2] = ["mp4-av1", "lerobot-v3-av1"];
 
-/// The example that is a child, which lies beside the tests where a whole package is tested.
+/// Example program that is the child. It is beside the tests if the whole package is tested.
 fn child() -> Option<Decoders> {
     let test = std::env::current_exe().expect("this test is a program");
     let built = test
@@ -73,7 +73,7 @@ fn a_frame_is_the_same_whether_all_are_read_or_it_alone() {
     }
 }
 
-/// What becomes of the first frame if `script` is run by a shell in the place of the child.
+/// Result of the first frame if a shell runs `script` instead of the child.
 #[cfg(unix)]
 fn first_by(script: &str) -> String {
     let decoders = by(vec!["sh".into(), "-c".into(), script.into()]);

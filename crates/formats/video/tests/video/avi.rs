@@ -1,4 +1,4 @@
-//! AVI files with Motion JPEG: packets as they came, and indices that must agree with them.
+//! Tests of AVI files with Motion JPEG: unchanged packets, and indices that must match them.
 
 use std::path::{Path, PathBuf};
 
@@ -56,7 +56,7 @@ fn a_frame_beyond_the_clip_says_how_many_there_are() {
     assert_eq!(stopped.expect_err("stopped").to_string(), "enough");
 }
 
-/// The clip with another `change` made to its bytes.
+/// Copy of the clip after `change`.
 fn changed(folder: &Path, change: impl FnOnce(&mut Vec<u8>)) -> PathBuf {
     let mut bytes = std::fs::read(path("avi-mjpeg", "ball_1.avi")).expect("readable");
     change(&mut bytes);
@@ -72,7 +72,7 @@ fn find(bytes: &[u8], letters: &[u8; 4]) -> usize {
         .expect("there")
 }
 
-/// Corrects the size of the whole file in its head.
+/// Corrects the size of the whole file in its header.
 fn close(bytes: &mut [u8]) {
     let size = u32::try_from(bytes.len() - 8).expect("small");
     bytes[4..8].copy_from_slice(&size.to_le_bytes());
@@ -123,7 +123,7 @@ fn an_index_that_contradicts_the_frames_is_refused_with_its_place() {
 fn a_frame_of_another_size_is_refused_by_its_number() {
     let folder = tempfile::tempdir().expect("a folder");
     let wrong = changed(folder.path(), |bytes| {
-        // The width in the frame header of the last picture.
+        // Width in the frame header of the last picture.
         let last = bytes
             .windows(2)
             .rposition(|two| two == [0xff, 0xc0])
@@ -144,7 +144,7 @@ fn a_picture_without_huffman_tables_is_given_with_the_standard_ones() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut bare_jpeg = Vec::new();
     let bare = changed(folder.path(), |bytes| {
-        // The first picture without its tables, and room for what it loses: a chunk of padding.
+        // First picture without its tables. A padding chunk has the removed size.
         let packet = find(bytes, b"00dc");
         let packet = packet
             + bytes[packet + 4..]
@@ -189,7 +189,7 @@ fn a_picture_without_huffman_tables_is_given_with_the_standard_ones() {
         panic!("no JPEG");
     };
     assert_eq!(given.len(), bare_jpeg.len() + 420);
-    // Digest of the four standard tables, as libjpeg writes them, one segment each, counts and values in a row.
+    // Digest of the four standard tables, as libjpeg writes them: one segment each, counts and values in a row.
     let at = given
         .windows(4)
         .position(|four| four == [0xff, 0xc4, 0x01, 0xa2])
@@ -197,7 +197,7 @@ fn a_picture_without_huffman_tables_is_given_with_the_standard_ones() {
     assert_eq!(sha256(&given[at + 4..at + 420]), STANDARD_TABLES_SHA256);
 }
 
-/// Of the tables in a picture that Pillow 13.0 wrote with `optimize=False`.
+/// SHA-256 of the tables in a picture that Pillow 13.0 wrote with `optimize=False`.
 const STANDARD_TABLES_SHA256: &str =
     "f361ab42f71ff019275c522494accedf9fadd13f16af71632ca28255a7554a15";
 
@@ -205,7 +205,7 @@ const STANDARD_TABLES_SHA256: &str =
 fn a_frame_that_was_lost_is_left_out_and_the_times_say_so() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = changed(folder.path(), |bytes| {
-        // The third picture becomes an empty one, and padding as large as it was.
+        // The third picture becomes empty, with padding of its size.
         let index = find(bytes, b"idx1");
         let entry = index + 8 + 2 * 16;
         let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four"));
@@ -229,7 +229,7 @@ fn a_frame_that_was_lost_is_left_out_and_the_times_say_so() {
     assert_eq!((&left[0].1, &left[1].1), (&all[0].1, &all[1].1));
 }
 
-/// A chunk, padded to an even number of bytes.
+/// Chunk, padded to an even number of bytes.
 fn chunk(id: &[u8; 4], content: &[u8]) -> Vec<u8> {
     let mut chunk = id.to_vec();
     chunk.extend(u32::try_from(content.len()).expect("small").to_le_bytes());
@@ -238,7 +238,7 @@ fn chunk(id: &[u8; 4], content: &[u8]) -> Vec<u8> {
     chunk
 }
 
-/// A file in two parts, each with the index of OpenDML behind its frames, and where the entries of the second one lie.
+/// File in two parts, each with an OpenDML index after its frames, and the offset of the entries of the second index.
 fn in_two_parts(frames: &[Vec<u8>]) -> (Vec<u8>, usize) {
     let mut header = [
         b"vids".as_slice(),
@@ -268,7 +268,7 @@ fn in_two_parts(frames: &[Vec<u8>]) -> (Vec<u8>, usize) {
         (b"AVI ", &frames[..3], headers),
         (b"AVIX", &frames[3..], Vec::new()),
     ] {
-        // Behind the heads of the part and of the list.
+        // After the headers of the part and of the list.
         let mut at = file.len() + 12 + before.len() + 12;
         let (mut movie, mut entries) = (b"movi".to_vec(), Vec::new());
         for frame in frames {

@@ -1,4 +1,4 @@
-//! What an external ffmpeg decodes: luma cut out of raw frames is that of the peer, and damage is an error.
+//! Tests of an external ffmpeg. Luma from raw frames equals that of the peer. Damage is an error.
 
 mod odd_clips;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use crate::support::{bytes, damage, digests, expected, path};
 use taceva_needs::{Need, skip};
 use taceva_video::{Colours, Decoders, Picture, Video, VideoError};
 
-/// ffmpeg 5.1 or later: the one that `TACEVA_FFMPEG` names, or that of the path.
+/// ffmpeg 5.1 or later, from `TACEVA_FFMPEG` or from the path.
 fn ffmpeg() -> Option<Decoders> {
     let program = std::env::var_os("TACEVA_FFMPEG").map_or_else(|| "ffmpeg".into(), PathBuf::from);
     let mut help = Command::new(&program);
@@ -38,7 +38,7 @@ fn open(file: &Path, decoders: &Decoders) -> Video {
     Video::open(file, decoders).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Has ffmpeg make a clip for a test.
+/// Makes a clip for a test with ffmpeg.
 fn make(decoders: &Decoders, arguments: &[&str], to: &Path) {
     let program = decoders.ffmpeg.as_ref().expect("there");
     let mut command = Command::new(program);
@@ -91,7 +91,7 @@ fn pixels_of_a_lossless_clip_are_the_original_ones() {
     );
     assert_eq!((clip.info().frames, clip.info().lossy), (24, Some(false)));
     let times = clip.info().times_s.as_ref().expect("times");
-    // Times of Matroska are whole milliseconds.
+    // Matroska times are whole milliseconds.
     assert!(
         times
             .iter()

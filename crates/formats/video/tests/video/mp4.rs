@@ -1,4 +1,4 @@
-//! MP4 files with H.264: the luma that libavcodec decodes, in the order of presentation.
+//! Tests of MP4 files with H.264: luma as libavcodec decodes it, in presentation order.
 
 use std::convert::Infallible;
 
@@ -125,7 +125,7 @@ fn damaged_clips_give_frames_or_a_typed_error() {
 
 #[test]
 fn colours_are_within_three_steps_of_swscale() {
-    // Twelve pixels on a diagonal of each of three frames, as PyAV 18.1.0 converts them (`to_ndarray(format="rgb24")`).
+    // Twelve pixels on a diagonal in each of three frames, as PyAV 18.1.0 converts them (`to_ndarray(format="rgb24")`).
     let text = std::fs::read_to_string(path(".", "rgb.json")).expect("readable");
     let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let (mut most, mut compared) = (0, 0);

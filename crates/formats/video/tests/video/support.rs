@@ -1,4 +1,4 @@
-//! What several tests share: the clips, what a peer read of them, and damaged copies.
+//! Shared code of tests: the clips, the values of a peer, and damaged copies.
 
 #![allow(dead_code)]
 
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use sha2::{Digest, Sha256};
 use taceva_video::{Colours, Decoders, Picture, Video, VideoError, VisitError};
 
-/// The file `name` of the folder `clip`: of this crate, or else of the recordings that all crates share.
+/// File `name` of the folder `clip` in this crate, or else among the shared recordings.
 pub(crate) fn path(clip: &str, name: &str) -> PathBuf {
     let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let own = crate_folder.join("tests/data").join(clip);
@@ -21,7 +21,7 @@ pub(crate) fn path(clip: &str, name: &str) -> PathBuf {
     folder.join(name)
 }
 
-/// Number of a frame → digest, as `expected.json` of the folder `clip` says under `key`.
+/// Digests by frame number, from `key` in the `expected.json` of the folder `clip`.
 pub(crate) fn expected(clip: &str, key: &str) -> BTreeMap<u64, String> {
     let text = std::fs::read_to_string(path(clip, "expected.json")).expect("readable");
     let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
@@ -40,7 +40,7 @@ pub(crate) fn sha256(bytes: &[u8]) -> String {
         .collect()
 }
 
-/// What a picture is made of.
+/// Bytes of a picture.
 pub(crate) fn bytes(picture: Picture) -> Vec<u8> {
     match picture {
         Picture::Jpeg(bytes) => bytes,
@@ -50,7 +50,7 @@ pub(crate) fn bytes(picture: Picture) -> Vec<u8> {
     }
 }
 
-/// The digests of the frames `sorted`, in the order in which they were shown.
+/// Digests of the frames `sorted`, in the order shown.
 pub(crate) fn digests(clip: &Video, sorted: &[u64], colours: Colours) -> Vec<(u64, String)> {
     let mut shown = Vec::new();
     clip.visit(sorted, colours, &mut |index, picture| {
@@ -61,7 +61,7 @@ pub(crate) fn digests(clip: &Video, sorted: &[u64], colours: Colours) -> Vec<(u6
     shown
 }
 
-/// Opens the clip and looks at all its frames.
+/// Opens the clip and reads all its frames.
 pub(crate) fn read_all(
     path: &Path,
     decoders: &Decoders,
@@ -77,15 +77,15 @@ pub(crate) fn read_all(
     }
 }
 
-/// How damaged copies of a clip were taken.
+/// Results of reading damaged copies of a clip.
 #[derive(Debug, Default)]
 pub(crate) struct Damage {
     pub(crate) refused: usize,
     pub(crate) read: usize,
 }
 
-/// Reads copies of the file that are cut at 6 places and that have bits flipped at 1 or 6 places, 40 of them: each gives frames or a
-/// typed error, reading ends, and the process stays below 512 MiB.
+/// Reads damaged copies of the file: 6 truncated, and 40 with flipped bits at 1 or 6 places. Each gives frames or a typed error. Reading
+/// ends, and the process stays below 512 MiB.
 pub(crate) fn damage(file: &Path, decoders: &Decoders) -> Damage {
     let whole = std::fs::read(file).expect("readable");
     let length = whole.len();
@@ -112,7 +112,7 @@ pub(crate) fn damage(file: &Path, decoders: &Decoders) -> Damage {
     ] {
         try_it(&format!("cut after {end}"), &whole[..end]);
     }
-    // Drawn by a fixed seed: linear congruence, upper bits.
+    // Linear congruence with a fixed seed, upper bits.
     let mut state = length as u64;
     let mut below = |bound: usize| {
         state = state
@@ -139,7 +139,7 @@ pub(crate) fn damage(file: &Path, decoders: &Decoders) -> Damage {
     damage
 }
 
-/// The most memory that the process had, in MiB, where the system says so.
+/// Peak memory of the process, MiB; `None` if the system does not report it.
 fn peak_mib() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status

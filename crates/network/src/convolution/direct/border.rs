@@ -1,5 +1,5 @@
-//! Kernel positions that overlap the picture. The border is zero, so skipping it changes no bit. On tiny pictures, which are mostly
-//! border, the saved work outweighs the shorter runs.
+//! Kernel positions that overlap the picture. The border is zero, so skipping it changes no bit. Tiny pictures are mostly border, so the saved work
+//! outweighs the shorter runs.
 
 use std::ops::Range;
 

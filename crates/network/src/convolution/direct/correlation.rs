@@ -156,8 +156,7 @@ impl Correlation<'_> {
         tile.store(self.output, outputs, PANEL);
     }
 
-    /// Prefetches the outputs of these sums, and the end of each pixel's last run for the next sums. Both arrive during this
-    /// summation.
+    /// Prefetches the outputs of these sums, and the end of each pixel's last run for the next sums. Both loads finish during this summation.
     #[inline(always)]
     fn prefetch<V: Vector, const ROWS: usize, const VECTORS: usize>(
         &self,

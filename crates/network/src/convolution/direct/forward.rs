@@ -88,7 +88,7 @@ impl Forward {
         }
     }
 
-    /// Runs the pass into the first pictures of `output`. `see` receives each picture's item of `each` and its output while still cached.
+    /// Runs the pass into the first pictures of `output`. `see` receives each picture's item of `each`, and its output while still in cache.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,
@@ -190,7 +190,7 @@ impl Class {
 pub(super) fn images_at_once(pixels: usize, count: usize, are_weights_many: bool) -> usize {
     let share = count.div_ceil(rayon::current_num_threads()).max(1);
     if are_weights_many {
-        // Each group reads the weights from memory once.
+        // Each group reads the weights from memory once, so groups are as large as possible.
         share
     } else {
         PIXELS_AT_ONCE.div_ceil(pixels).min(share)

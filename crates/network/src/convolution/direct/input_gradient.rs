@@ -100,7 +100,7 @@ impl Class {
         first_x: usize,
     ) -> Vec<Class> {
         let (stride, padding) = (convolution.stride, convolution.padding());
-        // Input pixel `first + stride·i` meets kernel position `tap` in output pixel `i + shift`, if at all.
+        // Output pixel `i + shift` reads input pixel `first + stride·i` at kernel position `tap`. `None`: no output pixel reads it there.
         let shift = |first: usize, tap: usize| -> Option<usize> {
             let distance = (first + padding + stride * padding).checked_sub(tap)?;
             // `padding` pixels of border keep shifts non-negative.

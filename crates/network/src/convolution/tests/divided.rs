@@ -1,10 +1,10 @@
-//! One picture divided among threads: the same bits as undivided, however it is divided, on every instruction set of the machine.
+//! Divides one picture among threads. Every division gives the same bits as the undivided pass, on every instruction set of the machine.
 
 use super::super::division::Division;
 use super::*;
 use crate::panel::PANEL;
 
-/// A convolution of a number of pictures of odd sizes.
+/// Convolution of `batch` pictures with odd sides.
 fn case(
     channels: [usize; 2],
     [kernel, stride]: [usize; 2],

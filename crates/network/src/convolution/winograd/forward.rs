@@ -52,8 +52,8 @@ impl Forward {
         room
     }
 
-    /// Runs the pass with transformed weights into the first pictures of `output`. The callback of `each` receives each picture's
-    /// output while still cached.
+    /// Runs the pass with transformed weights into the first pictures of `output`. The callback of `each` receives each picture's output while still
+    /// in cache.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,

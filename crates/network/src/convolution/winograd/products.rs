@@ -20,14 +20,14 @@ const TILES_AT_ONCE: usize = 32;
 /// Tiles per step if the weights exceed the cache; a step reads them once.
 const TILES_AT_ONCE_OF_MANY_WEIGHTS: usize = 48;
 
-/// Channels per partial sum. Partial sums keep rounding errors from growing with channels: hundreds of terms in one row lose more
-/// digits than the transforms do. Errors are smallest if inner and outer sums have equally many terms. The count is therefore the square
-/// root of the channels, or the next larger power of two: 8 of 64, 16 of 128 and 256, 32 of 512.
+/// Channels per partial sum. Partial sums keep rounding errors from growing with channels: hundreds of terms in one row lose more digits than the
+/// transforms do. Errors are smallest if inner and outer sums have equally many terms. The count is therefore the square root of the channels, or the
+/// next larger power of two: 8 of 64, 16 of 128 and 256, 32 of 512.
 ///
-/// Against double precision, this count is the most exact of 4, 8, 16, 32 and all in each layer of a ResNet, to within a few
-/// hundredths (`tests/blocks.rs` prints and checks it). One count for all layers is less exact: 8 by a fifth at 512 channels, 16 by a
-/// twentieth at 64. Errors alone did not find this count. With 16 everywhere, `two_hundred_steps_go_as_pytorch_s` diverges from PyTorch at
-/// step 11, perhaps at a ReLU whose input is near zero. Of five settings tried, 8 everywhere and this count pass the test.
+/// Of 4, 8, 16, 32 and all, this count is the most exact in each layer of a ResNet, to within a few hundredths. `tests/blocks.rs` prints and checks
+/// the errors against double precision. One count for all layers is less exact: 8 by a fifth at 512 channels, 16 by a twentieth at 64. Errors were
+/// not the only criterion. With 16 everywhere, `two_hundred_steps_go_as_pytorch_s` diverges from PyTorch at step 11, perhaps at a ReLU whose input is
+/// near zero. Of five settings tried, 8 everywhere and this count pass the test.
 pub(super) const fn channels_at_once(channels: usize) -> usize {
     1 << channels.next_power_of_two().ilog2().div_ceil(2)
 }
@@ -45,7 +45,7 @@ pub(super) fn tiles_at_once(weights: &[f32]) -> usize {
     }
 }
 
-/// Tiles per stretch, about `most` at most: `total` divided into nearly equal stretches, rounded up to whole tiles of sums.
+/// Tiles per stretch, at most about `most`: `total` divided into nearly equal stretches, rounded up to whole tiles of sums.
 pub(super) fn stretch(total: usize, most: usize) -> usize {
     total.div_ceil(total.div_ceil(most)).next_multiple_of(6)
 }
@@ -74,8 +74,8 @@ impl Products {
         transformed_len(self.input.picture.channels, self.output.picture.channels)
     }
 
-    /// Writes the outputs of pictures. `ending` returns the start and finish of the sums of a range of values. `see` receives each
-    /// picture's item of `each` and its output while still cached.
+    /// Writes the outputs of pictures. `ending` returns the start and finish of the sums of a range of values. `see` receives each picture's item of
+    /// `each`, and its output while still in cache.
     ///
     /// # Shapes
     /// `weights`: written by [`to_points`](super::weights::to_points).

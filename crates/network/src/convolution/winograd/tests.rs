@@ -6,7 +6,7 @@ use super::*;
 use crate::convolution::tests::{Case, Numbers, batch_of, forward, machines, passes, values};
 use crate::convolution::{ConvolutionForm, ConvolutionWeights};
 
-/// Largest error allowed, as root mean square relative to that of the results.
+/// Largest allowed root mean square error, relative to the root mean square of the results.
 const ERROR: f64 = 4e-6;
 
 const PASSES: [&str; 3] = ["output", "gradient of the input", "gradient of the weights"];
@@ -120,7 +120,7 @@ fn many_channels_are_as_exact_as_few() {
     for channels in [64, 512] {
         let case = case((channels, channels), (4, 4), 2);
         for (pass, error) in PASSES.into_iter().zip(errors(&case, &case.numbers())) {
-            // No more than those of few channels.
+            // The error for many channels stays at that for few channels.
             assert!(
                 error <= ERROR / 3.0,
                 "{channels} channels: {pass}: {error:e}"
@@ -136,7 +136,7 @@ fn a_convolution_of_one_channel_is_direct_and_exact() {
     let expected = case.definition(&numbers);
     for (isa, machine) in machines() {
         let found = passes(&case, machine, &numbers);
-        // Its input gradient is never computed.
+        // The input gradient of this case is never computed.
         for pass in [0, 2] {
             let error = error(&found[pass], &expected[pass]);
             assert!(error <= ERROR, "{isa}: {}: {error:e}", PASSES[pass]);
@@ -185,7 +185,7 @@ fn scales_that_are_powers_of_two_change_no_digit() {
         for factor in [2.0_f32.powi(14), 2.0_f32.powi(-14)] {
             let after = passes(&case, machine, &scaled(factor));
             for (pass, (before, after)) in PASSES.iter().zip(before.iter().zip(&after)) {
-                // The weight gradient has both factors.
+                // Both factors of the weight gradient scale with `factor`.
                 let factor = if *pass == PASSES[2] {
                     factor * factor
                 } else {

@@ -1,7 +1,7 @@
 //! Weight gradient: products of transformed inputs and output gradients, summed over tiles at each point.
 //!
-//! Tiles are transformed piece by piece. Then one thread computes each sum, of one point and a few panels, tile after tile. No
-//! reduction is needed, and the order is the same for any number of threads.
+//! Tiles are transformed piece by piece. One thread computes each sum, over one point and a few panels, tile after tile. No reduction is needed, and
+//! the order is the same for any number of threads.
 
 use std::ops::Range;
 
@@ -19,7 +19,7 @@ use crate::simd::{Job, Vector};
 /// Fewest pieces in memory at once.
 const PIECES_AT_ONCE: usize = 4;
 
-/// Bytes of pieces in memory at once, if that is more pieces.
+/// Bytes of pieces in memory at once, if this allows more than [`PIECES_AT_ONCE`].
 const BYTES_AT_ONCE: usize = 2 << 20;
 
 /// Weight-gradient pass, prepared for pictures of one layout.

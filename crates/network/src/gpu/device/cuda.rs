@@ -9,7 +9,7 @@ use super::Device;
 use crate::gpu::engine::begin;
 use crate::gpu::{GpuError, GpuKind};
 
-/// Requirements, for errors.
+/// Requirements, for error messages.
 const LOOKED_FOR: &str =
     "NVIDIA's driver (libcuda), its compiler NVRTC (libnvrtc of CUDA 11 or later) and a GPU";
 
@@ -20,10 +20,10 @@ pub(crate) fn find() -> Result<Device, GpuError> {
         let name = driver::init()
             .and_then(|()| driver::device::get(0))
             .and_then(driver::device::get_name)
-            .map_err(|error| format!("the driver says {error}"))?;
+            .map_err(|error| format!("driver error: {error}"))?;
         match nvrtc::compile_ptx("") {
             Ok(_) => Ok(name),
-            Err(error) => Err(format!("NVRTC says {error}")),
+            Err(error) => Err(format!("NVRTC error: {error}")),
         }
     });
     let name = found

@@ -13,7 +13,7 @@ use super::Device;
 use crate::gpu::engine::begin;
 use crate::gpu::{GpuError, GpuKind};
 
-/// Name of burn's device after its initialisation, which is allowed only once per process.
+/// Name of the device after burn has initialised it. Initialisation is allowed only once per process.
 static READY: Mutex<Option<String>> = Mutex::new(None);
 
 /// Finds the first device.
@@ -63,10 +63,10 @@ fn adapter(backend: Backend) -> Result<String, String> {
         ..RequestAdapterOptions::default()
     };
     let future = pin!(instance.request_adapter(&options));
-    // Outside of browsers, the first poll answers.
+    // Outside browsers, the first poll returns the result.
     match future.poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(Ok(adapter)) => Ok(adapter.get_info().name),
         Poll::Ready(Err(error)) => Err(error.to_string()),
-        Poll::Pending => Err("the system did not answer".to_owned()),
+        Poll::Pending => Err("the graphics system returned no result at the first poll".to_owned()),
     }
 }

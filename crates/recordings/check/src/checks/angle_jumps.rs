@@ -51,6 +51,5 @@ fn of_channel(evidence: &Evidence<'_>, position: usize, channel: &Channel) -> Op
         rows.len() - 1,
         first + 1
     );
-    let names = evidence.names(&behind);
-    Some(Found::about(Severity::Note, message, names))
+    Some(evidence.found(Severity::Note, message, &behind))
 }

@@ -21,11 +21,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let mut found = Vec::new();
     if !blank.is_empty() {
         let message = format!("{} of {total} frames have a single colour", blank.len());
-        found.push(Found::about(
-            Severity::Warning,
-            message,
-            evidence.names(&blank),
-        ));
+        found.push(evidence.found(Severity::Warning, message, &blank));
     }
     let empty = evidence.signals.map(|signals| &signals.zero_rows);
     if let Some(rows) = empty.filter(|rows| !rows.is_empty()) {
@@ -34,11 +30,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             rows.len(),
             evidence.table.rows()
         );
-        found.push(Found::about(
-            Severity::Warning,
-            message,
-            evidence.names(rows),
-        ));
+        found.push(evidence.found(Severity::Warning, message, rows));
     }
     found
 }

@@ -1,6 +1,6 @@
 //! TAC034: untouched pictures that differ from the reference: the camera, the light or the gel has changed.
 
-use taceva_core::{Field, Unit};
+use taceva_core::{Field, Unit, by_count, counted};
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -65,26 +65,23 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         return Vec::new();
     }
     let percent = |part: f64, whole: f64| 100.0 * part / whole;
-    let count = rest.len();
+    let pictures = counted(rest.len(), "picture");
+    let differ = by_count(rest.len(), "differs", "differ");
     let message = if change > THIRD * contact {
         format!(
-            "{count} pictures without contact differ from the reference by {:.0} % of the mean change by contact",
+            "{pictures} without contact {differ} from the reference by {:.0} % of the mean change by contact",
             percent(change, contact)
         )
     } else if change_tile > contact_tile {
         format!(
-            "{count} pictures without contact differ from the reference in one place by {:.0} % of the largest change by contact",
+            "{pictures} without contact {differ} from the reference in one place by {:.0} % of the largest change by contact",
             percent(change_tile, contact_tile)
         )
     } else {
         return Vec::new();
     };
     let rows: Vec<usize> = rest.iter().map(|(row, _)| *row).collect();
-    vec![Found::about(
-        Severity::Warning,
-        message,
-        evidence.names(&rows),
-    )]
+    vec![evidence.found(Severity::Warning, message, &rows)]
 }
 
 /// The median; 0 for no numbers.

@@ -52,11 +52,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         swapped.len(),
         frames.len()
     );
-    vec![Found::about(
-        Severity::Warning,
-        message,
-        evidence.names(&swapped),
-    )]
+    vec![evidence.found(Severity::Warning, message, &swapped)]
 }
 
 fn red_less_blue(facts: &FrameFacts) -> f64 {

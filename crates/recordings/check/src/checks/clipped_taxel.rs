@@ -1,6 +1,6 @@
 //! TAC017: taxels whose values accumulate at the end of their range.
 
-use taceva_core::Field;
+use taceva_core::{Field, counted};
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -35,8 +35,9 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .map(|(position, (value, count))| {
             let unit = facts.info.unit;
             format!(
-                "{} is {value} {unit} in {count} samples",
-                facts.names[position]
+                "{} is {value} {unit} in {}",
+                facts.names[position],
+                counted(count, "sample")
             )
         })
         .collect();

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::Clock;
+use taceva_core::{Clock, by_count, counted};
 use taceva_dataset::Table;
 
 use crate::evidence::Evidence;
@@ -45,17 +45,14 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let mut found = Vec::new();
     if let Some((before, row)) = others.first() {
         let message = format!(
-            "these samples have stamps of two clocks: {} steps are longer than 12 days, first from {} s to {} s",
-            others.len(),
+            "these samples have stamps of two clocks: {} {} longer than 12 days, first from {} s to {} s",
+            counted(others.len(), "step"),
+            by_count(others.len(), "is", "are"),
             seconds(*before),
             seconds(*row)
         );
         let rows: Vec<usize> = others.iter().map(|(_, row)| *row).collect();
-        found.push(Found::about(
-            Severity::Warning,
-            message,
-            evidence.names(&rows),
-        ));
+        found.push(evidence.found(Severity::Warning, message, &rows));
     }
     found.extend(set_within(evidence));
     let last = last_stamps(table);
@@ -129,20 +126,14 @@ fn set_within(evidence: &Evidence<'_>) -> Vec<Found> {
 fn jumped(evidence: &Evidence<'_>, stream: &Stream, jumps: &[Step], place: &str) -> Option<Found> {
     let longest = jumps.iter().map(|step| step.seconds).reduce(f64::max)?;
     let rows: Vec<usize> = jumps.iter().map(|step| step.to).collect();
-    let (steps_are, the_longest) = match rows.len() {
-        1 => (format!("1 step {place} is"), ""),
-        many => (format!("{many} steps {place} are"), "the longest "),
-    };
+    let steps = counted(rows.len(), "step");
+    let [are, the_longest] = by_count(rows.len(), ["is", ""], ["are", "the longest "]);
     let message = format!(
-        "{steps_are} over {JUMP_STEPS} times the usual step of {:.4} s, {the_longest}{longest:.3} s: the clock was set, or the recording \
+        "{steps} {place} {are} over {JUMP_STEPS} times the usual step of {:.4} s, {the_longest}{longest:.3} s: the clock was set, or the recording \
          paused",
         stream.usual_s
     );
-    Some(Found::about(
-        Severity::Warning,
-        message,
-        evidence.names(&rows),
-    ))
+    Some(evidence.found(Severity::Warning, message, &rows))
 }
 
 /// Finds a stated clock that contradicts the last stamps.

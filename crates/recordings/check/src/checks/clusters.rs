@@ -2,6 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use taceva_core::counted;
+use taceva_metrics::LEAST_CLUSTERS;
+
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
 
@@ -13,9 +16,6 @@ pub(super) static CHECK: Check = Check {
     reads: None,
     find,
 };
-
-/// Minimum number of clusters for a jackknife interval.
-const LEAST: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let points = evidence.table.point_id();
@@ -45,10 +45,12 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
 
 /// The finding if `count` clusters of this kind are too few.
 fn few(count: usize, kind: &str) -> Vec<Found> {
-    if count == 0 || count >= LEAST {
+    if count == 0 || count >= LEAST_CLUSTERS {
         return Vec::new();
     }
-    let plural = if count == 1 { "" } else { "s" };
-    let message = format!("the test part has {count} {kind}{plural}; intervals need {LEAST}");
+    let message = format!(
+        "the test part has {}; intervals need {LEAST_CLUSTERS}",
+        counted(count, kind)
+    );
     vec![Found::overall(Severity::Warning, message)]
 }

@@ -24,9 +24,5 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         "{} of {total} frames are damaged; the first: {first}",
         rows.len()
     );
-    vec![Found::about(
-        Severity::Error,
-        message,
-        evidence.names(&rows),
-    )]
+    vec![evidence.found(Severity::Error, message, &rows)]
 }

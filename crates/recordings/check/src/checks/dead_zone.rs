@@ -1,6 +1,6 @@
 //! TAC027: forces that are zero although the pictures show contact: cut below a threshold, or at zero.
 
-use taceva_core::{Field, Unit};
+use taceva_core::{Field, Unit, counted};
 
 use super::label_lag::correlation;
 use crate::evidence::Evidence;
@@ -63,15 +63,14 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         return Vec::new();
     }
     let message = format!(
-        "{} is exactly 0 in {} samples, but {} of their pictures change as under load (over {:.0} % of the median change of the other {})",
+        "{} is exactly 0 in {}, but {} of their pictures change as under load (over {:.0} % of the median change of the other {})",
         channels.as_slice()[load].name(),
-        zero.len(),
+        counted(zero.len(), "sample"),
         pressed.len(),
         100.0 * PRESSED,
         loaded.len()
     );
-    let names = evidence.names(&pressed);
-    vec![Found::about(Severity::Warning, message, names)]
+    vec![evidence.found(Severity::Warning, message, &pressed)]
 }
 
 /// Quantile 1 / `parts` of `numbers`; 0 if there are none.

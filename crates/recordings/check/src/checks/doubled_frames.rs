@@ -41,7 +41,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     doubled.sort_unstable();
     shared.sort_unstable();
     let of = |rows: &[usize], severity, message: String| {
-        (!rows.is_empty()).then(|| Found::about(severity, message, evidence.names(rows)))
+        (!rows.is_empty()).then(|| evidence.found(severity, message, rows))
     };
     let steps = stream.steps.len();
     let repeats = format!(

@@ -1,5 +1,7 @@
 //! TAC023: frames missing from a stream, by the gaps between the stamps of others.
 
+use taceva_core::by_count;
+
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
 use crate::stamps::{Step, Stream, share};
@@ -101,10 +103,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         true => "frame seems",
         false => "frames seem",
     };
-    let up_to = match missing.rows.len() {
-        1 => "is",
-        _ => "are up to",
-    };
+    let up_to = by_count(missing.rows.len(), "is", "are up to");
     let message = format!(
         "{} {frames} to be missing in {} of {} steps, which {up_to} {:.0} times the period of {:.4} s",
         missing.frames,
@@ -113,11 +112,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         missing.longest,
         missing.period_s
     );
-    vec![Found::about(
-        severity,
-        message,
-        evidence.names(&missing.rows),
-    )]
+    vec![evidence.found(severity, message, &missing.rows)]
 }
 
 /// The period of the frames, s; `None` if the steps show none.

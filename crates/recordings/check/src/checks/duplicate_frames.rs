@@ -31,9 +31,5 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         "{} of {total} frames repeat an earlier one, byte for byte",
         again.len()
     );
-    vec![Found::about(
-        Severity::Warning,
-        message,
-        evidence.names(&again),
-    )]
+    vec![evidence.found(Severity::Warning, message, &again)]
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Field, shown};
+use taceva_core::{Field, counted, shown};
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -43,8 +43,8 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .map(|name| format!("`{}`", shown(name)))
         .collect();
     let message = format!(
-        "{count} taxels are equal to another one in all {} rows, such as {}",
-        facts.samples,
+        "{count} taxels are equal to another one in all {}, such as {}",
+        counted(facts.samples, "row"),
         named.join(" and ")
     );
     vec![Found::overall(Severity::Warning, message)]

@@ -35,7 +35,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
                 other.name(),
                 equal.len()
             );
-            found.push(Found::about(severity, message, evidence.names(&equal)));
+            found.push(evidence.found(severity, message, &equal));
         }
     }
     found

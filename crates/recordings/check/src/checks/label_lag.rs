@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::Field;
+use taceva_core::{Field, counted};
+use taceva_metrics::STREAM_S;
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -19,8 +20,6 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum samples of a stream for a lag.
 const LEAST: usize = 50;
-/// Maximum median step of a stream, s.
-const STREAM_S: f64 = 1.0;
 /// Maximum lag searched, in steps, and as a fraction of the samples.
 const FURTHEST: usize = 60;
 const SHARE: usize = 4;
@@ -73,10 +72,10 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             false => ("earlier", -lag.steps),
         };
         format!(
-            "{name} is about {:.0} ms ({steps} {}) {later} than the pictures: their correlation is {:.2} with this shift and {:.2} \
+            "{name} is about {:.0} ms ({}) {later} than the pictures: their correlation is {:.2} with this shift and {:.2} \
              without, n {}",
             1e3 * lag.seconds.abs(),
-            if steps == 1 { "step" } else { "steps" },
+            counted(steps.unsigned_abs(), "step"),
             lag.best,
             lag.standing,
             count

@@ -45,8 +45,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
                 first + 1,
                 sign * outliers.next,
             );
-            let names = evidence.names(&outliers.rows);
-            found.push(Found::about(Severity::Warning, message, names));
+            found.push(evidence.found(Severity::Warning, message, &outliers.rows));
         }
     }
     found

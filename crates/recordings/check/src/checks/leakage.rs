@@ -43,7 +43,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let mut report = |severity, rows: &[usize], what: &str| {
         if !rows.is_empty() {
             let message = format!("{} of {} test {what}", rows.len(), split.test.len());
-            found.push(Found::about(severity, message, evidence.names(rows)));
+            found.push(evidence.found(severity, message, rows));
         }
     };
     report(

@@ -1,5 +1,7 @@
 //! TAC026: frames whose pixels depend on the decoder.
 
+use taceva_core::{by_count, counted};
+
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
 
@@ -44,7 +46,9 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         return Vec::new();
     }
     let message = format!(
-        "{jpegs} frames are JPEG: other decoders give pixels that differ by a few of 255 levels"
+        "{} {} JPEG: other decoders give pixels that differ by a few of 255 levels",
+        counted(jpegs, "frame"),
+        by_count(jpegs, "is", "are")
     );
     vec![Found::overall(Severity::Note, message)]
 }

@@ -1,5 +1,7 @@
 //! TAC015: frames that the stream delivered but the recording lacks.
 
+use taceva_core::by_count;
+
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
 
@@ -22,10 +24,12 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         found.push(Found::overall(
             Severity::Warning,
             format!(
-                "{} of {came} frames of the stream are not in the recording: {} were dropped, {} were damaged",
+                "{} of {came} frames of the stream are not in the recording: {} {} dropped, {} {} damaged",
                 stream.lost(),
                 stream.dropped,
-                stream.damaged
+                by_count(stream.dropped, "was", "were"),
+                stream.damaged,
+                by_count(stream.damaged, "was", "were")
             ),
         ));
     }

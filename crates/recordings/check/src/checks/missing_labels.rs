@@ -16,7 +16,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let table = evidence.table;
     let about = |what: &str, rows: Vec<usize>| {
         let message = format!("{} of {} samples have no {what}", rows.len(), table.rows());
-        (!rows.is_empty()).then(|| Found::about(Severity::Note, message, evidence.names(&rows)))
+        (!rows.is_empty()).then(|| evidence.found(Severity::Note, message, &rows))
     };
     let mut found: Vec<Found> = Vec::new();
     for (position, channel) in table.channels().iter().enumerate() {

@@ -1,6 +1,6 @@
 //! TAC040: labels that were scaled to 0 … 1, or to −1 … 1, but are declared as newtons or millimetres.
 
-use taceva_core::{Channel, Unit};
+use taceva_core::{Channel, Unit, by_count};
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -49,8 +49,8 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             let message = format!(
                 "{} {} at exactly {said}, like normalised labels, but {} declared in {}",
                 scaled.join(", "),
-                if scaled.len() == 1 { "ends" } else { "end" },
-                if scaled.len() == 1 { "is" } else { "are" },
+                by_count(scaled.len(), "ends", "end"),
+                by_count(scaled.len(), "is", "are"),
                 units(&ends, &scaled),
             );
             return vec![Found::overall(Severity::Warning, message)];

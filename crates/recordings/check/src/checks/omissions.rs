@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::shown;
+use taceva_core::{by_count, counted, shown};
 use taceva_dataset::internal::first_names;
 
 use crate::evidence::Evidence;
@@ -40,47 +40,84 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         (
             Severity::Warning,
             &left_out.absent_chunks,
-            "chunks were never written; they read as the fill value of the array",
+            "chunk",
+            [
+                "was never written; it reads as the fill value of the array",
+                "were never written; they read as the fill value of the array",
+            ],
         ),
         (
             Severity::Warning,
             &unmatched,
-            "rows are not in the recording, because no row of a joined table matches them",
+            "row",
+            [
+                "is not in the recording, because no row of a joined table matches it",
+                "are not in the recording, because no row of a joined table matches them",
+            ],
         ),
         (
             Severity::Note,
             &by_rule,
-            "times a rule of the map left a row out (several rules may leave out the same row)",
+            "time",
+            ["a rule of the map left a row out (several rules may leave out the same row)"; 2],
         ),
         (
             Severity::Note,
             &left_out.joined_rows,
-            "rows of joined tables match no row of the tables",
+            "row",
+            [
+                "of joined tables matches no row of the tables",
+                "of joined tables match no row of the tables",
+            ],
         ),
         (
             Severity::Note,
             &left_out.skipped_rows,
-            "rows of joined tables were skipped by the map",
+            "row",
+            [
+                "of joined tables was skipped by the map",
+                "of joined tables were skipped by the map",
+            ],
         ),
         (
             Severity::Note,
             &left_out.frames,
-            "frames of arrays and clips are used by no row",
+            "frame",
+            [
+                "of arrays and clips is used by no row",
+                "of arrays and clips are used by no row",
+            ],
         ),
-        (Severity::Note, &images, "images are named by no row"),
+        (
+            Severity::Note,
+            &images,
+            "image",
+            ["is named by no row", "are named by no row"],
+        ),
         (
             Severity::Note,
             &columns,
-            "more columns than those listed are named by no key of the map",
+            "more column",
+            [
+                "than those listed is named by no key of the map",
+                "than those listed are named by no key of the map",
+            ],
         ),
     ];
     let counts = counts
         .into_iter()
-        .filter(|(_, counts, _)| !counts.is_empty());
+        .filter(|(_, counts, ..)| !counts.is_empty());
     counts
-        .map(|(severity, counts, what)| {
+        .map(|(severity, counts, noun, [one, many])| {
             let sum: u64 = counts.values().sum();
-            let message = format!("{sum} {what} ({}; {kept} rows are kept)", named(counts));
+            let message = format!(
+                "{} {} ({}; {} {} kept)",
+                counted(sum, noun),
+                by_count(sum, one, many),
+                named(counts),
+                counted(kept, "row"),
+                by_count(kept, "is", "are")
+            );
             Found::overall(severity, message)
         })
         .collect()
@@ -88,7 +125,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
 
 /// The first names, with their counts.
 fn named(counts: &BTreeMap<String, u64>) -> String {
-    let counted = counts.iter();
-    let counted = counted.map(|(name, count)| format!("{} {count}", shown(name)));
-    first_names(&counted.collect::<Vec<_>>(), NAMED)
+    let words = counts.iter();
+    let words = words.map(|(name, count)| format!("{} {count}", shown(name)));
+    first_names(&words.collect::<Vec<_>>(), NAMED)
 }

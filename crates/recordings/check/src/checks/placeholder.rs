@@ -43,9 +43,5 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         rows.len(),
         table.rows()
     );
-    vec![Found::about(
-        Severity::Warning,
-        message,
-        evidence.names(&rows),
-    )]
+    vec![evidence.found(Severity::Warning, message, &rows)]
 }

@@ -2,6 +2,7 @@
 
 use taceva_core::Field;
 
+use crate::count::count;
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
 
@@ -67,14 +68,6 @@ pub(super) fn rank_correlation(pairs: &[(f64, f64)]) -> f64 {
 
 fn square(number: usize) -> f64 {
     count(number) * count(number)
-}
-
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "numbers of samples are far below 2^53"
-)]
-fn count(number: usize) -> f64 {
-    number as f64
 }
 
 #[cfg(test)]

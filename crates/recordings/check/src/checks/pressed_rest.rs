@@ -53,11 +53,7 @@ fn loaded(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<F
         facts.rest_rows.len(),
         unit = channel.unit(),
     );
-    Some(Found::about(
-        Severity::Warning,
-        message,
-        evidence.names(&pressed),
-    ))
+    Some(evidence.found(Severity::Warning, message, &pressed))
 }
 
 /// Finds a mean of rest that is nearer to samples of more load.

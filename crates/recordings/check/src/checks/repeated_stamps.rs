@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use taceva_core::counted;
+
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
 use crate::stamps::repeated;
@@ -46,13 +48,9 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .collect::<Vec<_>>()
         .join(", ");
     let message = format!(
-        "{timed} rows have only {} different times, by which they were joined with {joined}: rows of equal time get the labels of the \
+        "{timed} rows have only {}, by which they were joined with {joined}: rows of equal time get the labels of the \
          same row, {off}",
-        different.len()
+        counted(different.len(), "different time")
     );
-    vec![Found::about(
-        Severity::Warning,
-        message,
-        evidence.names(&shared),
-    )]
+    vec![evidence.found(Severity::Warning, message, &shared)]
 }

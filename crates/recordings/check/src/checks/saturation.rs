@@ -37,7 +37,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let mut report = |severity, rows: &[usize], what: &str| {
         if !rows.is_empty() {
             let message = format!("{} of {total} frames {what}", rows.len());
-            found.push(Found::about(severity, message, evidence.names(rows)));
+            found.push(evidence.found(severity, message, rows));
         }
     };
     let what = "have more than 2 % of their values at full scale";

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Channel, Unit};
+use taceva_core::{Channel, Unit, by_count, counted};
 use taceva_dataset::{MappedJoin, Table};
 
 use crate::evidence::Evidence;
@@ -54,9 +54,10 @@ fn of_join(evidence: &Evidence<'_>, join: &MappedJoin) -> Option<Found> {
     let stretches = Stretches::of(table, &channels)?;
     let name = taceva_core::shown(&join.name);
     let mut message = format!(
-        "{} rows of `{name}` label {} rows, up to {} each: labels are up to {:.0} ms old",
-        stretches.all.len(),
-        stretches.rows,
+        "{} of `{name}` {} {}, up to {} each: labels are up to {:.0} ms old",
+        counted(stretches.all.len(), "row"),
+        by_count(stretches.all.len(), "labels", "label"),
+        counted(stretches.rows, "row"),
         stretches.longest(),
         1e3 * stretches.oldest_s(join.pick.as_deref())
     );

@@ -94,8 +94,7 @@ fn still(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) ->
         rows.len(),
         labels.len()
     );
-    let names = evidence.names(&rows);
-    Some(Found::about(Severity::Warning, message, names))
+    Some(evidence.found(Severity::Warning, message, &rows))
 }
 
 /// Finds a force that is cut at its greatest or least value, away from zero, which is normal at rest.
@@ -124,6 +123,5 @@ fn cut(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) -> O
         rows.len(),
         labels.len()
     );
-    let names = evidence.names(&rows);
-    Some(Found::about(Severity::Warning, message, names))
+    Some(evidence.found(Severity::Warning, message, &rows))
 }

@@ -1,5 +1,8 @@
 //! TAC008: the true rate, and impossible times.
 
+use taceva_core::by_count;
+use taceva_metrics::STREAM_S;
+
 use super::dropped_frames::{Missing, missing};
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -16,8 +19,6 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of samples for a rate.
 const LEAST: usize = 10;
-/// Maximum median step of a stream, s; the metric `intrinsic` has the same limit.
-const STREAM_S: f64 = 1.0;
 /// Length above which a step is a gap, in usual steps, with a tolerance for rounding.
 const GAP: f64 = 3.0;
 const ROUNDING: f64 = 1e-6;
@@ -51,7 +52,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let repeated = rows_of(|seconds| seconds.abs() <= 0.0);
     let whole = times.iter().flatten().all(|time| time.fract().abs() <= 0.0);
     let warn = |message: &str, rows: &[usize]| {
-        Found::about(
+        evidence.found(
             Severity::Warning,
             match rows.len() {
                 1 => format!(
@@ -64,7 +65,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
                 ),
                 many => format!("{many} {message}"),
             },
-            evidence.names(rows),
+            rows,
         )
     };
     if let Some(sessions) = evidence.sessions {
@@ -126,10 +127,7 @@ fn rate(steps: &[(usize, f64)], missing: Option<&Missing>) -> Found {
         message += &format!(", {:.4} Hz from the mean step of {mean:.4} s", 1.0 / mean);
     }
     if gaps > 0 {
-        let steps_are = match gaps {
-            1 => "step is",
-            _ => "steps are",
-        };
+        let steps_are = by_count(gaps, "step is", "steps are");
         message += &format!(
             "; {gaps} {steps_are} over {GAP} times the median, the longest {longest:.4} s"
         );

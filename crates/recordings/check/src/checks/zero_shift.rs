@@ -98,11 +98,7 @@ fn of_channel(
         true => points[step.at..].iter().map(|point| point.2).collect(),
         false => points.iter().map(|point| point.2).collect(),
     };
-    Some(Found::about(
-        Severity::Warning,
-        message,
-        evidence.names(&shifted),
-    ))
+    Some(evidence.found(Severity::Warning, message, &shifted))
 }
 
 /// The first time of the recording, s.

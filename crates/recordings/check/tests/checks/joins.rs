@@ -51,7 +51,7 @@ fn stamps_that_are_all_zero_and_stamps_of_tenths_are_warned_of_and_exact_ones_ar
     };
     type Stamps<'a> = (&'a dyn Fn(u32) -> f64, Option<&'a str>);
     let stamps: [Stamps<'_>; 3] = [
-        (&|_| 0.0, Some("120 rows have only 1 different times")),
+        (&|_| 0.0, Some("120 rows have only 1 different time,")),
         (
             &|row| f64::from(row / 4) * 0.1,
             Some("120 rows have only 30 different times"),

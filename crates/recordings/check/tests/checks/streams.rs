@@ -111,7 +111,8 @@ fn stamps_of_two_clocks_a_clock_that_was_set_and_one_that_is_not_the_stated_are_
         |recording| recording.clock = Clock::Unix,
     );
     assert!(
-        message(&two, "TAC024").starts_with("these samples have stamps of two clocks: 1 steps"),
+        message(&two, "TAC024")
+            .starts_with("these samples have stamps of two clocks: 1 step is longer"),
         "{}",
         message(&two, "TAC024")
     );
@@ -203,7 +204,7 @@ fn rows_that_a_join_left_out_are_repeated_by_the_check_and_a_whole_import_says_n
     );
     assert_eq!(
         message(&report, "TAC021"),
-        "1 rows are not in the recording, because no row of a joined table matches them (join ft 1; 2 rows are kept)"
+        "1 row is not in the recording, because no row of a joined table matches it (join ft 1; 2 rows are kept)"
     );
     let whole = [
         ("run.csv", "k\n1\n2\n"),
@@ -224,7 +225,7 @@ fn frames_in_jpeg_are_said_to_depend_on_their_decoder() {
     std::fs::write(folder.path().join("labels.csv"), "file,Fz\n1.jpg,1\n").expect("written");
     let text = "map_version = 2\ntable = \"labels.csv\"\n[frame]\ncolumn = \"file\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
     let report = imported_and_checked(folder.path(), text, &["lossy-frames"]);
-    assert!(message(&report, "TAC026").starts_with("1 frames are JPEG"));
+    assert!(message(&report, "TAC026").starts_with("1 frame is JPEG"));
 }
 
 const BLANK_MAP: &str = "map_version = 2\ntable = \"l.csv\"\n[frame]\narray = { file = \"f.npy\" }\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";

@@ -140,10 +140,11 @@ impl Dataset {
     fn first_entry(&self, entry: &FrameEntry) -> Result<&FrameEntry, DatasetError> {
         let is_first = |first: &&FrameEntry| first.begins(&entry.path) && !first.is_difference();
         let mut frames = self.table.frames().iter().flatten();
-        frames.find(is_first).ok_or_else(|| DatasetError::Damaged {
-            path: self.path().join(&entry.path),
-            problem: "no row names its first frame, from which the differences of others are taken"
-                .to_owned(),
+        frames.find(is_first).ok_or_else(|| {
+            DatasetError::damaged(
+                &self.path().join(&entry.path),
+                "no row names its first frame, from which the differences of others are taken",
+            )
         })
     }
 
@@ -175,9 +176,9 @@ impl Dataset {
         if row < self.table.rows() {
             return Ok(());
         }
-        Err(DatasetError::Request {
-            path: self.path().to_owned(),
-            problem: format!("no row {row}, there are {}", self.table.rows()),
-        })
+        Err(DatasetError::request(
+            self.path(),
+            format!("no row {row}, there are {}", self.table.rows()),
+        ))
     }
 }

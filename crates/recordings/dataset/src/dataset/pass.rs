@@ -127,9 +127,8 @@ impl Dataset {
         mut take: impl FnMut(usize, T) -> Result<(), SinkError>,
     ) -> Result<(), DatasetError> {
         let decode_and_work = |row| {
-            let frame = self.frame(row)?.ok_or_else(|| DatasetError::Request {
-                path: self.path().to_owned(),
-                problem: format!("row {row} has no frame"),
+            let frame = self.frame(row)?.ok_or_else(|| {
+                DatasetError::request(self.path(), format!("row {row} has no frame"))
             })?;
             Ok(work(row, frame))
         };

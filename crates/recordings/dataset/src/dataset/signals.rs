@@ -64,9 +64,11 @@ impl Dataset {
         }
         let means = sums.iter().map(|sum| (sum / count) as f32).collect();
         let rest = Signals::new(info.spec.info, means);
-        rest.map(Some).map_err(|error| DatasetError::Damaged {
-            path: self.path().join(layout::SIGNALS),
-            problem: format!("the mean of its rows without contact: {error}"),
+        rest.map(Some).map_err(|error| {
+            DatasetError::damaged(
+                &self.path().join(layout::SIGNALS),
+                format!("the mean of its rows without contact: {error}"),
+            )
         })
     }
 

@@ -3,9 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 use std::path::Path;
-use std::sync::Mutex;
 
-use taceva_core::{Channels, Clock};
+use taceva_core::{Channels, Clock, counted};
 
 use super::Dataset;
 use crate::digest::{Digest, PartsDigest};
@@ -82,9 +81,11 @@ impl Dataset {
     pub fn joined(recordings: Vec<Dataset>) -> Result<Dataset, DatasetError> {
         let mut recordings = recordings;
         if recordings.len() < 2 {
-            return recordings.pop().ok_or_else(|| DatasetError::Request {
-                path: Path::new(".").to_owned(),
-                problem: "no recording to join, expected at least one".to_owned(),
+            return recordings.pop().ok_or_else(|| {
+                DatasetError::request(
+                    Path::new("."),
+                    "no recording to join, expected at least one",
+                )
             });
         }
         check_distinct(&recordings)?;
@@ -108,12 +109,8 @@ impl Dataset {
         });
         Ok(Dataset {
             joined: joined.collect(),
-            folder,
-            header,
-            table,
-            firsts: Mutex::default(),
-            signals: Mutex::default(),
             seen,
+            ..Dataset::of(folder, header, table)
         })
     }
 
@@ -153,7 +150,9 @@ fn check_distinct(recordings: &[Dataset]) -> Result<(), DatasetError> {
             });
             let problem = match shared {
                 _ if is_same_place => "they are the same folder".to_owned(),
-                Some((digest, rows)) => format!("they hold the same {rows} samples ({digest})"),
+                Some((digest, rows)) => {
+                    format!("they hold the same {} ({digest})", counted(rows, "sample"))
+                }
                 None => continue,
             };
             return Err(unlike(one, other, format!("{problem}; name it once")));

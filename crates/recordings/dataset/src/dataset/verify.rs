@@ -3,6 +3,8 @@
 use std::io::{Seek, SeekFrom};
 use std::path::Path;
 
+use taceva_core::counted;
+
 use super::Dataset;
 use crate::digest::Digest;
 use crate::error::DatasetError;
@@ -58,16 +60,16 @@ impl Dataset {
             let promised = self.header.table.rows;
             return Err(damaged(
                 layout::SAMPLES,
-                format!("{rows} rows, the header says {promised}"),
+                format!("{}, the header says {promised}", counted(rows, "row")),
             ));
         }
         let digest = self.table.digest();
         if digest != self.header.table.digest {
-            return Err(DatasetError::Digest {
-                path: self.path().join(layout::SAMPLES),
-                expected: self.header.table.digest,
-                found: digest,
-            });
+            return Err(DatasetError::digest(
+                &self.path().join(layout::SAMPLES),
+                self.header.table.digest,
+                digest,
+            ));
         }
         let digest = dataset_digest(
             digest,
@@ -77,18 +79,18 @@ impl Dataset {
             &self.header.extended,
         );
         if digest != self.header.digest {
-            return Err(DatasetError::Digest {
-                path: self.path().join(layout::HEADER),
-                expected: self.header.digest,
-                found: digest,
-            });
+            return Err(DatasetError::digest(
+                &self.path().join(layout::HEADER),
+                self.header.digest,
+                digest,
+            ));
         }
         let count = self.table.frames().iter().flatten().count() as u64;
         let promised = self.header.frames.as_ref().map_or(0, |frames| frames.count);
         if count != promised {
             return Err(damaged(
                 layout::SAMPLES,
-                format!("{count} frames, the header says {promised}"),
+                format!("{}, the header says {promised}", counted(count, "frame")),
             ));
         }
         for (view, own) in self.header.views.iter().zip(self.table.views()) {
@@ -97,8 +99,10 @@ impl Dataset {
                 return Err(damaged(
                     layout::SAMPLES,
                     format!(
-                        "{count} frames of the view `{}`, the header says {}",
-                        view.name, view.frames.count
+                        "{} of the view `{}`, the header says {}",
+                        counted(count, "frame"),
+                        view.name,
+                        view.frames.count
                     ),
                 ));
             }
@@ -106,11 +110,7 @@ impl Dataset {
         let own = self.table.frames().iter().flatten().cloned();
         let own = own.chain(self.reference_entry());
         for FrameEntry { path, .. } in own.chain(self.entries_of_views()) {
-            check_relative(&path).map_err(|problem| DatasetError::Path {
-                place: None,
-                written: path.clone(),
-                problem: problem.to_owned(),
-            })?;
+            check_relative(&path).map_err(|problem| DatasetError::path(&path, problem))?;
         }
         Ok(())
     }
@@ -136,9 +136,5 @@ pub(super) fn check_digest(
     if expected == found {
         return Ok(());
     }
-    Err(DatasetError::Digest {
-        path: path.to_owned(),
-        expected,
-        found,
-    })
+    Err(DatasetError::digest(path, expected, found))
 }

@@ -1,7 +1,5 @@
 //! Datasets with several pictures for each sample, seen in one view or in several side by side.
 
-use std::sync::Mutex;
-
 use taceva_core::{Frame, FrameInfo};
 
 use super::Dataset;
@@ -48,9 +46,8 @@ impl Dataset {
         }
         let seen = self.positions(view)?;
         let views: Vec<&ViewInfo> = seen.iter().map(|at| &self.header.views[*at]).collect();
-        let info = info_of(&views).map_err(|problem| DatasetError::Request {
-            path: self.path().to_owned(),
-            problem: format!("`{view}`: {problem}"),
+        let info = info_of(&views).map_err(|problem| {
+            DatasetError::request(self.path(), format!("`{view}`: {problem}"))
         })?;
         let widths: Vec<u32> = views.iter().map(|view| view.frames.info.width).collect();
         let table = self.table.seen_by(&seen, &widths);
@@ -59,13 +56,8 @@ impl Dataset {
         let mut header = self.header.clone();
         see(&mut header, frames, view);
         Ok(Dataset {
-            folder: self.folder.again()?,
-            header,
-            table,
-            firsts: Mutex::default(),
-            signals: Mutex::default(),
-            joined: Vec::new(),
             seen,
+            ..Dataset::of(self.folder.again()?, header, table)
         })
     }
 
@@ -96,10 +88,10 @@ impl Dataset {
             let at = known.position(|known| known.name == name);
             let at = at.ok_or_else(|| self.unknown_view(Some(name)))?;
             if seen.contains(&at) {
-                return Err(DatasetError::Request {
-                    path: self.path().to_owned(),
-                    problem: format!("the view `{name}` is named twice in `{view}`"),
-                });
+                return Err(DatasetError::request(
+                    self.path(),
+                    format!("the view `{name}` is named twice in `{view}`"),
+                ));
             }
             seen.push(at);
         }

@@ -13,7 +13,7 @@ use crate::text::{shown, shown_path};
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("sensor.toml");
 /// std::fs::write(&path, "model = \"DIGIT\"\ncolour = 1\n")?;
-/// let Err(DatasetError::Toml { place, .. }) = SensorFile::read(&path) else {
+/// let Err(DatasetError::Text { place, .. }) = SensorFile::read(&path) else {
 ///     unreachable!("`colour` is no key");
 /// };
 /// assert_eq!((place.line, place.path), (Some(2), path));
@@ -70,6 +70,13 @@ impl Place {
             line: Some(line),
             ..Place::file(path)
         }
+    }
+}
+
+/// The whole file at a path.
+impl<P: AsRef<Path> + ?Sized> From<&P> for Place {
+    fn from(path: &P) -> Place {
+        Place::file(path.as_ref())
     }
 }
 

@@ -7,10 +7,7 @@ use crate::error::DatasetError;
 
 impl Recorder {
     pub(super) fn check(&self, sample: &Sample) -> Result<(), DatasetError> {
-        let refused = |problem: String| DatasetError::Sample {
-            id: sample.id.clone(),
-            problem,
-        };
+        let refused = |problem: String| DatasetError::sample(&sample.id, problem);
         if sample.id.is_empty() || self.has(&sample.id) {
             return Err(refused("the name is empty or taken".to_owned()));
         }
@@ -50,12 +47,7 @@ impl Recorder {
     }
 
     pub(super) fn check_frame(&self, id: &str, frame: &Frame) -> Result<(), DatasetError> {
-        let refused = |problem: String| {
-            Err(DatasetError::Sample {
-                id: id.to_owned(),
-                problem,
-            })
-        };
+        let refused = |problem: String| Err(DatasetError::sample(id, problem));
         if let Some(reduced) = &self.reduced
             && !reduced.may_give(frame.info())
         {

@@ -55,10 +55,7 @@ impl Recorder {
     }
 
     fn verify(&self, samples: &Path, header: &Header) -> Result<(), DatasetError> {
-        let damaged = |problem: String| DatasetError::Damaged {
-            path: samples.to_owned(),
-            problem,
-        };
+        let damaged = |problem: String| DatasetError::damaged(samples, problem);
         let file = File::open(samples).map_err(DatasetError::io("open", samples))?;
         let read =
             from_parquet(file, &header.channels, &header.attributes, &[]).map_err(damaged)?;

@@ -1,10 +1,11 @@
 //! The folder of a recording at its beginning and at its end.
 
 use std::fs::{self, File};
+use std::io::ErrorKind;
 use std::path::Path;
 
 use crate::error::DatasetError;
-use crate::file::make_names_durable;
+use crate::file::{make_names_durable, refuse_link};
 use crate::journal::Journal;
 use crate::layout;
 use crate::lock::lock_folder;
@@ -13,7 +14,7 @@ use crate::lock::lock_folder;
 pub(super) fn empty_folder(path: &Path) -> Result<File, DatasetError> {
     match fs::create_dir(path) {
         Ok(()) => return lock_folder(path),
-        Err(error) if error.kind() == std::io::ErrorKind::AlreadyExists => {}
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
         Err(error) => return Err(DatasetError::io("create", path)(error)),
     }
     let taken = || DatasetError::TargetExists {
@@ -42,6 +43,37 @@ pub(super) fn empty_folder(path: &Path) -> Result<File, DatasetError> {
         fs::remove_file(&journal).map_err(DatasetError::io("remove", &journal))?;
     }
     Ok(lock)
+}
+
+/// Locks the folder of a recording that was not closed.
+pub(super) fn unclosed_folder(path: &Path) -> Result<File, DatasetError> {
+    let lock = lock_folder(path)?;
+    let header = path.join(layout::HEADER);
+    if header.exists() {
+        if path.join(layout::JOURNAL).exists() {
+            // Closed, but interrupted before the last step. A link to another header does not mean that.
+            refuse_link(&header)?;
+            remove_journal(path)?;
+        }
+        return Err(DatasetError::TargetExists { path: header });
+    }
+    refuse_links(path)?;
+    Ok(lock)
+}
+
+/// Refuses links in the recording at `path`, by which it would continue in another place.
+fn refuse_links(path: &Path) -> Result<(), DatasetError> {
+    for folder in [path.to_owned(), path.join(layout::FRAMES)] {
+        let entries = match fs::read_dir(&folder) {
+            Err(error) if error.kind() == ErrorKind::NotFound => continue,
+            entries => entries.map_err(DatasetError::io("list", &folder))?,
+        };
+        for entry in entries {
+            let entry = entry.map_err(DatasetError::io("list", &folder))?;
+            refuse_link(&entry.path())?;
+        }
+    }
+    Ok(())
 }
 
 pub(super) fn remove_journal(path: &Path) -> Result<(), DatasetError> {

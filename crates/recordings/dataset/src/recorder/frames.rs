@@ -143,10 +143,10 @@ impl Recorder {
     }
 
     fn damaged(&self, problem: String) -> DatasetError {
-        DatasetError::Damaged {
-            path: self.path.join(layout::pack_path(self.pack_end.number)),
+        DatasetError::damaged(
+            &self.path.join(layout::pack_path(self.pack_end.number)),
             problem,
-        }
+        )
     }
 
     /// Writes a frame as its own file; its bytes and its name are durable.
@@ -163,11 +163,7 @@ impl Recorder {
     }
 
     fn png(&self, frame: &Frame, relative: &str) -> Result<Vec<u8>, DatasetError> {
-        encode_png(frame).map_err(|problem| DatasetError::Image {
-            place: None,
-            path: self.path.join(relative),
-            problem,
-        })
+        encode_png(frame).map_err(|problem| DatasetError::image(&self.path.join(relative), problem))
     }
 
     /// Properties that all frames recorded so far share.

@@ -8,6 +8,7 @@ use super::payload::{WrittenPress, WrittenSample};
 use super::{Recorder, ReplayError, signals_of};
 use crate::error::DatasetError;
 use crate::journal::RecordKind;
+use crate::table::FrameEntry;
 
 impl Recorder {
     /// True if a press of this name is recorded.
@@ -37,8 +38,30 @@ impl Recorder {
     ) -> Result<u64, DatasetError> {
         self.check_press(press, samples)?;
         let entries = self.write_frames(samples)?;
+        let of_press = |samples| {
+            let press = press.to_owned();
+            let written = WrittenPress {
+                press,
+                outcome,
+                samples,
+            };
+            written.to_toml()
+        };
+        let sequence = self.append_all(RecordKind::Press, samples, entries, of_press)?;
+        self.presses.insert(press.to_owned(), outcome);
+        Ok(sequence)
+    }
+
+    /// Appends one record of `samples`, whose frames are written as `entries`; `payload` is the text of the record.
+    pub(super) fn append_all<'a>(
+        &mut self,
+        kind: RecordKind,
+        samples: impl IntoIterator<Item = &'a Sample>,
+        entries: Vec<Option<FrameEntry>>,
+        payload: impl FnOnce(Vec<WrittenSample>) -> String,
+    ) -> Result<u64, DatasetError> {
         let rows: Vec<_> = samples
-            .iter()
+            .into_iter()
             .zip(entries)
             .map(|(sample, entry)| {
                 let info = sample.frame.as_ref().map(Frame::info);
@@ -49,18 +72,11 @@ impl Recorder {
         let written = rows
             .iter()
             .map(|(row, info, signals)| WrittenSample::new(row, channels, *info, *signals));
-        let written = WrittenPress {
-            press: press.to_owned(),
-            outcome,
-            samples: written.collect(),
-        };
-        let sequence = self
-            .journal
-            .append(RecordKind::Press, written.to_toml().as_bytes())?;
+        let payload = payload(written.collect());
+        let sequence = self.journal.append(kind, payload.as_bytes())?;
         for (row, info, signals) in rows {
             self.take(row, info, signals)?;
         }
-        self.presses.insert(press.to_owned(), outcome);
         Ok(sequence)
     }
 
@@ -73,12 +89,7 @@ impl Recorder {
     }
 
     fn check_press(&self, press: &str, samples: &[Sample]) -> Result<(), DatasetError> {
-        let refused = |id: &str, problem: String| {
-            Err(DatasetError::Sample {
-                id: id.to_owned(),
-                problem,
-            })
-        };
+        let refused = |id: &str, problem: String| Err(DatasetError::sample(id, problem));
         if press.is_empty() || self.has_press(press) {
             return refused(press, "the name of the press is empty or taken".to_owned());
         }
@@ -90,12 +101,7 @@ impl Recorder {
         &self,
         samples: impl IntoIterator<Item = &'a Sample>,
     ) -> Result<(), DatasetError> {
-        let refused = |id: &str, problem: String| {
-            Err(DatasetError::Sample {
-                id: id.to_owned(),
-                problem,
-            })
-        };
+        let refused = |id: &str, problem: String| Err(DatasetError::sample(id, problem));
         let mut names = BTreeSet::new();
         let mut expected = self.frame_info;
         for sample in samples {

@@ -1,9 +1,9 @@
 //! Frames of a stream: several are recorded together, to sync the disk once for all of them.
 
-use taceva_core::{Frame, Sample};
+use taceva_core::Sample;
 
-use super::payload::{WrittenSample, WrittenStream};
-use super::{Recorder, ReplayError, signals_of};
+use super::payload::WrittenStream;
+use super::{Recorder, ReplayError};
 use crate::decode::{check_to_the_end, kind_of_whole};
 use crate::error::DatasetError;
 use crate::header::StreamFacts;
@@ -60,24 +60,8 @@ impl Recorder {
         let samples = || stream.iter().map(|streamed| &streamed.sample);
         self.check_together(samples())?;
         let entries = self.write_streamed(stream)?;
-        let rows: Vec<_> = samples()
-            .zip(entries)
-            .map(|(sample, entry)| {
-                let info = sample.frame.as_ref().map(Frame::info);
-                (self.row(sample, entry), info, signals_of(sample))
-            })
-            .collect();
-        let channels = self.table().channels();
-        let written = rows
-            .iter()
-            .map(|(row, info, signals)| WrittenSample::new(row, channels, *info, *signals));
-        let written = WrittenStream::new(facts, written.collect());
-        let sequence = self
-            .journal
-            .append(RecordKind::Stream, written.to_toml().as_bytes())?;
-        for (row, info, signals) in rows {
-            self.take(row, info, signals)?;
-        }
+        let of_stream = |samples| WrittenStream::new(facts, samples).to_toml();
+        let sequence = self.append_all(RecordKind::Stream, samples(), entries, of_stream)?;
         self.stream = Some(facts);
         Ok(sequence)
     }

@@ -41,11 +41,7 @@ impl SignalsReader {
     ) -> Result<SignalsReader, DatasetError> {
         let found = Digest::of_reader(&mut file).map_err(DatasetError::io("read", path))?;
         if found != info.sha256 {
-            return Err(DatasetError::Digest {
-                path: path.to_owned(),
-                expected: info.sha256,
-                found,
-            });
+            return Err(DatasetError::digest(path, info.sha256, found));
         }
         file.seek(SeekFrom::Start(0))
             .map_err(DatasetError::io("read", path))?;
@@ -90,11 +86,7 @@ impl SignalsReader {
         let found = digest.finish();
         match found == self.info.digest {
             true => Ok(()),
-            false => Err(DatasetError::Digest {
-                path: self.path.clone(),
-                expected: self.info.digest,
-                found,
-            }),
+            false => Err(DatasetError::digest(&self.path, self.info.digest, found)),
         }
     }
 

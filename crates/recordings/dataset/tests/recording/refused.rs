@@ -1,9 +1,12 @@
 //! What a recorder refuses.
 
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
 use taceva_core::{Frame, FrameInfo, PixelFormat, Readings, Stamp};
 use taceva_dataset::{Dataset, DatasetError, Recorder};
 
-use super::{sample, spec};
+use super::{frame, sample, spec};
 
 #[test]
 fn a_recording_is_written_by_one_at_a_time() {
@@ -146,4 +149,60 @@ fn links_at_names_of_a_recording_lead_nothing_elsewhere() {
     assert!(!path.join("dataset.toml").is_symlink());
     assert_eq!(std::fs::read_to_string(&thesis).expect("there"), "theirs");
     assert_eq!(theirs.read_dir().expect("there").count(), 1);
+}
+
+/// The files and folders in the folder of a recording, by their path in it, and the bytes of files.
+fn entries(recording: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut entries = BTreeMap::new();
+    for folder in [recording.to_owned(), recording.join("frames")] {
+        for entry in folder.read_dir().into_iter().flatten() {
+            let path = entry.expect("readable").path();
+            let bytes = std::fs::read(&path).unwrap_or_default();
+            let name = path.strip_prefix(recording).expect("below it");
+            entries.insert(name.to_owned(), bytes);
+        }
+    }
+    entries
+}
+
+/// An interrupted recording with a reference and two frames.
+fn interrupted(path: &Path) {
+    let mut recorder = Recorder::create(path, &spec()).expect("created");
+    recorder.append_reference(&frame(0)).expect("recorded");
+    recorder.append(&sample(1)).expect("recorded");
+    recorder.append(&sample(2)).expect("recorded");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_in_place_of_any_file_of_a_recording_is_refused_and_its_target_keeps_its_bytes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let whole = folder.path().join("whole");
+    interrupted(&whole);
+    let mut names: Vec<PathBuf> = entries(&whole).into_keys().collect();
+    assert_eq!(names.len(), 4, "{names:?}");
+    // Names at which nothing stands before the recording is closed.
+    let later = ["dataset.toml", "samples.parquet", "predictions.csv"];
+    let later = later.map(|name| [name.to_owned(), format!("{name}.partial")]);
+    names.extend(later.into_iter().flatten().map(PathBuf::from));
+    for name in names {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (path, theirs) = (folder.path().join("set"), folder.path().join("theirs"));
+        interrupted(&path);
+        std::fs::create_dir(&theirs).expect("made");
+        let (link, target) = (path.join(&name), theirs.join("target"));
+        match link.exists() {
+            true => std::fs::rename(&link, &target).expect("moved"),
+            false => std::fs::write(&target, "theirs").expect("written"),
+        }
+        std::os::unix::fs::symlink(&target, &link).expect("linked");
+        let before = [entries(&theirs), entries(&target), entries(&path)];
+        for resumed in [Recorder::resume(&path), Recorder::open(&path, &spec())] {
+            let error = resumed.expect_err("a link").to_string();
+            let is_named = error.contains("a symbolic link") && error.contains("set/");
+            assert!(is_named, "{}: {error}", name.display());
+        }
+        let after = [entries(&theirs), entries(&target), entries(&path)];
+        assert_eq!(after, before, "{}", name.display());
+    }
 }

@@ -12,7 +12,10 @@ pub(super) struct Ragged {
 
 impl Ragged {
     pub(super) fn problem(&self, columns: usize) -> String {
-        format!("{} cells, expected {columns} as in the header", self.found)
+        format!(
+            "{}, expected {columns} as in the header",
+            taceva_core::counted(self.found, "cell")
+        )
     }
 }
 

@@ -7,7 +7,7 @@ use taceva_core::{Column, SourceUnit};
 use super::CsvTable;
 use super::number::{number_in_unit, parse_number};
 use super::split::Block;
-use taceva_dataset::DatasetError;
+use crate::error::ImportError;
 use taceva_dataset::internal::each_part;
 
 /// Handling of a cell that is neither empty nor a finite number.
@@ -21,8 +21,8 @@ impl CsvTable {
     /// The numbers of the column called `name`; empty cells are absent.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] if there is no such column, or at the first cell that is no finite number.
-    pub fn numbers(&self, name: &str) -> Result<Column, DatasetError> {
+    /// [`ImportError::Table`] if there is no such column, or at the first cell that is no finite number.
+    pub fn numbers(&self, name: &str) -> Result<Column, ImportError> {
         self.whole(name, Invalid::Refuse)
     }
 
@@ -30,22 +30,22 @@ impl CsvTable {
     /// empty cells are absent.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] if there is no such column.
-    pub fn numbers_with_invalid(&self, name: &str) -> Result<Column, DatasetError> {
+    /// [`ImportError::Table`] if there is no such column.
+    pub fn numbers_with_invalid(&self, name: &str) -> Result<Column, ImportError> {
         self.whole(name, Invalid::AsNan)
     }
 
     /// The numbers that the column at `column` has in `rows`, in their order; empty cells are absent.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] at the first cell that is no finite number.
+    /// [`ImportError::Table`] at the first cell that is no finite number.
     /// # Panics
     /// If there is no such row or column.
     pub fn numbers_in(
         &self,
         column: usize,
         rows: impl ExactSizeIterator<Item = usize>,
-    ) -> Result<Column, DatasetError> {
+    ) -> Result<Column, ImportError> {
         self.some(column, rows, Invalid::Refuse)
     }
 
@@ -59,7 +59,7 @@ impl CsvTable {
         &self,
         column: usize,
         rows: impl ExactSizeIterator<Item = usize>,
-    ) -> Result<Column, DatasetError> {
+    ) -> Result<Column, ImportError> {
         self.some(column, rows, Invalid::AsNan)
     }
 
@@ -69,7 +69,7 @@ impl CsvTable {
     /// mm.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] if the cell holds no finite number, or one too large for its unit.
+    /// [`ImportError::Table`] if the cell holds no finite number, or one too large for its unit.
     /// # Panics
     /// If there is no such row or column.
     pub fn number_in_unit(
@@ -77,7 +77,7 @@ impl CsvTable {
         row: usize,
         column: usize,
         unit: &SourceUnit,
-    ) -> Result<Option<f64>, DatasetError> {
+    ) -> Result<Option<f64>, ImportError> {
         // Most cells need no conversion.
         let Some(number) = self.number(row, column)? else {
             return Ok(None);
@@ -92,8 +92,8 @@ impl CsvTable {
     /// The cells of the column called `name` as they are written, without surrounding blanks.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] if there is no such column.
-    pub fn text(&self, name: &str) -> Result<Vec<&str>, DatasetError> {
+    /// [`ImportError::Table`] if there is no such column.
+    pub fn text(&self, name: &str) -> Result<Vec<&str>, ImportError> {
         let column = self.position(name)?;
         Ok(self.text_in(column, 0..self.rows).collect())
     }
@@ -111,7 +111,7 @@ impl CsvTable {
             .map(|(_, cell)| self.text[cell].trim())
     }
 
-    fn whole(&self, name: &str, invalid: Invalid) -> Result<Column, DatasetError> {
+    fn whole(&self, name: &str, invalid: Invalid) -> Result<Column, ImportError> {
         let column = self.position(name)?;
         let mut values = vec![0.0; self.rows];
         let mut rest = values.as_mut_slice();
@@ -124,7 +124,7 @@ impl CsvTable {
         let outcomes = each_part(parts, |(rows, values)| {
             let first = rows.start;
             let absent = self.parse(column, rows, values, invalid)?;
-            Ok((first, absent))
+            Ok::<_, ImportError>((first, absent))
         });
         let mut absent = Vec::new();
         for outcome in outcomes {
@@ -139,7 +139,7 @@ impl CsvTable {
         column: usize,
         rows: impl ExactSizeIterator<Item = usize>,
         invalid: Invalid,
-    ) -> Result<Column, DatasetError> {
+    ) -> Result<Column, ImportError> {
         let mut values = vec![0.0; rows.len()];
         let absent = self.parse(column, rows, &mut values, invalid)?;
         Ok(with_absent(values, &absent))
@@ -152,7 +152,7 @@ impl CsvTable {
         rows: impl Iterator<Item = usize>,
         values: &mut [f64],
         invalid: Invalid,
-    ) -> Result<Vec<usize>, DatasetError> {
+    ) -> Result<Vec<usize>, ImportError> {
         let mut absent = Vec::new();
         for (position, (row, cell)) in self.cells(column, rows).enumerate() {
             match parse_number(&self.text, cell) {

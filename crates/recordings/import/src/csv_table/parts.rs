@@ -10,8 +10,9 @@ use serde::{Deserialize, Serialize};
 
 use super::scan::{Found, LineScan, Mark, QuotedScan};
 use super::{CsvTable, as_text, delimiter_of};
+use crate::error::ImportError;
+use taceva_dataset::Digest;
 use taceva_dataset::internal::{limits, open_regular};
-use taceva_dataset::{DatasetError, Digest, Place};
 
 /// Rows of a part; the last part has fewer.
 pub(super) const PART_ROWS: u64 = 1 << 16;
@@ -52,16 +53,19 @@ impl CsvParts {
     /// Scans the file at `path` once, or twice if cells are quoted. The file may have any length.
     ///
     /// # Errors
-    /// [`DatasetError::Io`]; [`DatasetError::Path`] if it is no regular file; [`DatasetError::Table`] if a quote is not closed.
-    pub fn scan(path: &Path) -> Result<CsvParts, DatasetError> {
+    /// [`ImportError::Dataset`] if it is no regular file or cannot be read; [`ImportError::Table`] if a quote is not closed.
+    pub fn scan(path: &Path) -> Result<CsvParts, ImportError> {
         let (mut file, _) = open_regular(path, u64::MAX)?;
-        let failed = |source| DatasetError::io("read", path)(source);
+        let failed = |source| ImportError::io("read", path)(source);
         let begin = begin_of(&mut file).map_err(failed)?;
         let mut scan = LineScan::new(&mut file, begin);
         let digest = Digest::of_reader(&mut scan).map_err(failed)?;
         let found = scan.finish();
         if found.quotes % 2 == 1 {
-            return Err(wrong(path, "a quote is opened and never closed".to_owned()));
+            return Err(ImportError::table(
+                path,
+                "a quote is opened and never closed".to_owned(),
+            ));
         }
         let (found, digest) = match found.quotes {
             0 => (found, digest),
@@ -107,14 +111,14 @@ impl CsvParts {
     ///
     /// # Errors
     /// As [`CsvTable::read`].
-    pub fn header(&self) -> Result<CsvTable, DatasetError> {
+    pub fn header(&self) -> Result<CsvTable, ImportError> {
         let (mut file, _) = open_regular(&self.path, u64::MAX)?;
         let bytes = self.header_line(&mut file)?;
         CsvTable::of_bytes(&self.path, bytes)
     }
 
     /// Header as a line with a normalised line end.
-    fn header_line(&self, file: &mut File) -> Result<Vec<u8>, DatasetError> {
+    fn header_line(&self, file: &mut File) -> Result<Vec<u8>, ImportError> {
         let bytes = self.bytes(file, self.header[0]..self.header[1])?;
         Ok(header_line_of(bytes))
     }
@@ -122,8 +126,8 @@ impl CsvParts {
     /// Reads the rows of a part as a table. Errors name lines of the file.
     ///
     /// # Errors
-    /// As [`CsvTable::read`]; also [`DatasetError::Table`] if the rows have changed since the scan.
-    pub fn read(&self, part: usize) -> Result<CsvTable, DatasetError> {
+    /// As [`CsvTable::read`]; also [`ImportError::Table`] if the rows have changed since the scan.
+    pub fn read(&self, part: usize) -> Result<CsvTable, ImportError> {
         let Some(mark) = self.marks.get(part) else {
             return self.header();
         };
@@ -143,32 +147,32 @@ impl CsvParts {
                 table.rows(),
                 mark.line
             );
-            return Err(wrong(&self.path, problem));
+            return Err(ImportError::table(&self.path, problem));
         }
         Ok(table)
     }
 
     /// Bytes of the file in the range, fewer at its end.
-    fn bytes(&self, file: &mut File, bytes: Range<u64>) -> Result<Vec<u8>, DatasetError> {
+    fn bytes(&self, file: &mut File, bytes: Range<u64>) -> Result<Vec<u8>, ImportError> {
         let length = bytes.end.saturating_sub(bytes.start);
         if length > limits::TABLE_BYTES {
             let problem = format!(
                 "{length} bytes of {PART_ROWS} rows, more than the {} that are accepted",
                 limits::TABLE_BYTES
             );
-            return Err(wrong(&self.path, problem));
+            return Err(ImportError::table(&self.path, problem));
         }
         let mut read = Vec::new();
         file.seek(SeekFrom::Start(bytes.start))
             .and_then(|_| file.take(length).read_to_end(&mut read))
-            .map_err(DatasetError::io("read", &self.path))?;
+            .map_err(ImportError::io("read", &self.path))?;
         Ok(read)
     }
 }
 
 impl CsvTable {
     /// Parses `bytes`, read from the file at `path`.
-    pub(super) fn of_bytes(path: &Path, bytes: Vec<u8>) -> Result<CsvTable, DatasetError> {
+    pub(super) fn of_bytes(path: &Path, bytes: Vec<u8>) -> Result<CsvTable, ImportError> {
         let text = as_text(path, bytes)?;
         let delimiter = delimiter_of(text.lines().next().unwrap_or(""));
         CsvTable::of_text(path, text, delimiter, NonZeroUsize::MIN)
@@ -184,7 +188,7 @@ impl CsvTable {
     /// let table = CsvTable::of_cells("truth.parquet".as_ref(), &["id", "Fz"], rows)?;
     /// assert_eq!(table.text("id")?, ["a", "b,c"]);
     /// assert_eq!(table.numbers("Fz")?.get(0), Some(0.5));
-    /// # Ok::<(), taceva_dataset::DatasetError>(())
+    /// # Ok::<(), taceva_import::ImportError>(())
     /// ```
     ///
     /// # Errors
@@ -193,7 +197,7 @@ impl CsvTable {
         path: &Path,
         names: &[&str],
         rows: impl IntoIterator<Item = R>,
-    ) -> Result<CsvTable, DatasetError> {
+    ) -> Result<CsvTable, ImportError> {
         let mut text = String::new();
         push_line(&mut text, names.iter().copied());
         for row in rows {
@@ -205,7 +209,7 @@ impl CsvTable {
                 text.len(),
                 limits::TABLE_BYTES
             );
-            return Err(wrong(path, problem));
+            return Err(ImportError::table(path, problem));
         }
         CsvTable::of_text(path, text, b',', NonZeroUsize::MIN)
     }
@@ -268,10 +272,6 @@ pub(super) fn begin_of(file: &mut File) -> std::io::Result<u64> {
     };
     file.seek(SeekFrom::Start(begin))?;
     Ok(begin)
-}
-
-fn wrong(path: &Path, problem: String) -> DatasetError {
-    DatasetError::table(Place::file(path), problem)
 }
 
 #[cfg(test)]

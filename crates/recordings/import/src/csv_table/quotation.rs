@@ -4,11 +4,11 @@ use std::path::Path;
 
 use super::CsvTable;
 use super::split::Block;
+use crate::error::{ImportError, Place};
 use taceva_dataset::internal::limits;
-use taceva_dataset::{DatasetError, Place};
 
-pub(super) fn read(path: &Path, text: &str, delimiter: u8) -> Result<CsvTable, DatasetError> {
-    let wrong = |line: u64, problem: String| DatasetError::table(Place::line(path, line), problem);
+pub(super) fn read(path: &Path, text: &str, delimiter: u8) -> Result<CsvTable, ImportError> {
+    let wrong = |line: u64, problem: String| ImportError::table(Place::line(path, line), problem);
     if text.bytes().filter(|byte| *byte == b'"').count() % 2 == 1 {
         return Err(wrong(1, "a quote is opened and never closed".to_owned()));
     }
@@ -36,7 +36,10 @@ pub(super) fn read(path: &Path, text: &str, delimiter: u8) -> Result<CsvTable, D
             let expected = names.len();
             return Err(wrong(
                 line,
-                format!("{found} cells, expected {expected} as in the header"),
+                format!(
+                    "{}, expected {expected} as in the header",
+                    taceva_core::counted(found, "cell")
+                ),
             ));
         }
         for cell in &record {

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use super::cells::{Ragged, RowSplitter};
 use super::{CsvTable, line_at};
+use crate::error::{ImportError, Place};
 use taceva_dataset::internal::each_part;
-use taceva_dataset::{DatasetError, Place};
 
 /// Text below this is not worth a second thread.
 const LEAST_PART: usize = 1 << 16;
@@ -35,7 +35,7 @@ pub(super) fn read(
     text: String,
     delimiter: u8,
     jobs: NonZeroUsize,
-) -> Result<CsvTable, DatasetError> {
+) -> Result<CsvTable, ImportError> {
     let header = text.lines().next().unwrap_or("");
     let names: Vec<String> = header
         .split(char::from(delimiter))
@@ -48,9 +48,11 @@ pub(super) fn read(
     let mut blocks = Vec::with_capacity(parts.len());
     let mut rows = 0;
     for outcome in each_part(parts, |part| split_part(bytes, part, delimiter, columns)) {
-        let bounds = outcome.map_err(|ragged| DatasetError::Table {
-            place: Place::line(path, line_at(bytes, ragged.offset)),
-            problem: ragged.problem(columns),
+        let bounds = outcome.map_err(|ragged| {
+            ImportError::table(
+                Place::line(path, line_at(bytes, ragged.offset)),
+                ragged.problem(columns),
+            )
         })?;
         let first = rows;
         rows += bounds.len() / (columns + 1);

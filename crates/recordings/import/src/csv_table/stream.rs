@@ -9,8 +9,9 @@ use super::cells::RowSplitter;
 use super::parts::{begin_of, header_line_of};
 use super::split::Block;
 use super::{CsvTable, delimiter_of, line_at};
+use crate::error::ImportError;
 use taceva_dataset::internal::{PartsDigest, open_regular};
-use taceva_dataset::{DatasetError, Digest, Place};
+use taceva_dataset::{Digest, Place};
 
 /// Read size, bytes.
 const AHEAD: usize = 1 << 16;
@@ -55,11 +56,11 @@ impl CsvStream {
     /// Opens the file at `path` and reads its header.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] if the header is none or has a quoted cell, or the beginning is no text; [`DatasetError::Path`] if it is no regular
-    /// file; [`DatasetError::Io`].
-    pub fn open(path: &Path) -> Result<CsvStream, DatasetError> {
+    /// [`ImportError::Table`] if the header is none or has a quoted cell, or the beginning is no text; [`ImportError::Dataset`] if it is no
+    /// regular file or cannot be read.
+    pub fn open(path: &Path) -> Result<CsvStream, ImportError> {
         let (mut file, _) = open_regular(path, u64::MAX)?;
-        begin_of(&mut file).map_err(DatasetError::io("read", path))?;
+        begin_of(&mut file).map_err(ImportError::io("read", path))?;
         let mut digest = PartsDigest::default();
         let mut ahead = Vec::with_capacity(2 * AHEAD);
         while !ahead.contains(&b'\n') && fill(path, &mut file, &mut digest, &mut ahead)? {}
@@ -106,9 +107,9 @@ impl CsvStream {
     /// Replaces the rows of `block` with the next `rows` rows: fewer at the end of the file, then none. Its memory is reused.
     ///
     /// # Errors
-    /// As [`CsvTable::read`]; also [`DatasetError::Table`] for a quoted cell, whose end only the whole file shows. After an error the
+    /// As [`CsvTable::read`]; also [`ImportError::Table`] for a quoted cell, whose end only the whole file shows. After an error the
     /// stream cannot be read.
-    pub fn read(&mut self, rows: usize, block: &mut CsvTable) -> Result<(), DatasetError> {
+    pub fn read(&mut self, rows: usize, block: &mut CsvTable) -> Result<(), ImportError> {
         let CsvTable { path, names, .. } = &self.header;
         let mut text = std::mem::take(&mut block.text).into_bytes();
         text.clear();
@@ -163,14 +164,14 @@ fn fill(
     file: &mut File,
     digest: &mut PartsDigest,
     bytes: &mut Vec<u8>,
-) -> Result<bool, DatasetError> {
+) -> Result<bool, ImportError> {
     let had = bytes.len();
     if had > MOST_BYTES {
         let problem = format!("rows of more than {MOST_BYTES} bytes");
         return Err(wrong(path, 1, problem));
     }
     let read = file.take(AHEAD as u64).read_to_end(bytes);
-    let read = read.map_err(DatasetError::io("read", path))?;
+    let read = read.map_err(ImportError::io("read", path))?;
     let new = &bytes[had..];
     // Counts over every byte, without a branch, so that the loop vectorises.
     let quotes = new
@@ -184,8 +185,8 @@ fn fill(
     Ok(read > 0)
 }
 
-fn wrong(path: &Path, line: u64, problem: String) -> DatasetError {
-    DatasetError::table(Place::line(path, line), problem)
+fn wrong(path: &Path, line: u64, problem: String) -> ImportError {
+    ImportError::table(Place::line(path, line), problem)
 }
 
 #[cfg(test)]
@@ -260,7 +261,7 @@ mod tests {
         let path = folder.path().join("table.csv");
         let good = "1,2\n".repeat(50_000);
         for (text, word) in [
-            (format!("a,b\n{good}1\n"), "line 50002: 1 cells, expected 2"),
+            (format!("a,b\n{good}1\n"), "line 50002: 1 cell, expected 2"),
             (format!("a,b\n{good}1,2,3"), "line 50002: 3 cells"),
             (format!("a,b\n{good}\"1\",2"), "a quoted cell"),
             ("\"a\",b\n".to_owned(), "a quoted cell"),

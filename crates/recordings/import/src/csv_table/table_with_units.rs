@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::text_form::{TextForm, separator_line, unit_said};
 use super::{CsvTable, as_text, cells_of_first_row, delimiter_of, number};
+use crate::error::{ImportError, Place, table_error};
 use taceva_dataset::internal::{all_cores, limits, read_capped, shown};
-use taceva_dataset::{DatasetError, Place};
 
 /// Text table with the unit of each column from the row below the header.
 pub(crate) struct TableWithUnits {
@@ -21,7 +21,7 @@ impl CsvTable {
     pub(crate) fn read_written(
         path: &Path,
         form: &TextForm,
-    ) -> Result<TableWithUnits, DatasetError> {
+    ) -> Result<TableWithUnits, ImportError> {
         let text = as_text(path, read_capped(path, limits::TABLE_BYTES)?)?;
         let hint = match form.is_plain() {
             true => hint(&text, form),
@@ -29,10 +29,9 @@ impl CsvTable {
         };
         let read = read_text(path, text, form);
         read.map_err(|error| match (error, hint) {
-            (DatasetError::Table { place, problem }, Some(hint)) => DatasetError::Table {
-                place,
-                problem: format!("{problem}; {hint}"),
-            },
+            (ImportError::Table { place, problem }, Some(hint)) => {
+                table_error!(place, "{problem}; {hint}")
+            }
             (error, _) => error,
         })
     }
@@ -56,8 +55,8 @@ fn hint(text: &str, form: &TextForm) -> Option<String> {
     })
 }
 
-fn read_text(path: &Path, text: String, form: &TextForm) -> Result<TableWithUnits, DatasetError> {
-    let wrong = |line: u64, problem: String| DatasetError::table(Place::line(path, line), problem);
+fn read_text(path: &Path, text: String, form: &TextForm) -> Result<TableWithUnits, ImportError> {
+    let wrong = |line: u64, problem: String| ImportError::table(Place::line(path, line), problem);
     let is_comment = |line: &str| {
         let mark = form.comment.as_deref();
         mark.is_some_and(|mark| line.trim_start().trim_start_matches('"').starts_with(mark))
@@ -134,7 +133,7 @@ fn read_text(path: &Path, text: String, form: &TextForm) -> Result<TableWithUnit
             let names: Vec<String> = (0..count).map(|position| position.to_string()).collect();
             let header = names.join(&char::from(delimiter).to_string());
             let read = CsvTable::of_text(path, format!("{header}\n{text}"), delimiter, all_cores());
-            read.map_err(DatasetError::a_line_above).map(|mut table| {
+            read.map_err(ImportError::a_line_above).map(|mut table| {
                 table.added_lines = 1;
                 table
             })

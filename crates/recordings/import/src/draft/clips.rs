@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use taceva_core::counted;
 use taceva_video::{Decoders, Video};
 
 use super::frames::{FrameLines, are_pairs, counted_through, of_views};
@@ -21,7 +22,7 @@ pub(super) fn of(
     main: &SeenTable<'_>,
 ) -> Vec<FrameLines> {
     // LeRobot names clips by feature; other clips are no pictures of the table.
-    if main.group.first() == "meta/info.json" {
+    if main.is_lerobot() {
         return Vec::new();
     }
     let Some(clips) = groups.iter().find(|group| is_clip(&group.ending)) else {
@@ -68,10 +69,16 @@ fn other_length(clip: &Path, rows: usize) -> Option<String> {
     let frames = video.info().frames;
     (frames != rows as u64).then(|| {
         let name = clip.file_name().unwrap_or_default().to_string_lossy();
+        let (rate, times) = match video.info().times_s {
+            Some(_) => ("", "at the times that the clip states"),
+            None => (", rate = FRAMES_A_SECOND", "at this rate"),
+        };
         format!(
-            "index = \"?\"   # {frames} frames, {rows} rows: name the column with the frame number. If their clocks differ, write\n\
-             # table = {{ file = {name:?}, format = \"clip\", rate = FRAMES_A_SECOND }} above, join this table by [[join]] with `time`, \
-             and omit `index`"
+            "index = \"?\"   # {}, {}: name the column with the frame number. If their clocks differ, write\n\
+             # table = {{ file = {name:?}, format = \"clip\"{rate} }} above, whose rows are the frames {times}, join this table by [[join]] \
+             with `time`, and omit `index`",
+            counted(frames, "frame"),
+            counted(rows, "row")
         )
     })
 }

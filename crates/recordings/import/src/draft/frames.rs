@@ -1,6 +1,7 @@
 //! Finds the frames of a table.
 
 mod picture_lines;
+mod stems;
 
 use std::path::Path;
 
@@ -8,7 +9,7 @@ use super::survey::FileGroup;
 use super::tables::{SeenColumn, SeenTable};
 use super::views::{Sided, sided};
 use crate::source_folder::SourceFolder;
-use picture_lines::in_array;
+use picture_lines::{in_array, in_table};
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
 
@@ -34,17 +35,20 @@ pub(super) struct FrameLines {
     pub(super) drop: Option<String>,
 }
 
-/// First column whose cells name pictures.
-pub(super) fn file_column<'t>(
+/// True if rows of `table` hold or name pictures.
+pub(super) fn has_pictures(
     folder: &SourceFolder,
-    table: &'t SeenTable<'_>,
-) -> Option<FileColumn<'t>> {
-    file_columns(folder, table).into_iter().next()
+    groups: &[FileGroup],
+    table: &SeenTable<'_>,
+) -> bool {
+    !table.pictures.is_empty()
+        || !file_columns(folder, table).is_empty()
+        || stems::of(folder, groups, table).is_some()
 }
 
 /// Column whose cells name pictures.
 #[derive(Clone, Copy)]
-pub(super) struct FileColumn<'t> {
+struct FileColumn<'t> {
     column: &'t SeenColumn,
     /// True if cells are relative to the source folder instead of the table's folder.
     is_below_source: bool,
@@ -207,6 +211,7 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
 /// Frames of `main`, one entry for each view. Clips are handled by their own function.
 pub(super) fn of(
     folder: &SourceFolder,
+    groups: &[FileGroup],
     main: &SeenTable<'_>,
     tables: &[SeenTable<'_>],
 ) -> Vec<FrameLines> {
@@ -239,29 +244,8 @@ pub(super) fn of(
     if let Some(lines) = by_end_of_path(folder, main) {
         return vec![lines];
     }
-    if let Some(picture) = main.pictures.first() {
-        let names: Vec<&str> = main.pictures.iter().map(|own| own.name.as_str()).collect();
-        let mut views = of_views(&names, |at| in_array(&main.pictures[at], None, &[]));
-        let is_of = |name: &str, views: &[FrameLines]| {
-            let written = format!("{name:?}");
-            let mut lines = views.iter().flat_map(|view| &view.lines);
-            lines.any(|line| line.contains(&written))
-        };
-        let others: Vec<&str> = names
-            .iter()
-            .copied()
-            .filter(|name| !is_of(name, &views))
-            .collect();
-        return match views.first_mut() {
-            None => vec![in_array(picture, None, &main.pictures[1..])],
-            Some(first) => {
-                if !others.is_empty() {
-                    let others = format!("# Other pictures of a row: {}", others.join(", "));
-                    first.lines.insert(0, others);
-                }
-                views
-            }
-        };
+    if !main.pictures.is_empty() {
+        return in_table(main);
     }
     let with_pictures =
         |table: &&SeenTable<'_>| table.is_single_array && !table.pictures.is_empty();
@@ -276,18 +260,21 @@ pub(super) fn of(
     match (views.is_empty(), tables.is_empty()) {
         (false, _) => views,
         (true, false) => vec![beside(0)],
-        (true, true) => Vec::new(),
+        (true, true) => stems::of(folder, groups, main).into_iter().collect(),
     }
 }
 
 /// Frame lines of the `names` that are views of one another, made by `lines`.
 pub(super) fn of_views(names: &[&str], lines: impl Fn(usize) -> FrameLines) -> Vec<FrameLines> {
-    let views = sided(names)
-        .into_iter()
-        .map(|Sided { at, view }| FrameLines {
-            view: Some(view),
-            ..lines(at)
-        });
+    of_sides(sided(names), lines)
+}
+
+/// Frame lines of views, made by `lines`.
+fn of_sides(sides: Vec<Sided>, lines: impl Fn(usize) -> FrameLines) -> Vec<FrameLines> {
+    let views = sides.into_iter().map(|Sided { at, view }| FrameLines {
+        view: Some(view),
+        ..lines(at)
+    });
     views.collect()
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::roles::Role;
+use super::roles::{Role, median_step};
 use super::tables::SeenTable;
 
 /// Joined table with the lines of its `[[join]]`.
@@ -14,6 +14,16 @@ pub(super) struct SeenJoin<'t, 'g> {
     pub(super) written: String,
     pub(super) lines: Vec<String>,
 }
+
+impl SeenJoin<'_, '_> {
+    /// True if its cells are interpolated, which excludes texts.
+    pub(super) fn is_interpolated(&self) -> bool {
+        self.lines.iter().any(|line| line.starts_with(LINEAR))
+    }
+}
+
+/// Begin of the line of an interpolating join.
+const LINEAR: &str = "pick = \"linear\"";
 
 /// Tables with channels that `main` lacks, each with its join.
 pub(super) fn of<'t, 'g>(
@@ -110,15 +120,10 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     let (own, own_unit) = (own_time.column, own_time.unit);
     let (there, unit) = (time.column, time.unit);
     let seconds = |cells: &[String], unit: &str| -> Option<(f64, f64)> {
-        let factor = match unit {
-            "ns" => 1e-9,
-            "us" => 1e-6,
-            "ms" => 1e-3,
-            _ => 1.0,
-        };
+        let second = second_in(unit);
         let first: f64 = cells.first()?.parse().ok()?;
         let last: f64 = cells.last()?.parse().ok()?;
-        Some((first * factor, last * factor))
+        Some((first / second, last / second))
     };
     let is_rising = |cells: &[String]| {
         let times = cells.iter().filter_map(|cell| cell.parse::<f64>().ok());
@@ -133,20 +138,72 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
         return None;
     }
     let spacing_ms = 1e3 * (last - first) / (there.cells.len().max(2) - 1) as f64;
+    let rates = rate_hz(&own.cells, own_unit).zip(rate_hz(&there.cells, unit));
+    let pick = match rates {
+        Some((own, other)) => pick_by_rates(own, other),
+        None => "pick = \"nearest\"".to_owned(),
+    };
+    // Both neighbours of an instant must lie within the tolerance, and steps vary.
+    let (steps, tolerance) = match pick.starts_with(LINEAR) {
+        true => (2.0, "twice the time between two of its rows"),
+        false => (1.0, "the time between two of its rows"),
+    };
     Some(vec![
         format!(
             "time = {{ column = {:?}, unit = {unit:?} }}{}",
             there.name,
             time.mark()
         ),
-        "pick = \"nearest\"".to_owned(),
+        pick,
         format!(
-            "tolerance_ms = {:.3}   # the time between two of its rows",
-            spacing_ms.max(0.001)
+            "tolerance_ms = {:.3}   # {tolerance}",
+            steps * spacing_ms.max(0.001)
         ),
         "lag_ms = 0   # how far its clock is ahead: the files do not state it".to_owned(),
         "unmatched = \"drop\"".to_owned(),
     ])
+}
+
+/// Number of these units in a second.
+fn second_in(unit: &str) -> f64 {
+    match unit {
+        "ns" => 1e9,
+        "us" => 1e6,
+        "ms" => 1e3,
+        _ => 1.0,
+    }
+}
+
+/// Rate of rows at these times, Hz; `None` if no two times differ or their unit is unknown.
+fn rate_hz(cells: &[String], unit: &str) -> Option<f64> {
+    if unit == "?" {
+        return None;
+    }
+    let times: Vec<f64> = cells.iter().filter_map(|cell| cell.parse().ok()).collect();
+    Some(second_in(unit) / median_step(&times)?)
+}
+
+/// Least rate of a joined table, relative to the main table, at which each row has a near one.
+const NEAR_RATE: f64 = 0.9;
+
+/// Line with the pick that suits the rates of the main and the joined table, Hz.
+fn pick_by_rates(own: f64, other: f64) -> String {
+    let both = format!("{} beside {} of the main table", in_hz(other), in_hz(own));
+    match other < NEAR_RATE * own {
+        true => format!(
+            "{LINEAR}   # {both}: each of its rows would serve several, so numbers between two of its rows are interpolated"
+        ),
+        false => format!(
+            "pick = \"nearest\"   # {both}: the nearest of its rows is at most {:.3} ms away",
+            500.0 / other
+        ),
+    }
+}
+
+/// A rate with three digits: `33.3 Hz`.
+fn in_hz(rate: f64) -> String {
+    let scale = 10_f64.powf(2.0 - rate.log10().floor());
+    format!("{} Hz", (rate * scale).round() / scale)
 }
 
 /// Join row by row: both tables have equally many rows and no other relation.
@@ -154,4 +211,36 @@ fn by_row(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     // With several tables, each would begin with the first row of the other.
     let is_alike = main.rows == other.rows && main.channels() == 0 && main.group.paths.len() == 1;
     is_alike.then(|| vec!["on = \"row\"   # both have as many rows".to_owned()])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slower_table_is_interpolated_and_a_faster_one_gives_its_nearest_row() {
+        let slow = pick_by_rates(29.97, 5.0);
+        assert!(
+            slow.starts_with("pick = \"linear\"   # 5 Hz beside 30 Hz of the main table: "),
+            "{slow}"
+        );
+        for rate in [29.0, 30.0, 200.0] {
+            let near = pick_by_rates(30.0, rate);
+            assert!(near.starts_with("pick = \"nearest\"   # "), "{near}");
+        }
+        assert!(pick_by_rates(30.0, 200.0).ends_with("is at most 2.500 ms away"));
+    }
+
+    #[test]
+    fn the_rate_of_rows_is_that_of_their_median_step() {
+        let cells = |times: &[&str]| -> Vec<String> {
+            times.iter().map(|time| (*time).to_owned()).collect()
+        };
+        // One pause among four steps.
+        let times = cells(&["0", "20", "40", "900", "920"]);
+        assert_eq!(rate_hz(&times, "ms").map(in_hz).as_deref(), Some("50 Hz"));
+        assert_eq!(rate_hz(&cells(&["5", "5"]), "s"), None);
+        assert_eq!(in_hz(1234.5), "1230 Hz");
+        assert_eq!(in_hz(100.0 / 3.0), "33.3 Hz");
+    }
 }

@@ -10,13 +10,16 @@ use super::channels::{self, Offered};
 use super::clips;
 use super::frames::{self, FrameLines};
 use super::joins::{self, SeenJoin};
+use super::path_parts::PathParts;
 use super::roles::Role;
+use super::roles::candidate::Candidate;
 use super::survey::FileGroup;
-use super::tables::{SeenColumn, SeenTable, Taxels};
+use super::tables::{SeenTable, Taxels};
 use crate::source_folder::SourceFolder;
 use ids::{add_parts, attribute_name, shared_points};
 use sections::{HEAD, Lines, add_frames, add_path, add_section, begun, ended, line};
 use signals::signals;
+use taceva_core::counted;
 use taceva_dataset::internal::first_names;
 
 /// Limit of unread items that a draft names.
@@ -41,15 +44,16 @@ pub(super) fn of_table(
     tables: &[SeenTable<'_>],
     notes: &[String],
 ) -> String {
-    let mut frames = frames::of(folder, main, tables);
+    let mut frames = frames::of(folder, groups, main, tables);
     if frames.is_empty() {
         frames = clips::of(folder, groups, main);
     }
-    let joins = joins::of(main, tables);
+    let parts = (main.group.paths.len() > 1).then_some(&main.group.parts);
+    let (joins, unused) = used_joins(main, joins::of(main, tables), parts);
     let mut text = begun(notes);
     line(
         &mut text,
-        &format!("table = {}   # {} rows", main.written, main.rows),
+        &format!("table = {}   # {}", main.written, counted(main.rows, "row")),
     );
     if let Some(guess) = &main.header_guess {
         line(&mut text, guess);
@@ -72,7 +76,15 @@ pub(super) fn of_table(
     if !others.is_empty() {
         line(&mut text, &format!("# Other tables: {}", others.join(", ")));
     }
-    let parts = (main.group.paths.len() > 1).then_some(&main.group.parts);
+    if !unused.is_empty() {
+        line(
+            &mut text,
+            &format!(
+                "# Not joined, because no line below uses a column of it: {}",
+                unused.join(", ")
+            ),
+        );
+    }
     if let Some(parts) = parts {
         add_path(&mut text, parts);
     } else if let Some(path) = frames.iter().find_map(|frame| frame.path.as_ref()) {
@@ -80,13 +92,7 @@ pub(super) fn of_table(
     }
     add_frames(&mut text, &frames);
     let columns = table_columns(main, &joins);
-    let mut attributes = Lines::default();
-    for NamedColumn { name, role, .. } in &columns {
-        let is_class = main.classes.iter().any(|(column, _)| column == name);
-        if **role == Role::Attribute && !is_class {
-            attributes.add(&attribute_name(name), &format!("{name:?}"));
-        }
-    }
+    let mut attributes = attribute_lines(main, &columns);
     let mut ids = Lines::default();
     let mut of_path = Vec::new();
     if let Some(parts) = parts {
@@ -102,23 +108,7 @@ pub(super) fn of_table(
     if main.has_groups() {
         attributes.add("group", "\"group\"");
     }
-    let offered = columns.iter().flat_map(|column| {
-        let candidates = match column.role {
-            Role::Channels(candidates) => candidates.as_slice(),
-            _ => &[],
-        };
-        candidates.iter().map(|candidate| Offered {
-            name: &column.name,
-            candidate,
-            is_own: column.is_own,
-        })
-    });
-    let of_path = of_path.iter().map(|(name, candidate)| Offered {
-        name,
-        candidate,
-        is_own: true,
-    });
-    let offered: Vec<Offered<'_>> = offered.chain(of_path).collect();
+    let offered = offered(&columns, &of_path);
     let mut channels = channels::lines(&offered);
     let own_taxels = main.own_taxels();
     let numbers: Vec<String> = columns
@@ -218,9 +208,9 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
     line(
         &mut text,
         &format!(
-            "table = {{ files = {:?} }}   # no table: {} files, each of them a row",
+            "table = {{ files = {:?} }}   # no table: {}, each of them a row",
             group.pattern(),
-            group.paths.len()
+            counted(group.paths.len(), "file")
         ),
     );
     let (mut ids, mut attributes) = (Lines::default(), Lines::default());
@@ -266,12 +256,76 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
     ended(text)
 }
 
+/// Joins with a column in an active line of the map, and the tables of the others as a map writes them.
+fn used_joins<'t, 'g>(
+    main: &SeenTable<'_>,
+    found: Vec<SeenJoin<'t, 'g>>,
+    parts: Option<&PathParts>,
+) -> (Vec<SeenJoin<'t, 'g>>, Vec<String>) {
+    let active = {
+        let columns = table_columns(main, &found);
+        let of_path = parts.map(|parts| {
+            let (mut ids, mut attributes) = (Lines::default(), Lines::default());
+            add_parts(parts, &mut ids, &mut attributes)
+        });
+        let channels = channels::lines(&offered(&columns, &of_path.unwrap_or_default()));
+        let lines = channels + &attribute_lines(main, &columns).0;
+        let active = lines.lines().filter(|line| !line.starts_with('#'));
+        active.map(str::to_owned).collect::<Vec<_>>()
+    };
+    let is_used = |join: &SeenJoin<'_, '_>| {
+        let column = format!("\"{}.", join.name);
+        active.iter().any(|line| line.contains(&column))
+    };
+    let (used, unused): (Vec<_>, Vec<_>) = found.into_iter().partition(is_used);
+    (used, unused.into_iter().map(|join| join.written).collect())
+}
+
+/// Candidates for channels in columns and in parts of paths.
+fn offered<'t>(
+    columns: &'t [NamedColumn<'t>],
+    of_path: &'t [(String, Candidate)],
+) -> Vec<Offered<'t>> {
+    let of_columns = columns.iter().flat_map(|column| {
+        let candidates = match column.role {
+            Role::Channels(candidates) => candidates.as_slice(),
+            _ => &[],
+        };
+        candidates.iter().map(|candidate| Offered {
+            name: &column.name,
+            candidate,
+            is_own: column.is_own,
+        })
+    });
+    let of_path = of_path.iter().map(|(name, candidate)| Offered {
+        name,
+        candidate,
+        is_own: true,
+    });
+    of_columns.chain(of_path).collect()
+}
+
+/// Lines of `[attributes]` for texts of the tables.
+fn attribute_lines(main: &SeenTable<'_>, columns: &[NamedColumn<'_>]) -> Lines {
+    let mut attributes = Lines::default();
+    for column in columns {
+        let name = &column.name;
+        let is_class = main.classes.iter().any(|(class, _)| class == name);
+        if *column.role == Role::Attribute && !is_class && !column.is_interpolated {
+            attributes.add(&attribute_name(name), &format!("{name:?}"));
+        }
+    }
+    attributes
+}
+
 /// Column named as in a map.
 struct NamedColumn<'t> {
     name: String,
     role: &'t Role,
     /// True for a column of the main table.
     is_own: bool,
+    /// True if its cells are numbers between two rows of a joined table.
+    is_interpolated: bool,
 }
 
 /// Columns of the main table and of joined tables.
@@ -279,21 +333,20 @@ fn table_columns<'t>(
     main: &'t SeenTable<'_>,
     joins: &'t [SeenJoin<'_, '_>],
 ) -> Vec<NamedColumn<'t>> {
-    let named = |name: String, column: &'t SeenColumn, is_own: bool| NamedColumn {
-        name,
+    let own = main.columns.iter().map(|column| NamedColumn {
+        name: column.name.clone(),
         role: &column.role,
-        is_own,
-    };
-    let mut columns: Vec<NamedColumn<'_>> = main
-        .columns
-        .iter()
-        .map(|column| named(column.name.clone(), column, true))
-        .collect();
-    for join in joins {
-        let others = join.table.columns.iter();
-        columns.extend(
-            others.map(|column| named(format!("{}.{}", join.name, column.name), column, false)),
-        );
-    }
-    columns
+        is_own: true,
+        is_interpolated: false,
+    });
+    let joined = joins.iter().flat_map(|join| {
+        let is_interpolated = join.is_interpolated();
+        join.table.columns.iter().map(move |column| NamedColumn {
+            name: format!("{}.{}", join.name, column.name),
+            role: &column.role,
+            is_own: false,
+            is_interpolated,
+        })
+    });
+    own.chain(joined).collect()
 }

@@ -30,8 +30,8 @@ pub(super) fn known_layout(preset: &str) -> String {
 /// Comment on an array that is beside pictures but not a table of them.
 pub(super) fn array_beside_pictures(table: &SeenTable<'_>) -> String {
     format!(
-        "{} ({} rows) does not describe the pictures: if it is the picture without contact, save it as PNG and name it as `reference`.",
+        "{} ({}) does not describe the pictures: if it is the picture without contact, save it as PNG and name it as `reference`.",
         table.group.pattern(),
-        table.rows
+        taceva_core::counted(table.rows, "row")
     )
 }

@@ -12,6 +12,7 @@ use candidate::{Candidate, Named, Quantity, Reason};
 use exclusion::{Exclusion, is_counting};
 use times::time;
 
+pub(super) use times::median_step;
 pub(super) use words::words;
 
 /// Guessed role of a column.

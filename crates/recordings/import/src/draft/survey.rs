@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::path_parts::{PathParts, varying};
+use crate::error::ImportError;
 use crate::source_folder::SourceFolder;
-use taceva_dataset::DatasetError;
 
 /// Limit of files and folders examined.
 const LOOKED_AT: usize = 100_000;
@@ -42,13 +42,13 @@ impl FileGroup {
 }
 
 /// Groups of files below `folder`. A zarr or Lance store counts as a file. Hidden files, maps and links are skipped.
-pub(super) fn groups(folder: &SourceFolder) -> Result<Vec<FileGroup>, DatasetError> {
+pub(super) fn groups(folder: &SourceFolder) -> Result<Vec<FileGroup>, ImportError> {
     let mut files = Vec::new();
     let mut folders = vec![String::new()];
     let mut looked_at = 0;
     while let Some(relative) = folders.pop() {
         let path = folder.path().join(&relative);
-        let entries = std::fs::read_dir(&path).map_err(DatasetError::io("read", &path))?;
+        let entries = std::fs::read_dir(&path).map_err(ImportError::io("read", &path))?;
         for entry in entries.flatten() {
             looked_at += 1;
             let (Ok(name), Ok(kind)) = (entry.file_name().into_string(), entry.file_type()) else {

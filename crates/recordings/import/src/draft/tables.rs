@@ -12,9 +12,9 @@ use super::roles::candidate::{Candidate, Reason, UnitSource, kept_unit};
 use super::roles::{Role, of_named, role, words};
 use super::survey::FileGroup;
 use crate::csv_table::number;
-use crate::foreign::{ForeignTable, PictureColumn, TableForm, cell_list, topics};
+use crate::foreign::{ForeignTable, PictureColumn, TableForm, Topics, cell_list};
 use crate::source_folder::SourceFolder;
-use form::{NUMBERED_HEADER, form_of};
+use form::{NUMBERED_HEADER, cut_key, form_of};
 pub(super) use taxels::Taxels;
 use taxels::taxels_of;
 
@@ -30,7 +30,7 @@ pub(super) struct SeenTable<'g> {
     pub(super) is_single_array: bool,
     /// True if channels are guessed from the number of columns alone.
     pub(super) has_guessed_channels: bool,
-    /// Guess about its header.
+    /// Comment on its header, or on its cut.
     pub(super) header_guess: Option<String>,
     pub(super) rows: usize,
     pub(super) columns: Vec<SeenColumn>,
@@ -103,13 +103,19 @@ impl<'g> SeenTable<'g> {
         let path = folder.path().join(group.first());
         let mut tables = Vec::new();
         let mut problems = Vec::new();
-        for topic in topics(&path)? {
+        let topics = Topics::of(&path)?;
+        let (cut, guess) = topics.before_cut.map(cut_key).unzip();
+        for topic in topics.names {
+            let extra = format!("{}rows = {topic:?}", cut.unwrap_or_default());
             let form = TableForm::Messages {
-                topic: Some(topic.clone()),
+                topic: Some(topic),
+                is_to_cut: true,
             };
-            let extra = format!("rows = {topic:?}");
             match SeenTable::of_form(&path, group, (group.pattern(), (form, extra))) {
-                Ok(table) => tables.push(table),
+                Ok(table) => tables.push(SeenTable {
+                    header_guess: guess.clone(),
+                    ..table
+                }),
                 Err(problem) => problems.push(problem),
             }
         }
@@ -225,6 +231,11 @@ impl<'g> SeenTable<'g> {
     /// True if its rows are in several groups of one file.
     pub(super) fn has_groups(&self) -> bool {
         self.written.contains("/*\"") && self.group.ending != "json"
+    }
+
+    /// True for a LeRobot dataset.
+    pub(super) fn is_lerobot(&self) -> bool {
+        self.group.first() == "meta/info.json"
     }
 
     /// Number of channels in its columns.

@@ -49,6 +49,27 @@ pub(super) fn sided(names: &[&str]) -> Vec<Sided> {
     largest.map(|(_, group)| group).unwrap_or_default()
 }
 
+/// Features of LeRobot as views by the last part of their names; empty if fewer than two differ in it.
+pub(super) fn features<'n>(names: impl Iterator<Item = (usize, &'n str)>) -> Vec<Sided> {
+    let mut found: Vec<Sided> = Vec::new();
+    for (at, name) in names {
+        let last = name.rsplit(['.', '/']).next().unwrap_or(name);
+        let letters = last.chars().map(|letter| match letter {
+            letter if letter.is_ascii_alphanumeric() => letter,
+            _ => '_',
+        });
+        let view: String = letters.collect();
+        let is_name = view.starts_with(|letter: char| letter.is_ascii_alphabetic());
+        if is_name && found.iter().all(|known| known.view != view) {
+            found.push(Sided { at, view });
+        }
+    }
+    match found.len() {
+        1 => Vec::new(),
+        _ => found,
+    }
+}
+
 /// For each possible side or number in `name`: the name without it, and the view.
 fn sides_of(name: &str) -> Vec<(String, String)> {
     let stretches = stretches(name);
@@ -131,6 +152,21 @@ mod tests {
             ),
         ] {
             assert_eq!(views_of(names), expected, "{names:?}");
+        }
+    }
+
+    #[test]
+    fn features_of_lerobot_are_views_by_the_last_part_of_their_names() {
+        let views_of = |names: &[&str]| -> Vec<String> {
+            let features = features(names.iter().copied().enumerate()).into_iter();
+            features
+                .map(|own| format!("{}={}", own.at, own.view))
+                .collect()
+        };
+        let cameras = ["observation.images.laptop", "observation.images.gel-2"];
+        assert_eq!(views_of(&cameras), ["0=laptop", "1=gel_2"]);
+        for names in [&["a.gel"][..], &["a.gel", "b.gel"], &["a.1", "a.gel"]] {
+            assert!(views_of(names).is_empty(), "{names:?}");
         }
     }
 

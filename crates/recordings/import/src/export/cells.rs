@@ -5,6 +5,7 @@ use taceva_tables::{Cell, TableError, WrittenKind};
 
 use super::content::Exported;
 use super::picture::Encoded;
+use crate::error::ImportError;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::Cells;
 
@@ -43,7 +44,7 @@ pub(super) fn picture(picture: Option<Encoded>, sample: &str) -> Cell {
 
 impl Exported<'_> {
     /// Taxel values of a row as a list.
-    pub(super) fn signals_cell(&self, row: usize) -> Result<Cell, DatasetError> {
+    pub(super) fn signals_cell(&self, row: usize) -> Result<Cell, ImportError> {
         let numbers = self.signals(row)?.into_iter();
         Ok(Cell::List(
             numbers.map(|number| Cell::Number(number.into())).collect(),
@@ -61,28 +62,20 @@ impl Exported<'_> {
 }
 
 /// Converts an error of a table writer.
-pub(super) fn of_table(error: TableError) -> DatasetError {
+pub(super) fn of_table(error: TableError) -> ImportError {
     match error {
-        TableError::Write { path, source } => DatasetError::Io {
-            doing: "write",
-            path,
-            source,
-        },
-        other => DatasetError::damaged(other.path(), crate::foreign::said(other.path(), &other)),
+        TableError::Write { path, source } => ImportError::io("write", &path)(source),
+        other => {
+            let problem = crate::foreign::said(other.path(), &other);
+            DatasetError::damaged(other.path(), problem).into()
+        }
     }
 }
 
 /// Converts an error of an array writer.
-pub(super) fn of_arrays(error: ArrayError) -> DatasetError {
+pub(super) fn of_arrays(error: ArrayError) -> ImportError {
     match error.problem {
-        Problem::Io { doing, source } => DatasetError::Io {
-            doing,
-            path: error.path,
-            source,
-        },
-        _ => DatasetError::Damaged {
-            problem: crate::foreign::said(&error.path, &error),
-            path: error.path,
-        },
+        Problem::Io { doing, source } => ImportError::io(doing, &error.path)(source),
+        _ => DatasetError::damaged(&error.path, crate::foreign::said(&error.path, &error)).into(),
     }
 }

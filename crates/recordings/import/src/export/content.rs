@@ -5,6 +5,7 @@ use std::num::NonZeroUsize;
 use taceva_core::Progress;
 
 use super::picture::Pictures;
+use crate::error::ImportError;
 use taceva_dataset::internal::{NamedColumn, staging::StagedFolder, write_durable};
 use taceva_dataset::{Dataset, DatasetError};
 
@@ -80,7 +81,7 @@ impl Exported<'_> {
     }
 
     /// Taxel values of a row.
-    pub(super) fn signals(&self, row: usize) -> Result<Vec<f32>, DatasetError> {
+    pub(super) fn signals(&self, row: usize) -> Result<Vec<f32>, ImportError> {
         let signals = self.dataset.signals(row)?;
         Ok(signals.map_or_else(Vec::new, |signals| signals.values().to_vec()))
     }
@@ -90,7 +91,7 @@ impl Exported<'_> {
         &self,
         staged: &StagedFolder,
         pictures: &Pictures<'_>,
-    ) -> Result<Option<String>, DatasetError> {
+    ) -> Result<Option<String>, ImportError> {
         let Some(picture) = pictures.reference()? else {
             return Ok(None);
         };
@@ -100,10 +101,10 @@ impl Exported<'_> {
     }
 
     /// Reports `rows` as done and stops if the export is cancelled.
-    pub(super) fn advance(&self, rows: usize) -> Result<(), DatasetError> {
+    pub(super) fn advance(&self, rows: usize) -> Result<(), ImportError> {
         self.progress.advance(rows as u64);
         match self.progress.is_cancelled() {
-            true => Err(DatasetError::Cancelled),
+            true => Err(DatasetError::Cancelled.into()),
             false => Ok(()),
         }
     }

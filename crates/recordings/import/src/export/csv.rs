@@ -8,7 +8,7 @@ use std::num::NonZeroUsize;
 use super::content::Exported;
 use super::map::{self, Written, WrittenFrames, quoted};
 use super::picture::{Encoded, Pictures};
-use taceva_dataset::DatasetError;
+use crate::error::ImportError;
 use taceva_dataset::internal::{layout, ordered_map, staging::StagedFolder, write_durable};
 
 /// File name of the table; its rows are those of the dataset.
@@ -19,7 +19,7 @@ const PICTURES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
 pub(super) fn write(
     exported: &Exported<'_>,
     staged: &StagedFolder,
-) -> Result<(Written, Vec<String>), DatasetError> {
+) -> Result<(Written, Vec<String>), ImportError> {
     let rows = exported.dataset.table().rows();
     let mut folders = Vec::new();
     let mut columns = Vec::new();
@@ -87,7 +87,7 @@ fn write_pictures(
     exported: &Exported<'_>,
     pictures: &Pictures<'_>,
     staged: &StagedFolder,
-) -> Result<Vec<String>, DatasetError> {
+) -> Result<Vec<String>, ImportError> {
     let mut names = Vec::new();
     let view = pictures.view();
     let jobs = exported.jobs.saturating_mul(PICTURES_A_JOB);
@@ -102,7 +102,7 @@ fn write_pictures(
         exported.dataset.table().rows(),
         jobs,
         work,
-        |_, name: Result<String, DatasetError>| {
+        |_, name: Result<String, ImportError>| {
             names.push(name?);
             exported.advance(1)
         },
@@ -110,7 +110,7 @@ fn write_pictures(
     Ok(names)
 }
 
-fn put(staged: &StagedFolder, name: String, picture: &Encoded) -> Result<String, DatasetError> {
+fn put(staged: &StagedFolder, name: String, picture: &Encoded) -> Result<String, ImportError> {
     write_durable(&staged.path().join(&name), &picture.bytes)?;
     Ok(name)
 }
@@ -119,10 +119,10 @@ fn write_table(
     exported: &Exported<'_>,
     staged: &StagedFolder,
     frames: &[PathColumn],
-) -> Result<(), DatasetError> {
+) -> Result<(), ImportError> {
     let path = staged.path().join(TABLE);
-    let failed = |error: csv::Error| DatasetError::io("write", &path)(error.into());
-    let file = File::create_new(&path).map_err(DatasetError::io("create", &path))?;
+    let failed = |error: csv::Error| ImportError::io("write", &path)(error.into());
+    let file = File::create_new(&path).map_err(ImportError::io("create", &path))?;
     let mut writer = csv::Writer::from_writer(BufWriter::new(file));
     let mut names: Vec<String> = exported
         .columns
@@ -134,12 +134,12 @@ fn write_table(
     names.extend(signals.flat_map(|signals| signals.spec.column_names()));
     let mut known = BTreeSet::new();
     if let Some(name) = names.iter().find(|name| !known.insert(name.as_str())) {
-        return Err(DatasetError::Request {
-            path: exported.dataset.path().to_owned(),
-            problem: format!(
+        return Err(ImportError::request(
+            exported.dataset.path(),
+            format!(
                 "a channel or attribute has the name `{name}` of a taxel column, and a table needs unique names: use --format huggingface"
             ),
-        });
+        ));
     }
     writer.write_record(&names).map_err(failed)?;
     for row in 0..exported.dataset.table().rows() {
@@ -156,10 +156,10 @@ fn write_table(
         }
     }
     let file = writer.into_inner().map_err(|error| error.into_error());
-    let file = file.map_err(DatasetError::io("write", &path))?;
+    let file = file.map_err(ImportError::io("write", &path))?;
     let file = file.into_inner().map_err(|error| error.into_error());
     file.and_then(|file| file.sync_all())
-        .map_err(DatasetError::io("make durable", &path))
+        .map_err(ImportError::io("make durable", &path))
 }
 
 /// Shortest text that gives the same `f32` when parsed as `f64` and rounded.

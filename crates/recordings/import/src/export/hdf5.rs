@@ -7,6 +7,7 @@ use super::cells::of_arrays;
 use super::content::Exported;
 use super::map::{self, Written, WrittenFrames, quoted};
 use super::picture::Pictures;
+use crate::error::ImportError;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{Cells, staging::StagedFolder};
 
@@ -17,7 +18,7 @@ const TEXT_BYTES: usize = 4096;
 pub(super) fn write(
     exported: &Exported<'_>,
     staged: &StagedFolder,
-) -> Result<(Written, Vec<String>), DatasetError> {
+) -> Result<(Written, Vec<String>), ImportError> {
     let dataset = exported.dataset;
     let header = dataset.header();
     let rows = dataset.table().rows();
@@ -98,7 +99,7 @@ fn write_column(
     writer: &mut Hdf5Writer,
     name: &str,
     cells: &Cells<'_>,
-) -> Result<(), DatasetError> {
+) -> Result<(), ImportError> {
     let rows = exported.dataset.table().rows();
     let shape = [rows as u64];
     let unit = exported.dataset.table().channels().by_name(name);
@@ -164,7 +165,7 @@ fn check_text(
     row: usize,
     name: &str,
     text: &str,
-) -> Result<(), DatasetError> {
+) -> Result<(), ImportError> {
     let problem = if text.len() > TEXT_BYTES {
         format!(
             "`{name}` has {} bytes, but at most {TEXT_BYTES} are written: all texts of an array take as many bytes as the longest",
@@ -175,10 +176,7 @@ fn check_text(
     } else {
         return Ok(());
     };
-    Err(DatasetError::Sample {
-        id: exported.dataset.table().samples()[row].clone(),
-        problem,
-    })
+    Err(DatasetError::sample(&exported.dataset.table().samples()[row], problem).into())
 }
 
 /// Writes the pixels of every picture, row by row.
@@ -187,7 +185,7 @@ fn write_frames(
     pictures: &Pictures<'_>,
     writer: &mut Hdf5Writer,
     name: &str,
-) -> Result<(), DatasetError> {
+) -> Result<(), ImportError> {
     let rows = exported.dataset.table().rows();
     let Some(info) = pictures.info() else {
         return Ok(());

@@ -6,7 +6,7 @@ use super::cells;
 use super::cells::of_table;
 use super::content::Exported;
 use super::map::{self, Written, WrittenFrames, quoted};
-use taceva_dataset::DatasetError;
+use crate::error::ImportError;
 use taceva_dataset::internal::{staging::StagedFolder, write_durable};
 
 /// Path of the file within the folder.
@@ -15,7 +15,7 @@ const FILE: &str = "data/train-00000-of-00001.parquet";
 pub(super) fn write(
     exported: &Exported<'_>,
     staged: &StagedFolder,
-) -> Result<(Written, Vec<String>), DatasetError> {
+) -> Result<(Written, Vec<String>), ImportError> {
     staged.create_folder("data")?;
     let dataset = exported.dataset;
     let signals = dataset.header().signals.as_ref();

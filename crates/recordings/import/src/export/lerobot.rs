@@ -16,8 +16,9 @@ use super::cells::of_table;
 use super::content::Exported;
 use super::map::{Written, WrittenFrames, quoted};
 use super::picture::Pictures;
+use crate::error::ImportError;
+use taceva_dataset::Table;
 use taceva_dataset::internal::{RESERVED, staging::StagedFolder};
-use taceva_dataset::{DatasetError, Table};
 
 const STATE: &str = "observation.state";
 const TAXELS: &str = "observation.tactile";
@@ -29,7 +30,7 @@ const LOOKED_AT: usize = 100;
 pub(super) fn write(
     exported: &Exported<'_>,
     staged: &StagedFolder,
-) -> Result<(Written, Vec<String>), DatasetError> {
+) -> Result<(Written, Vec<String>), ImportError> {
     let dataset = exported.dataset;
     let (header, table) = (dataset.header(), dataset.table());
     let model = header.sensor.model.as_str();
@@ -149,7 +150,7 @@ fn features(exported: &Exported<'_>) -> Vec<WrittenFeature> {
 }
 
 /// Cells of a row, in the order of the features.
-fn cells_of(exported: &Exported<'_>, row: usize) -> Result<Vec<Cell>, DatasetError> {
+fn cells_of(exported: &Exported<'_>, row: usize) -> Result<Vec<Cell>, ImportError> {
     let table = exported.dataset.table();
     let mut row_cells = Vec::new();
     for pictures in &exported.pictures {

@@ -86,9 +86,9 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     let source = format!("{:?}", header.source).to_lowercase();
     line(format_args!("source = {}", quoted(&source)));
     line(format_args!(
-        "table = {}   # {} rows",
+        "table = {}   # {}",
         written.table,
-        table.rows()
+        taceva_core::counted(table.rows(), "row")
     ));
     let rotations = header.rotations.iter().map(|channels| {
         let channels: Vec<String> = channels.iter().map(|name| quoted(name)).collect();

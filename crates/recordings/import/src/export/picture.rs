@@ -3,6 +3,7 @@
 use taceva_core::{Frame, PixelFormat};
 
 use super::form::ExportForm;
+use crate::error::ImportError;
 use taceva_dataset::internal::{ImageKind, encode_png};
 use taceva_dataset::{ChannelOrder, Dataset, DatasetError, ReducedFrames};
 
@@ -75,7 +76,7 @@ impl<'a> Pictures<'a> {
     }
 
     /// Picture of a row as a file; `None` if the row has none.
-    pub(super) fn encoded(&self, row: usize) -> Result<Option<Encoded>, DatasetError> {
+    pub(super) fn encoded(&self, row: usize) -> Result<Option<Encoded>, ImportError> {
         let Some(entry) = &self.dataset.table().frames()[row] else {
             return Ok(None);
         };
@@ -88,7 +89,7 @@ impl<'a> Pictures<'a> {
     }
 
     /// Picture without contact as a file; `None` if there is none.
-    pub(super) fn reference(&self) -> Result<Option<Encoded>, DatasetError> {
+    pub(super) fn reference(&self) -> Result<Option<Encoded>, ImportError> {
         let header = self.dataset.header();
         let reference = header
             .frames
@@ -108,18 +109,15 @@ impl<'a> Pictures<'a> {
     }
 
     /// Decoded picture of a row, for forms that need one in each row.
-    pub(super) fn frame(&self, row: usize) -> Result<Frame, DatasetError> {
+    pub(super) fn frame(&self, row: usize) -> Result<Frame, ImportError> {
         let frame = self.dataset.frame(row)?;
         frame.ok_or_else(|| self.none(row))
     }
 
     /// Error for a row without a picture, in forms that need one in each row.
-    pub(super) fn none(&self, row: usize) -> DatasetError {
-        DatasetError::Sample {
-            id: self.dataset.table().samples()[row].clone(),
-            problem: "no picture, and this format needs pictures for all samples or none; use `--format huggingface` or `csv`"
-                .to_owned(),
-        }
+    pub(super) fn none(&self, row: usize) -> ImportError {
+        let problem = "no picture, and this format needs pictures for all samples or none; use `--format huggingface` or `csv`";
+        DatasetError::sample(&self.dataset.table().samples()[row], problem).into()
     }
 
     /// Size and format of each picture.
@@ -137,9 +135,9 @@ impl<'a> Pictures<'a> {
             .map_or(PixelFormat::Rgb8.samples(), |info| info.format.samples())
     }
 
-    fn png(&self, frame: &Frame, path: &str) -> Result<Encoded, DatasetError> {
+    fn png(&self, frame: &Frame, path: &str) -> Result<Encoded, ImportError> {
         let bytes = encode_png(frame)
-            .map_err(|problem| DatasetError::image(&self.dataset.path().join(path), problem))?;
+            .map_err(|problem| ImportError::image(&self.dataset.path().join(path), problem))?;
         Ok(Encoded::of(bytes))
     }
 }

@@ -8,7 +8,8 @@ use taceva_tables::{ArrowTable, Cell, ColumnKind, LeRobot, ParquetTable, TableEr
 
 use super::pictures::{Ended, Picture, Pictures, Visit, guarded_visit};
 use super::said;
-use taceva_dataset::{ChannelOrder, DatasetError};
+use crate::error::ImportError;
+use taceva_dataset::ChannelOrder;
 
 /// Callback that receives the bytes of each cell.
 type VisitBytes<'v> = &'v mut dyn FnMut(u64, Option<Vec<u8>>) -> Result<(), Ended<TableError>>;
@@ -132,12 +133,12 @@ impl<T: ByteColumns> Pictures for EncodedPictures<T> {
         sorted: &[u64],
         _order: ChannelOrder,
         each: Visit<'_>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         guarded_visit(self.path(), || {
             self.table.visit(&self.column, sorted, &mut |row, bytes| {
                 let bytes = bytes.ok_or_else(|| {
                     let problem = format!("row {row} has no bytes in `{}`", self.column);
-                    Ended::Picture(DatasetError::image(self.path(), problem))
+                    Ended::Picture(ImportError::image(self.path(), problem))
                 })?;
                 each(row, Picture::Encoded(bytes)).map_err(Ended::Picture)
             })

@@ -24,14 +24,14 @@ impl ClipRows {
     /// Opens the clip at `path`, with its first frame at `start_s`. Without a rate, times are those that the clip states.
     ///
     /// # Errors
-    /// Errors of the clip reader; codecs that need ffmpeg, which is not used here; clips whose times are absent or do not rise.
-    pub(super) fn open(path: &Path, rate: Option<f64>, start_s: f64) -> Result<ClipRows, String> {
-        let video = Video::open(path, &Decoders::default()).map_err(|error| {
-            format!(
-                "{}; such a clip cannot be a table: write a CSV with the columns `index` and `t`, and name the clip by `video` of [frame]",
-                said(path, &error)
-            )
-        })?;
+    /// Errors of the clip reader; clips whose times are absent or do not rise.
+    pub(super) fn open(
+        path: &Path,
+        rate: Option<f64>,
+        start_s: f64,
+        decoders: &Decoders,
+    ) -> Result<ClipRows, String> {
+        let video = Video::open(path, decoders).map_err(|error| said(path, &error))?;
         let info = video.info();
         let times_s = match (rate, &info.times_s) {
             #[expect(clippy::cast_precision_loss, reason = "frames are far below 2^53")]

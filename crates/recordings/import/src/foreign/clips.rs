@@ -8,8 +8,9 @@ use taceva_video::{Colours, Decoders, Video, VisitError};
 use super::depth_pixels::DepthPixels;
 use super::pictures::{Ended, Picture, Pictures, Visit, guarded_visit};
 use super::said;
+use crate::error::ImportError;
 use taceva_dataset::internal::guarded;
-use taceva_dataset::{ChannelOrder, DatasetError, FrameCodec};
+use taceva_dataset::{ChannelOrder, FrameCodec};
 
 /// Frames of a clip in display order. Each visit opens the file, as a recording may have one clip per press.
 #[derive(Debug)]
@@ -28,7 +29,7 @@ impl ClipPictures {
         path: &Path,
         decoders: &Decoders,
         depth: Option<DepthPixels>,
-    ) -> Result<ClipPictures, DatasetError> {
+    ) -> Result<ClipPictures, ImportError> {
         let video = open(path, decoders)?;
         let info = video.info();
         let mut codec = FrameCodec::new(&info.codec, &info.pixel_format);
@@ -44,10 +45,10 @@ impl ClipPictures {
     }
 }
 
-fn open(path: &Path, decoders: &Decoders) -> Result<Video, DatasetError> {
+fn open(path: &Path, decoders: &Decoders) -> Result<Video, ImportError> {
     let opened = guarded(|| Video::open(path, decoders));
-    let opened = opened.map_err(|problem| DatasetError::image(path, problem))?;
-    opened.map_err(|error| DatasetError::image(path, said(path, &error)))
+    let opened = opened.map_err(|problem| ImportError::image(path, problem))?;
+    opened.map_err(|error| ImportError::image(path, said(path, &error)))
 }
 
 impl Pictures for ClipPictures {
@@ -68,13 +69,13 @@ impl Pictures for ClipPictures {
         sorted: &[u64],
         order: ChannelOrder,
         each: Visit<'_>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let video = open(&self.path, &self.decoders)?;
         let (colours, format) = match order {
             ChannelOrder::Gray => (Colours::Luma, PixelFormat::Gray8),
             _ if self.depth.is_some() => {
                 let problem = "a depth map has no colours: `channel_order = \"gray\"`";
-                return Err(DatasetError::image(&self.path, problem.to_owned()));
+                return Err(ImportError::image(&self.path, problem));
             }
             _ => (Colours::Rgb, PixelFormat::Rgb8),
         };
@@ -86,7 +87,7 @@ impl Pictures for ClipPictures {
                 };
                 each(
                     index,
-                    kept.map_err(|problem| DatasetError::image(&self.path, problem))?,
+                    kept.map_err(|problem| ImportError::image(&self.path, problem))?,
                 )
             });
             outcome.map_err(|ended| match ended {

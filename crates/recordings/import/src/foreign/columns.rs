@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::pictures::Pictures;
+use crate::error::ImportError;
 use crate::frame_names::FrameNames;
 use taceva_dataset::internal::guarded;
-use taceva_dataset::{ChannelOrder, DatasetError, Place};
+use taceva_dataset::{ChannelOrder, Place};
 use taceva_tables::DepthCodes;
 
 /// Attributes that a file states for the numbers in a column.
@@ -18,6 +19,15 @@ pub(crate) struct Stated {
     pub(crate) unit: Option<String>,
     /// Factor and offset of packed numbers, from `scale_factor` and `add_offset` (netCDF convention); `None` if they change nothing.
     pub(crate) packed: Option<[f64; 2]>,
+}
+
+/// Part of a recording before a cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct BeforeCut {
+    /// Number of complete messages, of all topics.
+    pub(crate) messages: u64,
+    /// End of the complete records, byte.
+    pub(crate) end: u64,
 }
 
 /// Source of a table of columns.
@@ -57,6 +67,11 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     /// Unread items of the file, each with the reason.
     fn unread(&self) -> Vec<String> {
         Vec::new()
+    }
+
+    /// The part that is read of a recording that was cut.
+    fn before_cut(&self) -> Option<BeforeCut> {
+        None
     }
 
     /// Arrays behind these columns with unwritten chunks, with the number of these chunks.
@@ -162,10 +177,10 @@ impl ColumnTable {
     pub(super) fn open<S: ColumnSource + 'static>(
         path: &Path,
         open: impl FnOnce() -> Result<S, String>,
-    ) -> Result<ColumnTable, DatasetError> {
+    ) -> Result<ColumnTable, ImportError> {
         let source = guarded(open).and_then(|opened| opened);
         Ok(ColumnTable {
-            source: Box::new(source.map_err(|problem| wrong(path, problem))?),
+            source: Box::new(source.map_err(|problem| ImportError::table(path, problem))?),
             path: path.to_owned(),
             read: Mutex::default(),
             most_bytes: most_bytes(path),
@@ -188,7 +203,7 @@ impl ColumnTable {
         self.source.has(name)
     }
 
-    pub(super) fn cell(&self, row: usize, name: &str) -> Result<String, DatasetError> {
+    pub(super) fn cell(&self, row: usize, name: &str) -> Result<String, ImportError> {
         let known = |row: usize| {
             let read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
             let column = read.by_name.get(name);
@@ -202,7 +217,7 @@ impl ColumnTable {
     }
 
     /// Reads the existing columns among `names` together, in one pass over the file.
-    pub(super) fn read_ahead(&self, names: &[&str]) -> Result<(), DatasetError> {
+    pub(super) fn read_ahead(&self, names: &[&str]) -> Result<(), ImportError> {
         let mut names: Vec<&str> = names
             .iter()
             .copied()
@@ -216,12 +231,14 @@ impl ColumnTable {
             return Ok(());
         }
         let columns = guarded(|| self.source.columns(&names)).and_then(|columns| columns);
-        let columns = columns.map_err(|problem| DatasetError::Table {
-            place: match names.as_slice() {
-                [name] => Place::file(&self.path).in_column(*name),
-                _ => Place::file(&self.path),
-            },
-            problem,
+        let columns = columns.map_err(|problem| {
+            ImportError::table(
+                match names.as_slice() {
+                    [name] => Place::file(&self.path).in_column(*name),
+                    _ => Place::file(&self.path),
+                },
+                problem,
+            )
         })?;
         for (name, column) in names.into_iter().zip(columns) {
             if column.len() != self.rows() {
@@ -230,7 +247,7 @@ impl ColumnTable {
                     column.len(),
                     self.rows()
                 );
-                return Err(wrong(&self.path, problem));
+                return Err(ImportError::table(&self.path, problem));
             }
             read.bytes = read.bytes.saturating_add(bytes_of(&column));
             if read.bytes > self.most_bytes {
@@ -238,7 +255,7 @@ impl ColumnTable {
                     "the cells of its columns take more than {} bytes, far more than the file: write it with less compression, or name fewer columns",
                     self.most_bytes
                 );
-                return Err(wrong(&self.path, problem));
+                return Err(ImportError::table(&self.path, problem));
             }
             read.by_name.insert(name.to_owned(), Arc::new(column));
         }
@@ -261,13 +278,17 @@ impl ColumnTable {
         guarded(|| self.source.unread()).unwrap_or_default()
     }
 
+    pub(crate) fn before_cut(&self) -> Option<BeforeCut> {
+        self.source.before_cut()
+    }
+
     pub(super) fn why_absent(&self, name: &str) -> Option<String> {
         guarded(|| self.source.why_absent(name)).unwrap_or_default()
     }
 
-    pub(super) fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, DatasetError> {
+    pub(super) fn absent_chunks(&self, names: &[&str]) -> Result<Vec<(String, u64)>, ImportError> {
         let counted = guarded(|| self.source.absent_chunks(names)).and_then(|counted| counted);
-        counted.map_err(|problem| wrong(&self.path, problem))
+        counted.map_err(|problem| ImportError::table(&self.path, problem))
     }
 
     pub(super) fn picture_columns(&self) -> Vec<PictureColumn> {
@@ -283,9 +304,9 @@ impl ColumnTable {
     }
 
     /// Clip and frame number of each row for the feature `key`. Clip paths are relative to the folder of the table.
-    pub(super) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, DatasetError> {
+    pub(super) fn clips(&self, key: &str) -> Result<Vec<(String, u64)>, ImportError> {
         let clips = guarded(|| self.source.clips(key)).and_then(|found| found);
-        clips.map_err(|problem| wrong(&self.path, problem))
+        clips.map_err(|problem| ImportError::table(&self.path, problem))
     }
 
     pub(super) fn depth(&self, key: &str) -> Option<DepthCodes> {
@@ -293,12 +314,8 @@ impl ColumnTable {
     }
 
     /// Pictures of the rows.
-    pub(super) fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, DatasetError> {
+    pub(super) fn pictures(&self, names: &FrameNames) -> Result<Arc<dyn Pictures>, ImportError> {
         let pictures = guarded(|| self.source.pictures(names)).and_then(|found| found);
-        pictures.map_err(|problem| wrong(&self.path, problem))
+        pictures.map_err(|problem| ImportError::table(&self.path, problem))
     }
-}
-
-fn wrong(path: &Path, problem: String) -> DatasetError {
-    DatasetError::table(Place::file(path), problem)
 }

@@ -6,8 +6,8 @@ use std::path::Path;
 use super::Stated;
 use crate::csv_table::CsvTable;
 use crate::csv_table::text_form::{TextForm, is_grouped};
+use crate::error::{ImportError, Place, table_error};
 use taceva_dataset::internal::shown;
-use taceva_dataset::{DatasetError, Place};
 
 /// Least number of cells with a point before three digits that suggest grouped digits.
 const LEAST_GROUPED: u64 = 3;
@@ -22,7 +22,7 @@ pub(crate) struct DelimitedTable {
 }
 
 impl DelimitedTable {
-    pub(super) fn read(path: &Path, form: &TextForm) -> Result<DelimitedTable, DatasetError> {
+    pub(super) fn read(path: &Path, form: &TextForm) -> Result<DelimitedTable, ImportError> {
         let written = CsvTable::read_written(path, form)?;
         Ok(DelimitedTable {
             table: written.table,
@@ -48,19 +48,20 @@ impl DelimitedTable {
     }
 
     /// Cell as written.
-    pub(crate) fn written(&self, row: usize, name: &str) -> Result<&str, DatasetError> {
+    pub(crate) fn written(&self, row: usize, name: &str) -> Result<&str, ImportError> {
         Ok(self.table.cell(row, self.table.position(name)?))
     }
 
-    pub(super) fn cell(&self, row: usize, name: &str) -> Result<Cow<'_, str>, DatasetError> {
+    pub(super) fn cell(&self, row: usize, name: &str) -> Result<Cow<'_, str>, ImportError> {
         let cell = self.written(row, name)?;
         match self.form.converted(cell) {
             Ok(None) => Ok(Cow::Borrowed(cell)),
             Ok(Some(converted)) => Ok(Cow::Owned(converted)),
-            Err(problem) => Err(DatasetError::Table {
-                place: self.place(row, name),
-                problem: format!("`{}` {problem}", shown(cell)),
-            }),
+            Err(problem) => Err(table_error!(
+                self.place(row, name),
+                "`{}` {problem}",
+                shown(cell)
+            )),
         }
     }
 

@@ -5,7 +5,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::pictures::{Pictures, Visit};
-use taceva_dataset::{ChannelOrder, DatasetError, FrameCodec};
+use crate::error::ImportError;
+use taceva_dataset::{ChannelOrder, FrameCodec};
 
 /// Pictures of several files in sequence.
 #[derive(Debug)]
@@ -49,7 +50,7 @@ impl Pictures for SeveralPictures {
         self.files.iter().find_map(|(_, pictures)| pictures.codec())
     }
 
-    fn absent_chunks(&self) -> Result<Vec<(String, u64)>, DatasetError> {
+    fn absent_chunks(&self) -> Result<Vec<(String, u64)>, ImportError> {
         let mut absent: BTreeMap<String, u64> = BTreeMap::new();
         for (_, pictures) in &self.files {
             for (array, count) in pictures.absent_chunks()? {
@@ -70,7 +71,7 @@ impl Pictures for SeveralPictures {
         sorted: &[u64],
         order: ChannelOrder,
         each: Visit<'_>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         for (first, pictures) in &self.files {
             let begin = sorted.partition_point(|index| index < first);
             let end = sorted.partition_point(|index| *index < first + pictures.count());

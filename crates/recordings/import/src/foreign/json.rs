@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use super::members::in_order;
+use crate::error::{ImportError, Place, table_error};
 use taceva_dataset::internal::{limits, read_capped, shown, utf8};
-use taceva_dataset::{DatasetError, Place};
 
 /// Number of rows that are searched for members.
 const LISTED: usize = 100;
@@ -34,13 +34,13 @@ impl JsonRows {
     /// of a list, or any other value as a whole.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] naming the line of invalid JSON, or if the pointer leads nowhere.
-    pub(super) fn read(path: &Path, rows: Option<&str>) -> Result<JsonRows, DatasetError> {
+    /// [`ImportError::Table`] naming the line of invalid JSON, or if the pointer leads nowhere.
+    pub(super) fn read(path: &Path, rows: Option<&str>) -> Result<JsonRows, ImportError> {
         let whole = text(path)?;
         let value: Value =
             serde_json::from_str(&whole).map_err(|error| no_json(path, &whole, &error, 0))?;
         let pointer = rows.unwrap_or(if value.is_array() { "/*" } else { "" });
-        let wrong = |problem: String| DatasetError::table(Place::file(path), problem);
+        let wrong = |problem: String| ImportError::table(path, problem);
         let ways = ways(pointer);
         let mut found = vec![(None, value)];
         for (depth, way) in ways.iter().enumerate() {
@@ -91,12 +91,12 @@ impl JsonRows {
     /// Reads JSON lines: each line that is not blank is a row.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] naming the invalid line.
-    pub(super) fn read_lines(path: &Path) -> Result<JsonRows, DatasetError> {
+    /// [`ImportError::Table`] naming the invalid line.
+    pub(super) fn read_lines(path: &Path) -> Result<JsonRows, ImportError> {
         let whole = text(path)?;
         let lines = (1..).zip(whole.lines());
         let lines = lines.filter(|(_, line)| !line.trim().is_empty());
-        let rows: Result<Vec<JsonRow>, DatasetError> = lines
+        let rows: Result<Vec<JsonRow>, ImportError> = lines
             .map(|(number, line)| {
                 let value = serde_json::from_str(line);
                 Ok(JsonRow {
@@ -265,12 +265,12 @@ fn members((key, value): Named) -> Option<Vec<Named>> {
 }
 
 /// Text of a file, without the byte order mark.
-fn text(path: &Path) -> Result<String, DatasetError> {
+fn text(path: &Path) -> Result<String, ImportError> {
     let mut bytes = read_capped(path, limits::JSON_BYTES)?;
     if bytes.starts_with(b"\xef\xbb\xbf") {
         bytes.drain(..3);
     }
-    utf8(path, bytes)
+    Ok(utf8(path, bytes)?)
 }
 
 /// Takes the value at `pointer` out of `value`.
@@ -279,12 +279,13 @@ fn taken(mut value: Value, pointer: &str) -> Option<Value> {
 }
 
 /// Error for invalid JSON in `text`, which begins after `lines_before` lines of the file.
-fn no_json(path: &Path, text: &str, error: &serde_json::Error, lines_before: u64) -> DatasetError {
+fn no_json(path: &Path, text: &str, error: &serde_json::Error, lines_before: u64) -> ImportError {
     let line = u64::try_from(error.line()).unwrap_or(1).max(1);
-    DatasetError::Table {
-        place: Place::line(path, lines_before + line),
-        problem: format!("no JSON: {}", json_problem(text, error)),
-    }
+    table_error!(
+        Place::line(path, lines_before + line),
+        "no JSON: {}",
+        json_problem(text, error)
+    )
 }
 
 /// JSON error in `text` without its line, with a hint for numbers that JSON lacks.

@@ -4,14 +4,15 @@ use std::path::Path;
 use std::sync::Arc;
 
 use taceva_core::{Frame, FrameInfo, PixelFormat};
-use taceva_tables::{Cell, Recording, SampleForm, TopicTable};
+use taceva_tables::{Cell, Recording, SampleForm, TableError, TopicTable};
 
-use super::columns::{ColumnSource, PictureColumn, PictureKind};
+use super::columns::{BeforeCut, ColumnSource, PictureColumn, PictureKind};
 use super::pictures::{Ended, Picture, Pictures, Visit, guarded_visit};
 use super::said;
+use crate::error::ImportError;
 use crate::frame_names::FrameNames;
+use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::guarded;
-use taceva_dataset::{ChannelOrder, DatasetError};
 
 /// Message types with a picture in their field `data`: of ROS 2, ROS 1 and Foxglove.
 const PICTURES: [&str; 6] = [
@@ -38,6 +39,7 @@ pub(super) struct MessageRows {
     names: Vec<String>,
     /// Unread topics of the recording, each with the reason.
     unread: Vec<String>,
+    before_cut: Option<BeforeCut>,
 }
 
 /// Pictures in one field of the messages.
@@ -47,21 +49,56 @@ struct MessagePictures {
     field: String,
 }
 
-/// Topics of the recording at `path`.
-pub(crate) fn topics(path: &Path) -> Result<Vec<String>, String> {
-    let opened = guarded(|| Recording::open(path))
-        .and_then(|opened| opened.map_err(|error| said(path, &error)));
-    Ok(opened?
-        .topics()
-        .iter()
-        .map(|topic| topic.name.clone())
-        .collect())
+/// Topics of a recording, for a draft.
+pub(crate) struct Topics {
+    pub(crate) names: Vec<String>,
+    /// The part with these topics, if the recording was cut.
+    pub(crate) before_cut: Option<BeforeCut>,
+}
+
+impl Topics {
+    /// Topics of the recording at `path`; of one that was cut, those before the cut.
+    pub(crate) fn of(path: &Path) -> Result<Topics, String> {
+        let recording = guarded(|| open(path, true)).and_then(|opened| opened)?;
+        let topics = recording.topics().iter();
+        Ok(Topics {
+            names: topics.map(|topic| topic.name.clone()).collect(),
+            before_cut: before_cut(&recording),
+        })
+    }
+}
+
+/// Opens the recording at `path`, up to its cut if requested.
+fn open(path: &Path, is_to_cut: bool) -> Result<Recording, String> {
+    let opened = match is_to_cut {
+        true => Recording::open_to_cut(path),
+        false => Recording::open(path),
+    };
+    opened.map_err(|error| match &error {
+        TableError::Cut { messages: 1.., .. } => format!(
+            "{}; to import these messages alone, write `cut = \"keep\"` beside `rows` in the table of the map",
+            said(path, &error)
+        ),
+        _ => said(path, &error),
+    })
+}
+
+/// The part that is read of a recording that was cut.
+fn before_cut(recording: &Recording) -> Option<BeforeCut> {
+    let topics = recording.topics().iter();
+    let messages = topics.map(|topic| topic.count).sum();
+    let end = recording.cut_at()?;
+    Some(BeforeCut { messages, end })
 }
 
 impl MessageRows {
-    /// Opens the messages of `topic`, or of the only topic.
-    pub(super) fn open(path: &Path, topic: Option<&str>) -> Result<MessageRows, String> {
-        let recording = Recording::open(path).map_err(|error| said(path, &error))?;
+    /// Opens the messages of `topic`, or of the only topic, up to a cut of the recording if requested.
+    pub(super) fn open(
+        path: &Path,
+        topic: Option<&str>,
+        is_to_cut: bool,
+    ) -> Result<MessageRows, String> {
+        let recording = open(path, is_to_cut)?;
         let topic = match (topic, recording.topics()) {
             (Some(topic), _) => topic.to_owned(),
             (None, [only]) => only.name.clone(),
@@ -89,6 +126,7 @@ impl MessageRows {
         Ok(MessageRows {
             names: table.names().map_err(|error| said(path, &error))?,
             unread: unread(&recording).into_iter().chain(absent).collect(),
+            before_cut: before_cut(&recording),
             table: Arc::new(table),
         })
     }
@@ -165,6 +203,10 @@ impl ColumnSource for MessageRows {
         self.unread.clone()
     }
 
+    fn before_cut(&self) -> Option<BeforeCut> {
+        self.before_cut
+    }
+
     fn picture_columns(&self) -> Vec<PictureColumn> {
         let is_picture = PICTURES.contains(&self.table.topic().schema.as_str());
         let data = is_picture.then(|| PictureColumn {
@@ -208,13 +250,13 @@ impl Pictures for MessagePictures {
         sorted: &[u64],
         order: ChannelOrder,
         each: Visit<'_>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         guarded_visit(self.path(), || {
             self.table
                 .visit_pictures(&self.field, sorted, &mut |row, picture| {
                     let picture = kept(picture, order);
                     let picture = picture.map_err(|problem| {
-                        Ended::Picture(DatasetError::image(
+                        Ended::Picture(ImportError::image(
                             self.path(),
                             format!("message {row}: {problem}"),
                         ))

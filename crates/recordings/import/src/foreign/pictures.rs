@@ -6,8 +6,9 @@ use std::path::Path;
 use taceva_core::Frame;
 
 use super::said;
+use crate::error::ImportError;
 use taceva_dataset::internal::guarded;
-use taceva_dataset::{ChannelOrder, DatasetError, FrameCodec};
+use taceva_dataset::{ChannelOrder, FrameCodec};
 
 /// Pictures by their number, from 0.
 pub(crate) trait Pictures: fmt::Debug + Send + Sync {
@@ -26,7 +27,7 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
         sorted: &[u64],
         order: ChannelOrder,
         each: Visit<'_>,
-    ) -> Result<(), DatasetError>;
+    ) -> Result<(), ImportError>;
 
     /// Codec of the frames of a clip.
     fn codec(&self) -> Option<FrameCodec> {
@@ -47,30 +48,29 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// A damaged list of chunks.
-    fn absent_chunks(&self) -> Result<Vec<(String, u64)>, DatasetError> {
+    fn absent_chunks(&self) -> Result<Vec<(String, u64)>, ImportError> {
         Ok(Vec::new())
     }
 
     /// Checks that there is a picture at `index`.
-    fn check_index(&self, index: u64) -> Result<(), DatasetError> {
+    fn check_index(&self, index: u64) -> Result<(), ImportError> {
         if index < self.count() {
             return Ok(());
         }
-        Err(DatasetError::Image {
-            place: None,
-            path: self.path().to_owned(),
-            problem: format!("no frame {index}, there are {} from 0", self.count()),
-        })
+        Err(ImportError::image(
+            self.path(),
+            format!("no frame {index}, there are {} from 0", self.count()),
+        ))
     }
 }
 
 /// Callback that receives each picture.
-pub(crate) type Visit<'v> = &'v mut dyn FnMut(u64, Picture) -> Result<(), DatasetError>;
+pub(crate) type Visit<'v> = &'v mut dyn FnMut(u64, Picture) -> Result<(), ImportError>;
 
 /// Reason that a visit ended early: the file is damaged, or the caller rejected a picture.
 pub(super) enum Ended<E> {
     File(E),
-    Picture(DatasetError),
+    Picture(ImportError),
 }
 
 impl<E> From<E> for Ended<E> {
@@ -83,12 +83,12 @@ impl<E> From<E> for Ended<E> {
 pub(super) fn guarded_visit<E: fmt::Display>(
     path: &Path,
     visit: impl FnOnce() -> Result<(), Ended<E>>,
-) -> Result<(), DatasetError> {
+) -> Result<(), ImportError> {
     match guarded(visit) {
         Ok(Ok(())) => Ok(()),
         Ok(Err(Ended::Picture(error))) => Err(error),
-        Ok(Err(Ended::File(error))) => Err(DatasetError::image(path, said(path, &error))),
-        Err(problem) => Err(DatasetError::image(path, problem)),
+        Ok(Err(Ended::File(error))) => Err(ImportError::image(path, said(path, &error))),
+        Err(problem) => Err(ImportError::image(path, problem)),
     }
 }
 

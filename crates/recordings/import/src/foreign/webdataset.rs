@@ -12,10 +12,11 @@ use taceva_arrays::ArrayFile;
 use super::columns::{ColumnSource, PictureColumn, PictureKind};
 use super::json::json_problem;
 use super::pictures::{Picture, Pictures, Visit};
+use crate::error::ImportError;
 use crate::frame_names::FrameNames;
 use samples::{Sample, bytes_at, samples};
+use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{ImageKind, limits};
-use taceva_dataset::{ChannelOrder, DatasetError};
 
 /// Number of samples that are searched for a member of their JSON.
 const LOOKED_AT: usize = 100;
@@ -324,9 +325,9 @@ impl Pictures for ShardPictures {
         sorted: &[u64],
         _order: ChannelOrder,
         each: Visit<'_>,
-    ) -> Result<(), DatasetError> {
-        let wrong = |problem: String| DatasetError::image(&self.path, problem);
-        let mut file = File::open(&self.path).map_err(DatasetError::io("open", &self.path))?;
+    ) -> Result<(), ImportError> {
+        let wrong = |problem: String| ImportError::image(&self.path, problem);
+        let mut file = File::open(&self.path).map_err(ImportError::io("open", &self.path))?;
         for index in sorted {
             let sample = usize::try_from(*index)
                 .ok()

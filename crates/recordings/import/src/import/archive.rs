@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use flate2::read::MultiGzDecoder;
 
+use crate::error::ImportError;
 use crate::foreign::tar::{FileTape, Members, Tape, TarError};
 use taceva_dataset::internal::{open_regular, shown_path};
-use taceva_dataset::{DatasetError, Place};
 use taceva_files::TemporaryFolder;
 
 /// Limit of the expansion of a compressed archive: a multiple of its size, and additional bytes.
@@ -29,7 +29,7 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 ///
 /// let archive = UnpackedArchive::open("run.tar.gz".as_ref(), "/tmp".as_ref())?;
 /// println!("{}", MapDraft::of(archive.folder())?.text());
-/// # Ok::<(), taceva_dataset::DatasetError>(())
+/// # Ok::<(), taceva_import::ImportError>(())
 /// ```
 #[derive(Debug)]
 pub struct UnpackedArchive {
@@ -61,18 +61,18 @@ impl UnpackedArchive {
     /// Holds one header and one name in memory. If the archive has a single folder at its top, that folder is the recording.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] naming the member if it is damaged, cut or larger than the archive, if its name leaves the folder, or for
+    /// [`ImportError::Table`] naming the member if it is damaged, cut or larger than the archive, if its name leaves the folder, or for
     /// links, devices and sparse files. Also above a million members, and if a compressed archive grows beyond 128 times its size and 64
-    /// MiB more. [`DatasetError::Io`] if the disk is full.
-    pub fn open(archive: &Path, beside: &Path) -> Result<UnpackedArchive, DatasetError> {
+    /// MiB more. [`ImportError::Dataset`] if the disk is full.
+    pub fn open(archive: &Path, beside: &Path) -> Result<UnpackedArchive, ImportError> {
         let temporary = TemporaryFolder::create(beside, PREFIX);
-        let temporary = temporary.map_err(DatasetError::io("make a folder in", beside))?;
+        let temporary = temporary.map_err(ImportError::io("make a folder in", beside))?;
         let content = temporary.path().join("content");
-        fs::create_dir(&content).map_err(DatasetError::io("create", &content))?;
+        fs::create_dir(&content).map_err(ImportError::io("create", &content))?;
         let (mut file, length) = open_regular(archive, u64::MAX)?;
         let mut first = [0; 2];
         let is_packed = file.read_exact(&mut first).is_ok() && first == GZIP;
-        io::Seek::rewind(&mut file).map_err(DatasetError::io("read", archive))?;
+        io::Seek::rewind(&mut file).map_err(ImportError::io("read", archive))?;
         let file = BufReader::new(file);
         let outcome = match is_packed {
             true => unpack(
@@ -84,7 +84,7 @@ impl UnpackedArchive {
             ),
             false => unpack(FileTape { file, length }, &content),
         };
-        outcome.map_err(|error| DatasetError::table(Place::file(archive), error.to_string()))?;
+        outcome.map_err(|error| ImportError::table(archive, error.to_string()))?;
         Ok(UnpackedArchive {
             folder: innermost(&content)?,
             archive: archive.to_owned(),
@@ -99,10 +99,10 @@ impl UnpackedArchive {
     /// # use taceva_import::{MapDraft, UnpackedArchive};
     /// # let archive = UnpackedArchive::open("run.tar".as_ref(), "/tmp".as_ref())?;
     /// let draft = MapDraft::of(archive.folder()).map_err(|error| archive.named(error))?;
-    /// # Ok::<(), taceva_dataset::DatasetError>(())
+    /// # Ok::<(), taceva_import::ImportError>(())
     /// ```
     #[must_use]
-    pub fn named(&self, error: DatasetError) -> DatasetError {
+    pub fn named(&self, error: ImportError) -> ImportError {
         let unpacked = &self.content;
         error.with_paths(
             &|path| {
@@ -119,7 +119,7 @@ impl UnpackedArchive {
     /// # let archive = taceva_import::UnpackedArchive::open("run.tar".as_ref(), "/tmp".as_ref())?;
     /// let said = format!("{} holds 3 tables", archive.folder().display());
     /// assert!(archive.text_named(&said).starts_with("run.tar"));
-    /// # Ok::<(), taceva_dataset::DatasetError>(())
+    /// # Ok::<(), taceva_import::ImportError>(())
     /// ```
     pub fn text_named(&self, text: &str) -> String {
         let [unpacked, archive] = [&self.content, &self.archive]
@@ -156,11 +156,11 @@ fn unpack(tape: impl Tape, into: &Path) -> Result<(), TarError> {
 }
 
 /// The folder, or its only subfolder if it has no other entry, repeatedly.
-fn innermost(folder: &Path) -> Result<PathBuf, DatasetError> {
+fn innermost(folder: &Path) -> Result<PathBuf, ImportError> {
     let mut folder = folder.to_owned();
     loop {
         let mut entries = fs::read_dir(&folder)
-            .map_err(DatasetError::io("list", &folder))?
+            .map_err(ImportError::io("list", &folder))?
             .flatten();
         match (entries.next(), entries.next()) {
             (Some(only), None) if only.path().is_dir() => folder = only.path(),

@@ -10,12 +10,13 @@ use taceva_core::{FrameInfo, Progress};
 
 use super::plan::ImportPlan;
 use super::summary::ImportSummary;
+use crate::error::ImportError;
 use crate::source_sums::list_of;
 pub(super) use frames::{CopiedFrames, copy_frames};
 use taceva_dataset::internal::{
     Beside, layout, staging::Place, staging::StagedFolder, write_durable, write_table_and_header,
 };
-use taceva_dataset::{DatasetError, Digest, SourcesInfo, ViewInfo};
+use taceva_dataset::{Digest, SourcesInfo, ViewInfo};
 
 /// Result of an import.
 ///
@@ -59,15 +60,14 @@ impl ImportPlan {
     /// change the picture without an error. Damage after the import is always detected by the digests.
     ///
     /// # Errors
-    /// [`DatasetError::Image`] naming the image and the row if a frame does not decode or is unlike the first;
-    /// [`DatasetError::TargetExists`], [`DatasetError::Busy`], [`DatasetError::Cancelled`], [`DatasetError::Io`]. After any of
-    /// them `target` is absent.
+    /// [`ImportError::Named`] naming the image and the row if a frame does not decode or is unlike the first; [`ImportError::Dataset`] with
+    /// `TargetExists`, `Busy`, `Cancelled` or `Io`. After any of them `target` is absent.
     pub fn run(
         self,
         target: &Path,
         jobs: NonZeroUsize,
         progress: &dyn Progress,
-    ) -> Result<ImportReport, DatasetError> {
+    ) -> Result<ImportReport, ImportError> {
         self.run_at(target, Place::Free, jobs, progress)
     }
 
@@ -75,14 +75,14 @@ impl ImportPlan {
     /// complete and durable.
     ///
     /// # Errors
-    /// As [`run`](ImportPlan::run); `target` is then unchanged. [`DatasetError::Request`] if `target` is no dataset, or holds files that
+    /// As [`run`](ImportPlan::run); `target` is then unchanged. [`ImportError::Dataset`] if `target` is no dataset, or holds files that
     /// are no part of one.
     pub fn replace(
         self,
         target: &Path,
         jobs: NonZeroUsize,
         progress: &dyn Progress,
-    ) -> Result<ImportReport, DatasetError> {
+    ) -> Result<ImportReport, ImportError> {
         self.run_at(target, Place::OfDataset, jobs, progress)
     }
 
@@ -92,7 +92,7 @@ impl ImportPlan {
         place: Place,
         jobs: NonZeroUsize,
         progress: &dyn Progress,
-    ) -> Result<ImportReport, DatasetError> {
+    ) -> Result<ImportReport, ImportError> {
         let staged = StagedFolder::create(target, place)?;
         let mut table = self.table;
         let CopiedFrames {

@@ -6,6 +6,7 @@ use super::copy::ImportReport;
 use super::map::reference_attribute;
 use super::plan::ImportPlan;
 use super::summary::{Conversion, FrameSummary, ImportSummary, JoinSummary, ZeroSummary};
+use taceva_core::counted;
 use taceva_dataset::internal::{shown, shown_path};
 use taceva_dataset::names_quality;
 
@@ -15,7 +16,11 @@ impl fmt::Display for ImportSummary {
             writeln!(f, "read     {}", shown_path(table))?;
         }
         if self.files > 0 {
-            writeln!(f, "read     {} files, each of which is a row", self.files)?;
+            writeln!(
+                f,
+                "read     {}, each of which is a row",
+                counted(self.files, "file")
+            )?;
         }
         let left_out = self.rows_read - self.rows_kept;
         write!(
@@ -45,7 +50,11 @@ impl fmt::Display for ImportSummary {
             writeln!(f, "gravity  forces and torques less the {}", shown(gravity))?;
         }
         if let Some(info) = self.signals {
-            writeln!(f, "signals  {} samples of {info}", self.rows_kept)?;
+            writeln!(
+                f,
+                "signals  {} of {info}",
+                counted(self.rows_kept, "sample")
+            )?;
         }
         for (array, count) in &self.absent_chunks {
             writeln!(
@@ -93,8 +102,8 @@ impl ImportSummary {
             Some(path) => writeln!(f, "without contact  {}", shown_path(path)),
             None if frames.references > 0 => writeln!(
                 f,
-                "without contact  {} different pictures, named by the attribute `{}` and not copied",
-                frames.references,
+                "without contact  {}, named by the attribute `{}` and not copied",
+                counted(frames.references, "different picture"),
                 reference_attribute(frames.view.as_deref())
             ),
             None => writeln!(f, "without contact  unknown"),
@@ -152,11 +161,11 @@ impl fmt::Display for Conversion {
             .map_or_else(String::new, |scale| format!("{scale} · "));
         write!(
             f,
-            "{} [{}] = {sign}{scale}{cell} [{}]: {} values",
+            "{} [{}] = {sign}{scale}{cell} [{}]: {}",
             self.channel,
             self.to,
             self.from.symbol(),
-            self.present
+            counted(self.present, "value")
         )
     }
 }
@@ -164,15 +173,14 @@ impl fmt::Display for Conversion {
 impl fmt::Display for ZeroSummary {
     /// `zero     Fz less -0.0210 to 1.5020 (mean of the first 10 rows of each table; 2 blocks)`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let plural = if self.blocks == 1 { "" } else { "s" };
         write!(
             f,
-            "zero     {} less {:.4} to {:.4} ({}; {} block{plural})",
+            "zero     {} less {:.4} to {:.4} ({}; {})",
             self.channel,
             self.least,
             self.greatest,
             shown(&self.rule),
-            self.blocks
+            counted(self.blocks, "block")
         )
     }
 }
@@ -180,7 +188,12 @@ impl fmt::Display for ZeroSummary {
 impl fmt::Display for JoinSummary {
     /// `join     ft: 23 rows matched, at most 2.5 ms away, 1 unmatched; 170 of its rows unused`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "join     {}: {} rows matched", self.name, self.matched)?;
+        write!(
+            f,
+            "join     {}: {} matched",
+            self.name,
+            counted(self.matched, "row")
+        )?;
         if let Some(gap_s) = self.greatest_gap_s {
             write!(f, ", at most {:.3} ms away", gap_s * 1e3)?;
         }
@@ -214,12 +227,16 @@ impl fmt::Display for ImportReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(&self.summary, f)?;
         if let Some(info) = self.frames {
-            writeln!(f, "verified {} frames of {info}", self.summary.rows_kept)?;
+            writeln!(
+                f,
+                "verified {} of {info}",
+                counted(self.summary.rows_kept, "frame")
+            )?;
         }
         for view in &self.views {
             let (name, info) = (&view.name, view.frames.info);
-            let count = self.summary.rows_kept;
-            writeln!(f, "verified {count} frames of the view {name}, {info}")?;
+            let frames = counted(self.summary.rows_kept, "frame");
+            writeln!(f, "verified {frames} of the view {name}, {info}")?;
         }
         writeln!(f, "digest   {}", self.digest)?;
         writeln!(f, "written  {}", shown_path(&self.path))

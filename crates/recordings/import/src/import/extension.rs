@@ -11,6 +11,7 @@ use taceva_core::Progress;
 use super::copy::{CopiedFrames, ImportReport, copy_frames};
 use super::frame_plan::PlannedFrames;
 use super::plan::ImportPlan;
+use crate::error::ImportError;
 use crate::source_sums::list_of;
 use duplicates::refuse_twice;
 use successor::{Written, share_files, write_header, write_signals};
@@ -18,7 +19,7 @@ use taceva_dataset::internal::{
     Difference, Misread, RowNames, differences_of_added, layout, limits, read_capped,
     staging::Place, staging::StagedFolder, write_durable,
 };
-use taceva_dataset::{Dataset, DatasetError, Digest, Header, SourcesInfo, Table};
+use taceva_dataset::{Dataset, Digest, Header, SourcesInfo, Table};
 
 /// Date and source of added rows, as recorded in the header of the dataset.
 ///
@@ -53,9 +54,8 @@ impl ImportPlan {
     /// keep their part of each split.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] naming the key if the map contradicts the header, or naming the row if the dataset already has it. Also if
-    /// `target` is no imported dataset. [`DatasetError::NoDataset`]; otherwise as [`run`](ImportPlan::run). After any error `target` is
-    /// unchanged.
+    /// [`ImportError::Dataset`] naming the key if the map contradicts the header, or naming the row if the dataset already has it. Also if
+    /// `target` is no imported dataset; otherwise as [`run`](ImportPlan::run). After any error `target` is unchanged.
     ///
     /// ```
     /// # use taceva_core::{Channel, Channels, Clock, SilentProgress, SourceUnit};
@@ -84,7 +84,7 @@ impl ImportPlan {
         added: &Addition,
         jobs: NonZeroUsize,
         progress: &dyn Progress,
-    ) -> Result<ImportReport, DatasetError> {
+    ) -> Result<ImportReport, ImportError> {
         // Staged first, so that no other process replaces the dataset while it is read.
         let staged = StagedFolder::create(target, Place::OfDataset)?;
         let before = Dataset::open(target)?;
@@ -136,7 +136,7 @@ impl ImportPlan {
         added: &Addition,
         jobs: NonZeroUsize,
         progress: &dyn Progress,
-    ) -> Result<String, DatasetError> {
+    ) -> Result<String, ImportError> {
         let mut list = before.source_sums()?.unwrap_or_default();
         let from = added.from.replace(char::is_control, " ");
         list += &format!("# {} {from}\n", added.date);
@@ -149,9 +149,9 @@ impl ImportPlan {
         &self,
         before: &Dataset,
         frames: Option<&CopiedFrames>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let header = before.header();
-        let refused = |problem: String| DatasetError::request(before.path(), problem);
+        let refused = |problem: String| ImportError::request(before.path(), problem);
         if !header.presses.is_empty() || header.stream.is_some() {
             return Err(refused(
                 "recorded by a run or a capture, and only they can extend it; import these rows as a separate dataset, and name both when \
@@ -264,7 +264,7 @@ fn differs(key: &str, own: &str, other: &str) -> String {
 }
 
 /// Removes the picture without contact from `frames`. It must equal that of the dataset.
-fn check_reference(before: &Dataset, frames: &mut PlannedFrames) -> Result<(), DatasetError> {
+fn check_reference(before: &Dataset, frames: &mut PlannedFrames) -> Result<(), ImportError> {
     let header = before.header();
     let known = match &frames.view {
         None => header.frames.as_ref(),
@@ -287,8 +287,8 @@ fn check_reference(before: &Dataset, frames: &mut PlannedFrames) -> Result<(), D
     }
     let word =
         |digest: Option<Digest>| digest.map_or("unknown".to_owned(), |digest| digest.to_string());
-    Err(DatasetError::Request {
-        path: before.path().to_owned(),
-        problem: differs(&key, &word(known), &word(new)),
-    })
+    Err(ImportError::request(
+        before.path(),
+        differs(&key, &word(known), &word(new)),
+    ))
 }

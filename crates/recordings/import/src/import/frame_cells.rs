@@ -2,7 +2,7 @@
 
 use super::map::FrameNames;
 use super::resolve::ResolvedTable;
-use taceva_dataset::DatasetError;
+use crate::error::ImportError;
 
 /// Cells that name a frame.
 pub(super) enum FrameCells {
@@ -45,7 +45,7 @@ impl FrameCells {
     pub(super) fn find(
         names: &FrameNames,
         table: &ResolvedTable,
-    ) -> Result<FrameCells, DatasetError> {
+    ) -> Result<FrameCells, ImportError> {
         Ok(match names {
             FrameNames::Column(name) => FrameCells::Column(table.position(name)?),
             FrameNames::Pattern(pattern) => FrameCells::Pattern(parts(pattern, table)?),
@@ -67,15 +67,13 @@ impl FrameCells {
 }
 
 /// Texts and columns of a pattern.
-fn parts(pattern: &str, table: &ResolvedTable) -> Result<Vec<PatternPart>, DatasetError> {
+fn parts(pattern: &str, table: &ResolvedTable) -> Result<Vec<PatternPart>, ImportError> {
     let mut parts = Vec::new();
     let mut rest = pattern;
     while let Some((text, after)) = rest.split_once('{') {
-        let (name, after) = after.split_once('}').ok_or_else(|| DatasetError::Path {
-            place: None,
-            written: pattern.to_owned(),
-            problem: "a `{` is never closed".to_owned(),
-        })?;
+        let (name, after) = after
+            .split_once('}')
+            .ok_or_else(|| ImportError::path(pattern, "a `{` is never closed"))?;
         parts.push(PatternPart::Text(text.to_owned()));
         parts.push(PatternPart::Cell(table.position(name)?));
         rest = after;

@@ -23,8 +23,8 @@ use std::path::Path;
 use taceva_core::Channels;
 
 use crate::csv_table::text_form::TextForm;
+use crate::error::ImportError;
 use crate::foreign::TableForm;
-use taceva_dataset::DatasetError;
 use taceva_dataset::RecordingFacts;
 use taceva_dataset::internal::read_toml_text;
 
@@ -64,7 +64,7 @@ pub use drop::{DropRules, Placeholder};
 ///     "#,
 /// )?;
 /// assert_eq!(map.channels.len(), 1);
-/// # Ok::<(), taceva_dataset::DatasetError>(())
+/// # Ok::<(), taceva_import::ImportError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -167,17 +167,16 @@ impl ImportMap {
     /// Reads the map at `path`.
     ///
     /// # Errors
-    /// [`DatasetError::Toml`] naming the line; [`DatasetError::Path`] if it is no regular file or above 1 MiB;
-    /// [`DatasetError::Io`].
-    pub fn read(path: &Path) -> Result<ImportMap, DatasetError> {
+    /// [`ImportError::Dataset`] naming the line, or if it is no regular file, is above 1 MiB or cannot be read.
+    pub fn read(path: &Path) -> Result<ImportMap, ImportError> {
         ImportMap::parse(path, &read_toml_text(path)?)
     }
 
     /// Parses the map in `text`. `path` only appears in messages.
     ///
     /// # Errors
-    /// [`DatasetError::Toml`] naming the line.
-    pub fn parse(path: &Path, text: &str) -> Result<ImportMap, DatasetError> {
-        schema::checked(path, text)
+    /// [`ImportError::Dataset`] naming the line.
+    pub fn parse(path: &Path, text: &str) -> Result<ImportMap, ImportError> {
+        Ok(schema::checked(path, text)?)
     }
 }

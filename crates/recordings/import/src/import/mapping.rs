@@ -6,9 +6,10 @@ mod tables;
 use std::borrow::Cow;
 
 use super::map::ImportMap;
+use crate::error::ImportError;
 use crate::source_folder::SourceFolder;
+use taceva_dataset::Digest;
 use taceva_dataset::internal::Mapping;
-use taceva_dataset::{DatasetError, Digest};
 
 /// Limits of named taxel columns and of bytes per name in a header. The rest is represented by a digest.
 const NAMED: usize = 64;
@@ -17,8 +18,8 @@ const NAME_BYTES: usize = 256;
 /// Summary of `map` for the header.
 ///
 /// # Errors
-/// [`DatasetError`] if the file of a matrix cannot be read.
-pub(super) fn mapping(map: &ImportMap, folder: &SourceFolder) -> Result<Mapping, DatasetError> {
+/// [`ImportError`] if the file of a matrix cannot be read.
+pub(super) fn mapping(map: &ImportMap, folder: &SourceFolder) -> Result<Mapping, ImportError> {
     Ok(Mapping {
         columns: columns::columns(map, folder)?,
         joins: map.joins.iter().map(tables::join).collect(),

@@ -8,8 +8,8 @@ use taceva_arrays::ArrayFormat;
 use super::frame_plan::{PlannedFrames, within};
 use super::map::{FrameMap, FrameNames};
 use super::summary::ImportSummary;
+use crate::error::ImportError;
 use crate::source_folder::SourceFolder;
-use taceva_dataset::DatasetError;
 use taceva_dataset::internal::add_left_out;
 
 /// Counts frames of arrays and clips that no row uses, and unwritten chunks of arrays. `absent_chunks` holds those of arrays other than
@@ -21,7 +21,7 @@ pub(super) fn count(
     mut absent_chunks: BTreeMap<String, u64>,
     is_filled: bool,
     summary: &mut ImportSummary,
-) -> Result<(), DatasetError> {
+) -> Result<(), ImportError> {
     for (map, planned) in maps.iter().zip(frames) {
         for (pictures, mut rows) in within(planned) {
             rows.dedup_by_key(|(index, _)| *index);
@@ -48,13 +48,13 @@ pub(super) fn count(
     }
     let mut unwritten = absent_chunks.iter();
     if let Some((array, count)) = unwritten.find(|(array, _)| !is_filled && is_of_hdf5(array)) {
-        return Err(DatasetError::Request {
-            path: folder.path().join(array),
-            problem: format!(
+        return Err(ImportError::request(
+            &folder.path().join(array),
+            format!(
                 "{count} of its chunks were never written, or are lost with a damaged index: write `fill = true` below `map_version` to \
                  read their elements as the fill value, usually 0; to find them, run `h5dump -H -p` or read the array by h5py"
             ),
-        });
+        ));
     }
     for (array, absent) in absent_chunks {
         add_left_out(&mut summary.absent_chunks, &array, absent);

@@ -18,11 +18,12 @@ use super::map::ImportMap;
 use super::signals::{FoundSignals, PlannedSignals};
 use super::source::matching_files;
 use super::summary::ImportSummary;
+use crate::error::ImportError;
 use crate::foreign::TableForm;
 use crate::source_folder::SourceFolder;
 use reading::Reading;
 use taceva_dataset::internal::Mapping;
-use taceva_dataset::{DatasetError, RecordingFacts, Table};
+use taceva_dataset::{RecordingFacts, Table};
 
 /// Import with all labels read and converted, and all frames found. Frames are verified by [`run`](ImportPlan::run).
 ///
@@ -61,16 +62,16 @@ impl ImportPlan {
     /// Reads the tables that `map` names in the folder `source`, and finds every frame.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] naming line and column; [`DatasetError::Path`] if a path is missing, leaves the folder or is no
-    /// regular file; [`DatasetError::Image`] if an array cannot be used; [`DatasetError::Io`].
-    pub fn new(source: &Path, map: &ImportMap) -> Result<ImportPlan, DatasetError> {
+    /// [`ImportError::Table`] naming line and column; [`ImportError::Named`] or [`ImportError::Dataset`] if a path is missing, leaves the
+    /// folder or is no regular file, or an array cannot be used.
+    pub fn new(source: &Path, map: &ImportMap) -> Result<ImportPlan, ImportError> {
         ImportPlan::with_decoders(source, map, &Decoders::default())
     }
 
     /// As [`new`](ImportPlan::new), with external programs for clips that TacEva cannot decode.
     ///
     /// # Errors
-    /// As [`new`](ImportPlan::new); [`DatasetError::Image`] naming the codec and a remedy if no decoder for a clip is available.
+    /// As [`new`](ImportPlan::new); [`ImportError::Dataset`] naming the codec and a remedy if no decoder for a clip is available.
     /// ```
     /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
     /// # use taceva_dataset::{RecordingFacts, SensorFacts, Source};
@@ -93,7 +94,7 @@ impl ImportPlan {
         source: &Path,
         map: &ImportMap,
         decoders: &Decoders,
-    ) -> Result<ImportPlan, DatasetError> {
+    ) -> Result<ImportPlan, ImportError> {
         let folder = SourceFolder::open(source)?;
         let tables = matching_files(&folder, &map.table)?;
         let mut reading = Reading::new(&folder, map, decoders);

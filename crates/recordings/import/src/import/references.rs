@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use super::map::reference_attribute;
+use crate::error::ImportError;
 use crate::source_folder::SourceFolder;
-use taceva_dataset::{DatasetError, Place, Table};
+use taceva_dataset::{Place, Table};
 
 /// Picture without contact of each kept row, relative to the lab's folder.
 #[derive(Debug, Default)]
@@ -17,14 +18,14 @@ impl References {
     /// Adds the picture that a kept row names, relative to `base`; none for an empty cell.
     ///
     /// # Errors
-    /// [`DatasetError::Path`] if there is no such file inside the folder.
+    /// [`ImportError::Named`] if there is no such file inside the folder.
     pub(super) fn take(
         &mut self,
         folder: &SourceFolder,
         base: &Path,
         name: &str,
         named_at: Place,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let found = match name {
             "" => None,
             name => {
@@ -49,7 +50,7 @@ impl References {
         folder: &SourceFolder,
         view: Option<&str>,
         table: &mut Table,
-    ) -> Result<Settled, DatasetError> {
+    ) -> Result<Settled, ImportError> {
         let named: BTreeSet<&String> = self.of_rows.iter().flatten().collect();
         let different = named.len();
         match (named.first(), self.of_rows.contains(&None)) {

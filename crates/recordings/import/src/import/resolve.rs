@@ -20,12 +20,13 @@ use taceva_core::Clock;
 
 use super::map::{FrameNames, ImportMap, OWN_ROW};
 use super::warning::ImportWarning;
-use crate::foreign::{ForeignTable, TableForm};
+use crate::error::{ImportError, Place, table_error};
+use crate::foreign::{BeforeCut, ForeignTable, TableForm};
 use crate::source_folder::SourceFolder;
 use cell::cell_of;
 use columns::{base_of, mentioned};
 use join::Joined;
-use taceva_dataset::{DatasetError, Place};
+use taceva_video::Decoders;
 use times::TextTimes;
 
 pub(super) use classes::ClassCells;
@@ -72,6 +73,8 @@ struct Sources<'a> {
     /// Time column in seconds, if the table writes times as text.
     times: Option<Vec<String>>,
     warnings: Vec<ImportWarning>,
+    /// Programs by which the times of clips are read.
+    decoders: &'a Decoders,
 }
 
 /// Resolves the table at `path` by `map`.
@@ -79,8 +82,9 @@ pub(super) fn resolve(
     map: &ImportMap,
     folder: &SourceFolder,
     path: &Path,
-) -> Result<Resolved, DatasetError> {
-    let main = ForeignTable::read(path, &map.form)?;
+    decoders: &Decoders,
+) -> Result<Resolved, ImportError> {
+    let main = ForeignTable::read_by(path, &map.form, decoders)?;
     let inside = path.strip_prefix(folder.path()).unwrap_or(path);
     let mut sources = Sources {
         map,
@@ -94,6 +98,7 @@ pub(super) fn resolve(
         joined: Vec::new(),
         times: None,
         warnings: Vec::new(),
+        decoders,
     };
     let names = mentioned(map);
     let of_signals = map.signals.iter().flat_map(|signals| signals.columns());
@@ -117,12 +122,13 @@ pub(super) fn resolve(
     // The time column may be in a joined table.
     sources.read_times()?;
     sources.warn_of_grouped_digits();
+    sources.warn_of_cuts(folder);
     let coordinate_frames = sources.coordinate_frames()?;
     let class_cells = classes::of(&sources)?;
     let rows = sources.main.rows();
     let mut cells = Vec::with_capacity(names.len());
     for name in &names {
-        let column: Result<Vec<String>, DatasetError> = (0..rows)
+        let column: Result<Vec<String>, ImportError> = (0..rows)
             .map(|row| sources.cell_in_seconds(row, name))
             .collect();
         cells.push(column?);
@@ -170,7 +176,7 @@ pub(super) fn resolve(
 
 impl Sources<'_> {
     /// Reads the time column if it is text. Numbers are read row by row.
-    fn read_times(&mut self) -> Result<(), DatasetError> {
+    fn read_times(&mut self) -> Result<(), ImportError> {
         let Some(time) = &self.map.time else {
             return Ok(());
         };
@@ -181,12 +187,11 @@ impl Sources<'_> {
         if self.times.is_some() || (is_joined && self.joined.len() < self.map.joins.len()) {
             return Ok(());
         }
-        let cells: Result<Vec<String>, DatasetError> = (0..self.main.rows())
+        let cells: Result<Vec<String>, ImportError> = (0..self.main.rows())
             .map(|row| self.cell(row, &time.column))
             .collect();
-        let read = TextTimes::of(&cells?, time).map_err(|(row, problem)| DatasetError::Table {
-            place: self.main.place(row, &time.column),
-            problem,
+        let read = TextTimes::of(&cells?, time).map_err(|(row, problem)| {
+            ImportError::table(self.main.place(row, &time.column), problem)
         })?;
         if let Some(read) = read {
             let is_unix = self.map.facts.clock == Clock::Unix;
@@ -214,8 +219,26 @@ impl Sources<'_> {
         }
     }
 
+    /// Warns of recordings of which only the messages before a cut are read.
+    fn warn_of_cuts(&mut self, folder: &SourceFolder) {
+        let joined = self.joined.iter().flat_map(Joined::tables);
+        for table in std::iter::once(&self.main).chain(joined) {
+            if let ForeignTable::Columns(columns) = table
+                && let Some(BeforeCut { messages, end }) = columns.before_cut()
+            {
+                let file = folder.inside(table.path(), "");
+                let warning = ImportWarning::CutRecording {
+                    file,
+                    messages,
+                    end,
+                };
+                self.warnings.push(warning);
+            }
+        }
+    }
+
     /// Cell of a column, in seconds for a time column written as text.
-    fn cell_in_seconds(&self, row: usize, name: &str) -> Result<String, DatasetError> {
+    fn cell_in_seconds(&self, row: usize, name: &str) -> Result<String, ImportError> {
         let is_time = self
             .map
             .time
@@ -228,19 +251,19 @@ impl Sources<'_> {
     }
 
     /// Extracts the labels of the path.
-    fn capture(&mut self) -> Result<(), DatasetError> {
+    fn capture(&mut self) -> Result<(), ImportError> {
         let Some(pattern) = &self.map.path else {
             return Ok(());
         };
         let captured = |path: &str, place: Place| {
             let found = pattern.captures(path);
             let owned = |found: Vec<&str>| found.into_iter().map(str::to_owned).collect();
-            found.map(owned).ok_or_else(|| DatasetError::Table {
-                place,
-                problem: format!(
+            found.map(owned).ok_or_else(|| {
+                table_error!(
+                    place,
                     "`{}` does not follow the pattern of [path]",
                     taceva_dataset::internal::shown(path)
-                ),
+                )
             })
         };
         self.captures = match &pattern.of {
@@ -249,7 +272,7 @@ impl Sources<'_> {
                 let rows = 0..self.main.rows();
                 // A row without a path has empty parts; [drop] may leave it out.
                 let nothing = vec![String::new(); pattern.names().count()];
-                let captures: Result<Vec<Vec<String>>, DatasetError> = rows
+                let captures: Result<Vec<Vec<String>>, ImportError> = rows
                     .map(|row| match self.cell(row, column)? {
                         path if path.is_empty() => Ok(nothing.clone()),
                         path => captured(&path, self.main.place(row, column)),
@@ -262,7 +285,7 @@ impl Sources<'_> {
     }
 
     /// Cell of a row in the column that the map calls `name`.
-    fn cell(&self, row: usize, name: &str) -> Result<String, DatasetError> {
+    fn cell(&self, row: usize, name: &str) -> Result<String, ImportError> {
         if let Some(part) = name.strip_prefix("path.") {
             return self.part(row, part);
         }
@@ -289,28 +312,26 @@ impl Sources<'_> {
     }
 
     /// Part of the path of a row.
-    fn part(&self, row: usize, part: &str) -> Result<String, DatasetError> {
+    fn part(&self, row: usize, part: &str) -> Result<String, ImportError> {
         let names = self.map.path.iter().flat_map(|pattern| pattern.names());
         let names: Vec<&str> = names.collect();
         let captures = self.captures.get(row).or(self.captures.first());
         let position = names.iter().position(|name| *name == part);
         match position.zip(captures) {
             Some((position, captures)) => Ok(captures[position].clone()),
-            None => Err(DatasetError::Table {
-                place: Place::file(self.main.path()),
-                problem: format!(
-                    "`path.{part}`: the pattern of [path] names {}",
-                    match names.is_empty() {
-                        true => "nothing: there is none".to_owned(),
-                        false => names.join(", "),
-                    }
-                ),
-            }),
+            None => Err(table_error!(
+                self.main.path(),
+                "`path.{part}`: the pattern of [path] names {}",
+                match names.is_empty() {
+                    true => "nothing: there is none".to_owned(),
+                    false => names.join(", "),
+                }
+            )),
         }
     }
 
     /// Replaces `{path.PART}` in `text`.
-    fn filled(&self, row: usize, text: &str) -> Result<String, DatasetError> {
+    fn filled(&self, row: usize, text: &str) -> Result<String, ImportError> {
         let mut filled = String::new();
         let mut rest = text;
         while let Some((before, behind)) = rest.split_once("{path.") {

@@ -13,9 +13,11 @@ use super::resolve::{
     ClassCells, ColumnSignals, CoordinateFrames, JoinMatches, NamedBy, ResolvedTable, resolve,
 };
 use super::warning::ImportWarning;
+use crate::error::{ImportError, table_error};
 use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::shown;
-use taceva_dataset::{DatasetError, Place, Row};
+use taceva_dataset::{Place, Row};
+use taceva_video::Decoders;
 use views::MappedView;
 use zero::Zeros;
 
@@ -74,8 +76,9 @@ impl<'a> MappedTable<'a> {
         map: &'a ImportMap,
         folder: &SourceFolder,
         path: &Path,
-    ) -> Result<MappedTable<'a>, DatasetError> {
-        let found = resolve(map, folder, path)?;
+        decoders: &Decoders,
+    ) -> Result<MappedTable<'a>, ImportError> {
+        let found = resolve(map, folder, path, decoders)?;
         let has_row_column = found.main.has("row");
         let table = found.table;
         let views = map.frames.iter();
@@ -212,7 +215,7 @@ impl<'a> MappedTable<'a> {
     }
 
     /// Labels of a row. `number` is its index over all tables.
-    pub(super) fn row(&self, row: usize, number: u64) -> Result<Row, DatasetError> {
+    pub(super) fn row(&self, row: usize, number: u64) -> Result<Row, ImportError> {
         let text = |column: Option<usize>| {
             column
                 .map(|column| self.table.cell(row, column))
@@ -254,16 +257,17 @@ impl<'a> MappedTable<'a> {
     }
 
     /// Error for a sample name that another row has.
-    pub(super) fn duplicate(&self, row: usize, name: &str) -> DatasetError {
+    pub(super) fn duplicate(&self, row: usize, name: &str) -> ImportError {
         let column = self.sample.unwrap_or(usize::MAX);
-        DatasetError::Table {
-            place: self.table.place(row, column),
-            problem: format!("`{}` is the name of an earlier row", shown(name)),
-        }
+        table_error!(
+            self.table.place(row, column),
+            "`{}` is the name of an earlier row",
+            shown(name)
+        )
     }
 
     /// Count in a cell; also accepts `3.0`, as spreadsheets write it.
-    fn count(&self, row: usize, column: Option<usize>) -> Result<Option<u32>, DatasetError> {
+    fn count(&self, row: usize, column: Option<usize>) -> Result<Option<u32>, ImportError> {
         let Some(column) = column else {
             return Ok(None);
         };
@@ -278,15 +282,15 @@ impl<'a> MappedTable<'a> {
             .map_err(|_| self.wrong(row, column, "expected a whole number from 0"))
     }
 
-    fn wrong(&self, row: usize, column: usize, expected: &str) -> DatasetError {
+    fn wrong(&self, row: usize, column: usize, expected: &str) -> ImportError {
         let cell = self.table.cell(row, column);
-        DatasetError::Table {
-            place: self.table.place(row, column),
-            problem: if cell.is_empty() {
+        ImportError::table(
+            self.table.place(row, column),
+            if cell.is_empty() {
                 expected.to_owned()
             } else {
                 format!("`{}`: {expected}", shown(cell))
             },
-        }
+        )
     }
 }

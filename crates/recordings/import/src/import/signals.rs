@@ -9,6 +9,7 @@ use taceva_core::Progress;
 
 use super::map::{SignalsFrom, SignalsMap};
 use super::rows::MappedTable;
+use crate::error::{ImportError, table_error};
 use crate::source_folder::SourceFolder;
 use array::ArraySignals;
 use taceva_dataset::internal::SignalsWriter;
@@ -47,7 +48,7 @@ impl<'a> FoundSignals<'a> {
     pub(super) fn new(
         map: &'a SignalsMap,
         folder: &SourceFolder,
-    ) -> Result<FoundSignals<'a>, DatasetError> {
+    ) -> Result<FoundSignals<'a>, ImportError> {
         let from = match &map.from {
             SignalsFrom::Columns(_) => Found::Numbers(Vec::new()),
             SignalsFrom::Array { file, path } => {
@@ -80,7 +81,7 @@ impl<'a> FoundSignals<'a> {
         rows: &MappedTable<'_>,
         row: usize,
         number: u64,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         match &mut self.from {
             Found::Numbers(numbers) => {
                 let own = rows.signals(row).unwrap_or_default();
@@ -105,7 +106,7 @@ impl<'a> FoundSignals<'a> {
     }
 
     /// Error for a row without a number for one of its signals.
-    fn none_at(&self, rows: &MappedTable<'_>, row: usize, position: usize) -> DatasetError {
+    fn none_at(&self, rows: &MappedTable<'_>, row: usize, position: usize) -> ImportError {
         let columns = self.map.columns();
         let length = self.map.spec.info.len();
         let expected = format!("a finite number of {}", self.map.unit.symbol());
@@ -124,13 +125,13 @@ impl<'a> FoundSignals<'a> {
                 (columns.get(at), format!("no number, expected {expected}"))
             }
         };
-        DatasetError::Table {
-            place: match column {
+        table_error!(
+            match column {
                 Some(column) => rows.place(row).in_column(column),
                 None => rows.place(row),
             },
-            problem: format!("[signals]: {problem}"),
-        }
+            "[signals]: {problem}"
+        )
     }
 
     /// Counts the unwritten chunks of an array.
@@ -138,14 +139,14 @@ impl<'a> FoundSignals<'a> {
         &self,
         folder: &SourceFolder,
         into: &mut BTreeMap<String, u64>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         match &self.from {
             Found::Numbers(_) => Ok(()),
             Found::Array(array, _) => array.count_absent_chunks(folder, into),
         }
     }
 
-    pub(super) fn into_plan(self, rows_read: u64) -> Result<PlannedSignals, DatasetError> {
+    pub(super) fn into_plan(self, rows_read: u64) -> Result<PlannedSignals, ImportError> {
         if let Found::Array(array, _) = &self.from {
             array.check_rows(rows_read)?;
         }
@@ -168,10 +169,10 @@ impl PlannedSignals {
         &self,
         path: &Path,
         progress: &dyn Progress,
-    ) -> Result<SignalsInfo, DatasetError> {
+    ) -> Result<SignalsInfo, ImportError> {
         let mut writer = SignalsWriter::create(path, &self.spec)?;
         self.write_to(&mut writer, progress)?;
-        writer.finish()
+        Ok(writer.finish()?)
     }
 
     /// Appends the signals to `writer`, with only some rows of an array in memory.
@@ -179,12 +180,12 @@ impl PlannedSignals {
         &self,
         writer: &mut SignalsWriter,
         progress: &dyn Progress,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         match &self.from {
             Found::Numbers(numbers) => {
                 for row in numbers.chunks_exact(self.spec.info.len()) {
                     if progress.is_cancelled() {
-                        return Err(DatasetError::Cancelled);
+                        return Err(DatasetError::Cancelled.into());
                     }
                     writer.push(row)?;
                 }

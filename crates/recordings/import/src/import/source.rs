@@ -4,15 +4,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::error::ImportError;
 use crate::source_folder::SourceFolder;
-use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{limits, shown};
 
 /// Files that match `pattern`, sorted. `*` matches any characters within one name.
 pub(crate) fn matching_files(
     folder: &SourceFolder,
     pattern: &str,
-) -> Result<Vec<PathBuf>, DatasetError> {
+) -> Result<Vec<PathBuf>, ImportError> {
     if !pattern.contains('*') {
         return Ok(vec![folder.file(folder.path(), pattern)?]);
     }
@@ -32,16 +32,15 @@ pub(crate) fn matching_files(
     }
     found.sort_unstable();
     if found.is_empty() {
-        return Err(DatasetError::Path {
-            place: None,
-            written: pattern.to_owned(),
-            problem: format!(
+        return Err(ImportError::path(
+            pattern,
+            format!(
                 "matches nothing in {}",
                 shown(&folder.path().to_string_lossy())
             ),
-        });
+        ));
     }
-    let found: Result<Vec<PathBuf>, DatasetError> = found
+    let found: Result<Vec<PathBuf>, ImportError> = found
         .iter()
         .map(|relative| folder.file(folder.path(), relative))
         .collect();
@@ -51,21 +50,20 @@ pub(crate) fn matching_files(
 }
 
 /// Checks that links do not lead to the same file twice, whose rows would count twice.
-fn each_once(folder: &SourceFolder, pattern: &str, found: &[PathBuf]) -> Result<(), DatasetError> {
+fn each_once(folder: &SourceFolder, pattern: &str, found: &[PathBuf]) -> Result<(), ImportError> {
     let mut known: BTreeMap<PathBuf, &PathBuf> = BTreeMap::new();
     for path in found {
         let real = path.canonicalize().unwrap_or_else(|_| path.clone());
         if let Some(first) = known.insert(real, path) {
             let [first, again] = [first, path].map(|path| folder.inside(path, ""));
-            return Err(DatasetError::Path {
-                place: None,
-                written: pattern.to_owned(),
-                problem: format!(
+            return Err(ImportError::path(
+                pattern,
+                format!(
                     "matches one file twice, as {} and through a link as {}: narrow the pattern, or its rows are read twice",
                     shown(&first),
                     shown(&again)
                 ),
-            });
+            ));
         }
     }
     Ok(())

@@ -49,10 +49,19 @@ pub enum ImportWarning {
         /// Rule of the map, in words.
         rule: String,
     },
+    /// Of a recording that was cut, only the complete messages before the cut are read.
+    CutRecording {
+        /// File, relative to the folder of the lab.
+        file: String,
+        /// Number of messages before the cut, of all topics.
+        messages: u64,
+        /// End of the complete records, byte.
+        end: u64,
+    },
 }
 
 impl ImportWarning {
-    /// Stable code for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight` or `zero-spread`.
+    /// Stable code for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight`, `zero-spread` or `cut-recording`.
     pub fn code(&self) -> &'static str {
         match self {
             ImportWarning::ColumnTwice { .. } => "column-twice",
@@ -60,6 +69,7 @@ impl ImportWarning {
             ImportWarning::ZoneUnstated { .. } => "zone-unstated",
             ImportWarning::Midnight { .. } => "midnight",
             ImportWarning::ZeroSpread { .. } => "zero-spread",
+            ImportWarning::CutRecording { .. } => "cut-recording",
         }
     }
 }
@@ -93,12 +103,22 @@ impl fmt::Display for ImportWarning {
             ),
             ImportWarning::Midnight { column, days } => write!(
                 f,
-                "`{}` holds times of day that pass midnight {days} times: later rows are read as times of the next day",
-                taceva_core::shown(column)
+                "`{}` holds times of day that pass midnight {}: later rows are read as times of the next day",
+                taceva_core::shown(column),
+                taceva_core::counted(*days, "time")
             ),
             ImportWarning::ZeroSpread { channel, rule } => write!(
                 f,
                 "the rows taken for the zero of {channel} ({rule}) differ by more than a fifth of all its labels: contacts may be among them; correct `from` of [zero]"
+            ),
+            ImportWarning::CutRecording {
+                file,
+                messages,
+                end,
+            } => write!(
+                f,
+                "{} was cut or not closed: its {messages} complete messages before byte {end} are read, and later ones are lost",
+                taceva_core::shown(file)
             ),
         }
     }

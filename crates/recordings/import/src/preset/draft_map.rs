@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use crate::draft::MapDraft;
-use taceva_dataset::DatasetError;
+use crate::error::ImportError;
 
 /// Map for the folder at `source`, below the comments of the layout.
-pub(super) fn text(comments: &str, source: &Path) -> Result<String, DatasetError> {
+pub(super) fn text(comments: &str, source: &Path) -> Result<String, ImportError> {
     let draft = MapDraft::of(source)?;
     let mut text = format!("{}\n", comments.trim_end());
     let mut all = draft.text().lines();
@@ -35,10 +35,9 @@ pub(super) fn text(comments: &str, source: &Path) -> Result<String, DatasetError
     }
     match text.contains("\"?\"") {
         false => Ok(text),
-        true => Err(DatasetError::Request {
-            path: source.to_owned(),
-            problem: "its draft leaves more open than units: write it by `--draft` and fill it in"
-                .to_owned(),
-        }),
+        true => Err(ImportError::request(
+            source,
+            "its draft leaves more open than units: write it by `--draft` and fill it in",
+        )),
     }
 }

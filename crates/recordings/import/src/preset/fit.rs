@@ -4,16 +4,17 @@ use std::path::Path;
 
 use super::lines::{kept, without_section};
 use crate::csv_table::CsvTable;
+use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::ImportMap;
 use crate::import::source::{has_match, matching_files};
 use crate::layouts::{Fit, Layout};
 use crate::source_folder::SourceFolder;
+use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
-use taceva_dataset::{ChannelOrder, DatasetError, Place};
 
 /// Map for the folder.
-pub(super) fn text(layout: &Layout, folder: &SourceFolder) -> Result<String, DatasetError> {
+pub(super) fn text(layout: &Layout, folder: &SourceFolder) -> Result<String, ImportError> {
     let mut text = format!("{}\n", layout.map.trim_end());
     for instead in &layout.instead {
         if !has_match(folder.path(), &instead.absent) {
@@ -45,7 +46,7 @@ pub(super) fn text(layout: &Layout, folder: &SourceFolder) -> Result<String, Dat
 }
 
 /// First file that matches `pattern`.
-fn first(folder: &SourceFolder, pattern: &str) -> Result<std::path::PathBuf, DatasetError> {
+fn first(folder: &SourceFolder, pattern: &str) -> Result<std::path::PathBuf, ImportError> {
     let mut found = matching_files(folder, pattern)?;
     Ok(found.swap_remove(0))
 }
@@ -59,7 +60,7 @@ fn there<'p>(folder: &SourceFolder, patterns: &'p [String]) -> &'p str {
 }
 
 /// First table that the map names.
-fn first_table(text: &str, folder: &SourceFolder) -> Result<ForeignTable, DatasetError> {
+fn first_table(text: &str, folder: &SourceFolder) -> Result<ForeignTable, ImportError> {
     // Parsed alone: the map may still hold alternative lines for the same channel.
     let table = text
         .lines()
@@ -96,7 +97,7 @@ fn with_time(text: &str, table: &ForeignTable) -> String {
 }
 
 /// Sets gray order for a gray first picture, and removes a missing reference.
-fn coloured(text: String, folder: &SourceFolder) -> Result<String, DatasetError> {
+fn coloured(text: String, folder: &SourceFolder) -> Result<String, ImportError> {
     let reference = quoted(&text, "reference = \"").filter(|path| *path != "unknown");
     let text = match reference {
         Some(path) if !folder.path().join(path).exists() => text.replace(
@@ -133,7 +134,7 @@ fn quoted<'t>(text: &'t str, before: &str) -> Option<&'t str> {
 }
 
 /// Handles both generations of columns, and drops forces whose columns are 0.0 throughout.
-fn bristol(text: String, folder: &SourceFolder) -> Result<String, DatasetError> {
+fn bristol(text: String, folder: &SourceFolder) -> Result<String, ImportError> {
     let table = CsvTable::read(&folder.file(folder.path(), "targets.csv")?)?;
     let mut text = match table.has("pose_1") {
         true => include_str!("../layouts/bristol-numbered.toml").to_owned(),
@@ -159,9 +160,9 @@ fn bristol(text: String, folder: &SourceFolder) -> Result<String, DatasetError> 
 }
 
 /// Selects the file's first sensor, and the left-hand pictures if there are two.
-fn touchd(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
+fn touchd(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let path = folder.file(folder.path(), "all_data_direction.json")?;
-    let wrong = |problem: &str| DatasetError::table(Place::file(&path), problem.to_owned());
+    let wrong = |problem: &str| ImportError::table(&path, problem);
     let bytes = read_capped(&path, limits::JSON_BYTES)?;
     let value: serde_json::Value =
         serde_json::from_slice(&bytes).map_err(|error| wrong(&format!("no JSON: {error}")))?;
@@ -193,20 +194,18 @@ fn touchd(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
 }
 
 /// Sets the actual column names of `f_t.csv`, and the header of `stages.csv` if it has one.
-fn poseit(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
+fn poseit(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let path = first(folder, "*/f_t.csv")?;
     let forces = CsvTable::read(&path)?;
     let [time, wrench @ ..] = forces.names() else {
         return Ok(text.to_owned());
     };
     if wrench.len() < 6 {
-        return Err(DatasetError::Table {
-            place: Place::file(&path),
-            problem: format!(
-                "{} columns, expected 7: the second, three forces, three torques",
-                wrench.len() + 1
-            ),
-        });
+        return Err(table_error!(
+            &path,
+            "{} columns, expected 7: the second, three forces, three torques",
+            wrench.len() + 1
+        ));
     }
     let mut text = text.replace("column = \"time\"", &format!("column = {time:?}"));
     for (name, found) in ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"].into_iter().zip(wrench) {
@@ -229,14 +228,14 @@ fn poseit(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
 }
 
 /// Selects the last number of the line.
-fn tool_force(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
+fn tool_force(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let line = CsvTable::read_headerless(&first(folder, "*/force/force_data_*.txt")?)?;
     let last = line.names().len().saturating_sub(1);
     Ok(text.replace("\"force.0\"", &format!("\"force.{last}\"")))
 }
 
 /// Sets the names of the left gel and its pictures.
-fn univtac(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
+fn univtac(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let table = first_table(text, folder)?;
     let text = match table.has("/tactile/left_gsmini/pose") || table.has("/tactile/left_gsmini/rgb")
     {
@@ -252,7 +251,7 @@ fn univtac(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
 }
 
 /// Sets the store, its `data` group, the first camera and the episode ends.
-fn diffusion_zarr(text: &str, folder: &SourceFolder) -> Result<String, DatasetError> {
+fn diffusion_zarr(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let store = first(folder, "*.zarr")?;
     let name = store
         .file_name()

@@ -64,7 +64,7 @@ struct Kept {
 }
 
 fn tried(folder: &Path, text: &str) -> Result<Kept, String> {
-    let said = |error: taceva_dataset::DatasetError| error.to_string();
+    let said = |error: taceva_import::ImportError| error.to_string();
     let map = ImportMap::parse("map.toml".as_ref(), text).map_err(said)?;
     let plan = ImportPlan::new(folder, &map).map_err(said)?;
     let words = plan.summary().to_string();

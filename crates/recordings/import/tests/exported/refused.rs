@@ -12,7 +12,7 @@ use taceva_dataset::{
     Dataset, DatasetError, Recorder, RecordingFacts, RecordingSpec, SensorFacts, SignalsSpec,
     Source,
 };
-use taceva_import::{ExportForm, ExportPlan};
+use taceva_import::{ExportForm, ExportPlan, ImportError};
 
 use super::drawn::{exported, skin};
 
@@ -33,7 +33,7 @@ fn export(
     dataset: &Dataset,
     (form, target): (ExportForm, &Path),
     progress: &dyn Progress,
-) -> Result<(), DatasetError> {
+) -> Result<(), ImportError> {
     let plan = ExportPlan::new(dataset, form)?;
     plan.run(target, NonZeroUsize::MIN, progress).map(drop)
 }
@@ -54,14 +54,20 @@ fn an_export_that_is_stopped_or_has_no_free_place_leaves_nothing_new() {
     let target = folder.path().join("exported");
     for form in ExportForm::ALL {
         let stopped = export(&dataset, (form, &target), &Stopped);
-        assert!(matches!(stopped, Err(DatasetError::Cancelled)), "{form:?}");
+        assert!(
+            matches!(stopped, Err(ImportError::Dataset(DatasetError::Cancelled))),
+            "{form:?}"
+        );
         assert_eq!(names(folder.path()), ["skin"], "{form:?}");
     }
     fs::create_dir(&target).expect("made");
     for form in ExportForm::ALL {
         let taken = export(&dataset, (form, &target), &SilentProgress);
         assert!(
-            matches!(taken, Err(DatasetError::TargetExists { .. })),
+            matches!(
+                taken,
+                Err(ImportError::Dataset(DatasetError::TargetExists { .. }))
+            ),
             "{form:?}"
         );
     }

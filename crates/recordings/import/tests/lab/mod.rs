@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma, Rgb, RgbImage};
 use taceva_core::SilentProgress;
-use taceva_dataset::DatasetError;
-use taceva_import::{ImportMap, ImportPlan, ImportReport};
+use taceva_import::{ImportError, ImportMap, ImportPlan, ImportReport};
 use tempfile::TempDir;
 
 pub(crate) const MAP: &str = r#"map_version = 2
@@ -87,16 +86,12 @@ impl Lab {
         self.write(relative, text.replacen(from, to, 1).as_bytes());
     }
 
-    pub(crate) fn import_to(
-        &self,
-        target: &str,
-        jobs: usize,
-    ) -> Result<ImportReport, DatasetError> {
+    pub(crate) fn import_to(&self, target: &str, jobs: usize) -> Result<ImportReport, ImportError> {
         let map = ImportMap::read(&self.path("map.toml"))?;
         import(&self.path("source"), &map, &self.path(target), jobs)
     }
 
-    pub(crate) fn import(&self) -> Result<ImportReport, DatasetError> {
+    pub(crate) fn import(&self) -> Result<ImportReport, ImportError> {
         self.import_to("set", 2)
     }
 
@@ -130,7 +125,7 @@ pub(crate) fn import(
     map: &ImportMap,
     target: &Path,
     jobs: usize,
-) -> Result<ImportReport, DatasetError> {
+) -> Result<ImportReport, ImportError> {
     let jobs = NonZeroUsize::new(jobs).expect("at least one");
     ImportPlan::new(source, map)?.run(target, jobs, &SilentProgress)
 }

@@ -90,10 +90,7 @@ fn a_depth_map_without_one_of_its_parameters_is_refused_by_its_name_and_is_no_dr
     }
     let source = changed("\"video.depth_min\": 0.01", "\"video.depth_min\": 20.0");
     let refused = ends(source.path(), &own_map(NAME), Some("ffmpeg")).expect_err("no range");
-    assert!(
-        refused.contains("not a valid range of distances"),
-        "{refused}"
-    );
+    assert!(refused.contains("not a valid range"), "{refused}");
 }
 
 #[test]

@@ -6,8 +6,8 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use taceva_core::SilentProgress;
-use taceva_dataset::{Dataset, DatasetError, Digest};
-use taceva_import::{Decoders, ImportMap, ImportPlan};
+use taceva_dataset::{Dataset, Digest};
+use taceva_import::{Decoders, ImportError, ImportMap, ImportPlan};
 
 use super::{copy, folder};
 use crate::support::Random;
@@ -31,7 +31,7 @@ struct Seen {
 }
 
 /// The import of the folder, or why it is refused.
-fn seen(folder: &Path, map: &ImportMap) -> Result<Seen, DatasetError> {
+fn seen(folder: &Path, map: &ImportMap) -> Result<Seen, ImportError> {
     let targets = tempfile::tempdir().expect("a folder");
     let target = targets.path().join("dataset");
     let plan = ImportPlan::with_decoders(folder, map, &Decoders::default())?;

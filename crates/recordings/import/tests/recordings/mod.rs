@@ -1,6 +1,7 @@
 //! The recordings of `tests/recordings`, written by the libraries of other people, imported by their maps: counts, labels, pixels and packets
 //! are those that the library that wrote them reads back.
 
+mod clip_times;
 mod damaged;
 mod depth_maps;
 mod drafts;

@@ -3,7 +3,7 @@
 use std::fs;
 
 use taceva_dataset::{Dataset, DatasetError};
-use taceva_import::{ImportMap, export_csv};
+use taceva_import::{ImportError, ImportMap, export_csv};
 
 use super::jobs;
 use crate::lab::{Lab, MAP, import, png};
@@ -211,7 +211,10 @@ fn a_cancelled_import_leaves_nothing() {
     let map = ImportMap::read(&lab.path("map.toml")).expect("a map");
     let plan = taceva_import::ImportPlan::new(&lab.path("source"), &map).expect("a plan");
     let outcome = plan.run(&lab.path("set"), jobs(2), &Stop);
-    assert!(matches!(outcome, Err(DatasetError::Cancelled)));
+    assert!(matches!(
+        outcome,
+        Err(ImportError::Dataset(DatasetError::Cancelled))
+    ));
     assert_eq!(fs::read_dir(lab.folder.path()).expect("listed").count(), 2);
 }
 

@@ -136,7 +136,9 @@ fn a_draft_pairs_frames_and_rows_by_their_number_only_where_there_are_as_many() 
         let draft = draft(folder(&table(rows)).path());
         let found = line(&draft, "index = ");
         assert!(found.starts_with(expected), "{draft}");
-        let says_form = draft.contains("format = \"clip\", rate = FRAMES_A_SECOND");
+        let says_form = draft.contains(
+            "format = \"clip\" } above, whose rows are the frames at the times that the clip states",
+        );
         assert_eq!(says_form, rows != frames, "{draft}");
     }
 }

@@ -262,3 +262,76 @@ fn what_rows_share_is_offered_as_the_point_that_intervals_go_by() {
     let draft = super::draft(folder.path());
     assert!(line(&draft, "# point_id = ").contains("path."), "{draft}");
 }
+
+#[test]
+fn cells_that_are_names_of_pictures_without_their_ending_are_drafted_as_a_pattern() {
+    let folder = with_pictures(
+        &[("labels.csv", "fz,id\n1.5,000012\n2.5,000013\n")],
+        &["img/000012.png", "img/000013.png"],
+    );
+    let draft = super::draft(folder.path());
+    assert!(
+        draft.contains("pattern = \"img/{id}.png\"   # a guess"),
+        "{draft}"
+    );
+    let forces = imported(folder.path(), &filled(&draft), "Fz");
+    assert_eq!(forces, [1.5, 2.5], "{draft}");
+    // One name that is no picture: a number like others.
+    std::fs::remove_file(folder.path().join("img/000013.png")).expect("removed");
+    let draft = super::draft(folder.path());
+    assert!(!draft.contains("pattern = "), "{draft}");
+}
+
+/// Pictures at 30 Hz beside a table of forces of 10 N a second, with so many rows a second.
+fn beside_forces(rate: u32) -> tempfile::TempDir {
+    let rows = (0..12).map(|row| format!("{:.6},{row}.png\n", f64::from(row) / 30.0));
+    let camera = format!("t,file\n{}", rows.collect::<String>());
+    let rows = (0..=rate / 2).map(|row| {
+        let time = f64::from(row) / f64::from(rate);
+        format!("{time:.3},{:.3},ball\n", 10.0 * time)
+    });
+    let forces = format!("t,fz,object\n{}", rows.collect::<String>());
+    let names: Vec<String> = (0..12).map(|row| format!("{row}.png")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    with_pictures(&[("camera.csv", &camera), ("ft.csv", &forces)], &names)
+}
+
+#[test]
+fn a_join_of_two_rates_states_both_and_interpolates_the_slower_table() {
+    let slow = beside_forces(5);
+    let text = draft(slow.path());
+    let pick = line(&text, "pick = ");
+    assert!(
+        pick.starts_with("pick = \"linear\"   # 5 Hz beside 30 Hz of the main table: "),
+        "{text}"
+    );
+    // Between two rows there is no text.
+    assert!(!text.contains("object = "), "{text}");
+    let forces = imported(slow.path(), &filled(&text), "Fz");
+    assert_eq!(forces.len(), 12, "{text}");
+    for (row, force) in (0..).zip(forces) {
+        let expected = f64::from(row) / 3.0;
+        assert!((force - expected).abs() < 1e-4, "{force} for {expected}");
+    }
+    let text = draft(beside_forces(200).path());
+    let pick = line(&text, "pick = ");
+    assert!(
+        pick.starts_with("pick = \"nearest\"   # 200 Hz beside 30 Hz of the main table: "),
+        "{text}"
+    );
+    assert!(text.contains("object = \"ft.object\""), "{text}");
+}
+
+#[test]
+fn a_table_without_a_used_column_is_named_and_not_joined() {
+    let files = [
+        ("labels.csv", "id,Fz\na,1.5\nb,2.5\nc,0.5\nd,3.5\n"),
+        ("log.csv", "id,force_z\na,1.5\nb,2.5\nc,0.5\n"),
+    ];
+    let text = draft(lab(&files).path());
+    assert!(!text.contains("[[join]]"), "{text}");
+    assert!(
+        text.contains("# Not joined, because no line below uses a column of it: \"log.csv\""),
+        "{text}"
+    );
+}

@@ -6,12 +6,12 @@ use std::path::Path;
 use super::{ROWS, fill, gripper, import, left, pixels, planned, right, seen, two};
 use taceva_core::SilentProgress;
 use taceva_dataset::{Dataset, DatasetError};
-use taceva_import::Addition;
+use taceva_import::{Addition, ImportError};
 
-fn extend(folder: &Path, map: &str, target: &Path) -> Result<Dataset, DatasetError> {
+fn extend(folder: &Path, map: &str, target: &Path) -> Result<Dataset, ImportError> {
     let added = Addition::new("2026-11-28", "tuesday");
     planned(folder, map)?.extend(target, &added, NonZeroUsize::MIN, &SilentProgress)?;
-    Dataset::open(target)
+    Ok(Dataset::open(target)?)
 }
 
 fn later() -> tempfile::TempDir {

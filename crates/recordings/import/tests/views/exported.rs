@@ -111,6 +111,48 @@ fn a_lerobot_dataset_of_two_cameras_and_two_arrays_of_hdf5_are_drafted_as_views(
     }
 }
 
+#[test]
+fn two_cameras_of_lerobot_without_sides_are_drafted_as_views_and_one_is_imported_alone() {
+    let (lab, target) = (gripper(), tempfile::tempdir().expect("a folder"));
+    let map = two().replace("name = \"left\"", "name = \"gel\"");
+    let map = map.replace("name = \"right\"", "name = \"wrist\"");
+    let dataset = import(lab.path(), &map, &target.path().join("set")).expect("imported");
+    let folder = target.path().join("lerobot");
+    let plan = ExportPlan::new(&dataset, ExportForm::LeRobot).expect("samples");
+    let report = plan.run(&folder, NonZeroUsize::MIN, &SilentProgress);
+    std::fs::remove_file(&report.expect("exported").map).expect("no map");
+    let draft = with_units(&drafted(&folder));
+    for view in ["gel", "wrist"] {
+        let frame = format!("[[frame]]\nname = \"{view}\"   # a guess");
+        let feature = format!("bytes = \"observation.images.{view}\"");
+        assert!(
+            draft.contains(&frame) && draft.contains(&feature),
+            "{draft}"
+        );
+    }
+    let both = import(&folder, &draft, &target.path().join("both")).expect("imported");
+    assert_eq!(seen(&both, "gel", 4), seen(&dataset, "gel", 4));
+    assert_eq!(seen(&both, "wrist", 4), seen(&dataset, "wrist", 4));
+
+    // One [frame] without a name, of the second key.
+    let blocks: Vec<&str> = draft.split("[[frame]]\n").collect();
+    let [head, _, last] = blocks.as_slice() else {
+        panic!("{draft}");
+    };
+    let (_, last) = last.split_once('\n').expect("a name");
+    let map = format!("{head}[frame]\n{last}");
+    let one = import(&folder, &map, &target.path().join("one"));
+    let one = one.unwrap_or_else(|problem| panic!("{problem}\n{map}"));
+    assert!(one.views().is_empty());
+    let picture = one.frame(4).expect("read").expect("a frame");
+    let second = if last.contains("images.wrist") {
+        "wrist"
+    } else {
+        "gel"
+    };
+    assert_eq!(picture.bytes(), seen(&dataset, second, 4));
+}
+
 /// Units and colours that a draft leaves open.
 fn with_units(draft: &str) -> String {
     let draft = draft.replace("\nunit = \"?\"", "\nunit = \"s\"");

@@ -10,8 +10,8 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use taceva_core::{Frame, SilentProgress};
-use taceva_dataset::{Dataset, DatasetError};
-use taceva_import::{ImportMap, ImportPlan, MapDraft};
+use taceva_dataset::Dataset;
+use taceva_import::{ImportError, ImportMap, ImportPlan, MapDraft};
 use tempfile::TempDir;
 
 use crate::lab::{png, rgb_png};
@@ -66,14 +66,14 @@ pub(super) fn write(folder: &Path, name: &str, bytes: &[u8]) {
     std::fs::write(folder.join(name), bytes).expect("written");
 }
 
-pub(super) fn planned(folder: &Path, map: &str) -> Result<ImportPlan, DatasetError> {
+pub(super) fn planned(folder: &Path, map: &str) -> Result<ImportPlan, ImportError> {
     ImportPlan::new(folder, &ImportMap::parse("map.toml".as_ref(), map)?)
 }
 
-pub(super) fn import(folder: &Path, map: &str, target: &Path) -> Result<Dataset, DatasetError> {
+pub(super) fn import(folder: &Path, map: &str, target: &Path) -> Result<Dataset, ImportError> {
     let jobs = NonZeroUsize::new(2).expect("two");
     planned(folder, map)?.run(target, jobs, &SilentProgress)?;
-    Dataset::open(target)
+    Ok(Dataset::open(target)?)
 }
 
 /// Reason why an import is refused.

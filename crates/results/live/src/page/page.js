@@ -1,4 +1,4 @@
-// Shows what the program says, and sends what the person decides. The token stands behind # and goes into a header alone.
+// Shows the state of the program, and sends the decisions of the person. The token follows # in the URL and is sent only in a header.
 'use strict';
 (() => {
   const token = location.hash.slice(1);
@@ -53,7 +53,7 @@
       const drawn = new DOMParser().parseFromString(asked.picture, 'image/svg+xml').documentElement;
       find('picture').append(document.importNode(drawn, true));
     }
-    // Never the button: a key that was meant for something else must not say that hands are out of reach.
+    // Never focus the button: a stray key must not confirm that hands are out of reach.
     find('question').focus({ preventScroll: true });
   };
 
@@ -99,7 +99,7 @@
     if (places.length === 0) return;
     const reach = Math.max(1, ...places.map((place) => Math.max(Math.abs(place.x_mm), Math.abs(place.y_mm)))) * 1.12;
     const rank = ['open', 'skipped', 'done', 'short', 'now'];
-    // The latest word on a place that is pressed again lies on top.
+    // The latest press of a place is drawn on top.
     const sorted = places.slice().sort((one, other) => rank.indexOf(one.state) - rank.indexOf(other.state));
     find('map').setAttribute('viewBox', `${-reach} ${-reach} ${2 * reach} ${2 * reach}`);
     const dots = sorted.map((place) => svg('circle', {
@@ -108,7 +108,7 @@
     find('map').replaceChildren(...dots);
   };
 
-  // Reads a stream until it ends, and again until it is over. A page that nobody sees lets its pictures go.
+  // Reads a stream, and reconnects until the run has ended. A hidden page drops its pictures.
   const follow = async (path, read, isWanted) => {
     for (;;) {
       if (isOver) return;
@@ -143,7 +143,7 @@
     }
   };
 
-  // What a model says of the picture that is drawn: a prediction, named as one.
+  // Prediction for the shown picture, marked as a prediction.
   const predict = (said) => {
     find('predicted').hidden = !said;
     if (!said) return;
@@ -175,7 +175,7 @@
     find('waiting').hidden = true;
   };
 
-  // Where the head of a part ends: behind an empty line.
+  // End of the head of a part: after an empty line.
   const headEnd = (bytes) => {
     for (let at = 0; at + 3 < bytes.length; at += 1) {
       if (bytes[at] === 13 && bytes[at + 1] === 10 && bytes[at + 2] === 13 && bytes[at + 3] === 10) return at + 4;

@@ -1,6 +1,6 @@
-//! The page in a real browser: what it shows, what its buttons do, and nothing said on the console.
+//! The page in a real browser: its display, its buttons, and a console without messages.
 //!
-//! Skipped, and written into the list of skips, where no Chromium is installed. `TACEVA_SHOTS` names a folder for pictures of the screen.
+//! Skipped, with an entry in the list of skips, if no Chromium is installed. `TACEVA_SHOTS` names a folder for screenshots.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ use taceva_live::{
 use taceva_needs::{Browser, Need, skip};
 use taceva_protocol::{Answer, Cancel, Operator, Question};
 
-/// A run that goes on, its page, and a browser that looks at it.
+/// A run in progress, its page, and a browser that shows it.
 struct Opened {
     browser: Browser,
     live: Live,
@@ -63,7 +63,7 @@ impl Opened {
         self.page.as_ref().expect("open").url()
     }
 
-    /// Lets frames and forces come, as of a gel that is pressed.
+    /// Sends frames and forces of a pressed gel.
     fn press(&self) {
         let live = self.live.clone();
         live.limits(Limits::none().with_forces(2.0, 1.0).with_depth(1.0));
@@ -103,7 +103,7 @@ impl Opened {
         });
     }
 
-    /// Lets frames come of which a model says something, every second of which lies outside what it has seen.
+    /// Sends frames with predictions, every second one outside the training data.
     fn predict(&self) {
         let live = self.live.clone();
         live.predictor("ridge sha256:0123456789ab (presses.taceva)");
@@ -127,7 +127,7 @@ impl Opened {
         });
     }
 
-    /// Waits until a script gives `true`.
+    /// Waits until a script returns `true`.
     fn until(&mut self, script: &str) {
         let began = Instant::now();
         while self.browser.evaluate(script) != json!(true) {
@@ -154,7 +154,7 @@ impl Opened {
             .assert_quiet(|url| url.starts_with(&own) || url.starts_with("blob:"));
     }
 
-    /// A picture of the screen, if anybody wants one.
+    /// Takes a screenshot, if requested.
     fn shot(&mut self, name: &str) {
         if let Some(folder) = std::env::var_os("TACEVA_SHOTS") {
             let path = PathBuf::from(folder).join(format!("{name}.png"));
@@ -180,7 +180,7 @@ impl Drop for Opened {
     }
 }
 
-/// A gel under a ball: a slope of three lights, and a disc that grows.
+/// A gel under a ball: a gradient of three lights, and a growing disc.
 fn gel(share: f64) -> Frame {
     let info = FrameInfo {
         width: 320,
@@ -227,7 +227,7 @@ fn the_page_shows_frames_forces_and_presses_and_says_nothing_on_the_console() {
         .browser
         .evaluate("document.querySelectorAll('#map circle').length");
     assert_eq!(drawn, json!(120));
-    // What is drawn is what was sent: the middle of the gel is not black.
+    // The page shows the sent picture: the middle of the gel is not black.
     opened.until(
         "document.getElementById('frame').getContext('2d').getImageData(10, 10, 1, 1).data[0] > 100",
     );
@@ -259,7 +259,7 @@ fn nothing_leaves_the_screen_on_a_desk_or_a_phone_in_light_or_dark() {
                     .browser
                     .evaluate("document.documentElement.scrollWidth <= innerWidth");
                 assert_eq!(wide, json!(true), "{place} {name}");
-                // Wherever the page is scrolled to, the button can be reached.
+                // The button can be reached at any scroll position.
                 let reached = opened.browser.evaluate(
                     "(() => { scrollTo(0, document.body.scrollHeight); const box = document.getElementById('stop').getBoundingClientRect(); const seen = document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2); scrollTo(0, 0); return [seen && seen.id, box.height]; })()",
                 );
@@ -307,7 +307,7 @@ fn its_buttons_stop_and_answer_and_it_says_how_it_ended() {
     opened.until("document.getElementById('stage').textContent === 'the run was stopped'");
     opened.until("document.getElementById('stop').disabled");
     opened.assert_quiet();
-    // Gone with its program, it says nothing new.
+    // After the end of its program the page shows nothing new.
     opened.page = None;
     std::thread::sleep(Duration::from_millis(1500));
     assert_eq!(opened.text("stage"), "the run was stopped");
@@ -352,7 +352,7 @@ fn predictions_stand_over_the_picture_named_as_such_and_say_when_it_is_unlike_th
     opened.until("document.getElementById('outside').hidden");
     opened.until("document.getElementById('left-out').textContent === '4 of 400'");
     assert_eq!(opened.text("outside-share"), "25.0 %");
-    // No gauge of a reading shows a prediction.
+    // Gauges of readings show no prediction.
     opened.until("document.getElementById('forces').hidden");
     opened.is_over.store(true, Ordering::Release);
     opened.assert_quiet();

@@ -1,4 +1,4 @@
-//! The page: over its socket, and in a real browser.
+//! Tests of the page: over its socket, and in a real browser.
 
 mod browser;
 mod waiting;

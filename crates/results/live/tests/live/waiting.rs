@@ -1,4 +1,4 @@
-//! The page over its socket: who is let in, who is refused, and that nobody is waited for.
+//! The page over its socket: accepted and rejected clients, and no waiting for slow clients.
 
 mod access;
 mod display;

@@ -4,14 +4,14 @@ use maud::{Markup, html};
 use serde_json::json;
 use taceva_metrics::Better;
 
-use super::{Finding, Limit};
+use super::{Limit, LimitCheck};
 use crate::html::{Document, Triple, badge, triples};
 use crate::markup::{glossary, terms};
 use crate::number::numeral;
 use crate::results::Study;
 use crate::short_digests::short_digests;
 use crate::table::{Cell, Column, Table};
-use taceva_results::SampleChannel;
+use taceva_results::{SampleChannel, not_measured};
 
 /// Schema of an acceptance as JSON. 1.1: each finding states which values are good.
 pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.1";
@@ -24,7 +24,7 @@ pub struct Acceptance<'a> {
     /// Tested sensor.
     pub study: &'a Study,
     /// One finding per limit.
-    pub findings: &'a [Finding],
+    pub findings: &'a [LimitCheck],
     /// Date of the test: `2026-11-22`.
     pub date: Option<&'a str>,
     /// Pictures of the sensor, if available.
@@ -59,15 +59,15 @@ impl Acceptance<'_> {
         for finding in self.findings {
             table.push(row(finding));
         }
-        if self.study.is_simulated() {
-            table.note("Nothing here was measured: the samples are simulated.");
+        if let Some(words) = not_measured([self.study.source.as_str()]) {
+            table.note(words);
         }
         table
     }
 
     /// JSON of [`ACCEPTANCE_SCHEMA`].
     pub fn json(&self) -> String {
-        let finding = |finding: &Finding| {
+        let finding = |finding: &LimitCheck| {
             json!({
                 "metric": finding.limit.metric,
                 "better": Better::of(&finding.limit.metric).map(Better::name),
@@ -170,7 +170,7 @@ fn ranges(study: &Study) -> String {
     ranges.join("; ")
 }
 
-fn row(finding: &Finding) -> [Cell; 9] {
+fn row(finding: &LimitCheck) -> [Cell; 9] {
     let limit = &finding.limit;
     let dash = || "–".to_owned();
     let interval = finding.ends.map_or_else(dash, |ends| {

@@ -65,6 +65,11 @@ impl Property {
         matches!(self, Property::GreatestDepth | Property::GreatestForce)
     }
 
+    /// True of errors in a plane, which are the mean of both axes and no distance.
+    pub(super) fn is_of_both_axes(self) -> bool {
+        matches!(self, Property::Error("Pxy" | "Fxy"))
+    }
+
     /// Metric and channel of the score; `None` for other properties.
     pub(super) fn score(self) -> Option<(&'static str, &'static str)> {
         match self {
@@ -158,7 +163,8 @@ impl Property {
         let known = sensors.iter().filter_map(|sensor| self.of(sensor));
         if self.better() == Better::Lower {
             let best = known.fold(f64::INFINITY, f64::min);
-            return (value > 0.0).then(|| best / value);
+            // Nothing is better than no error at all.
+            return Some(if value > 0.0 { best / value } else { 1.0 });
         }
         let best = known.fold(0.0, f64::max);
         (best > 0.0).then(|| value / best)
@@ -196,5 +202,14 @@ mod tests {
         assert_eq!(shown(0.031_415_926_535_897_9), "0.03142 N");
         assert_eq!(shown(25.0), "25 N");
         assert_eq!(shown(0.0361), "0.0361 N");
+    }
+
+    #[test]
+    fn an_error_of_zero_is_the_best_and_not_an_unknown_one() {
+        let all = crate::catalogue::all();
+        let all: Vec<&Sensor> = all.iter().collect();
+        let share = |value: f64| Property::Spatial("Pz").share(value, &all);
+        assert_eq!(share(0.0), Some(1.0));
+        assert!(share(0.5).is_some_and(|share| 0.0 < share && share < 1.0));
     }
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use maud::html;
 use serde_json::json;
+use taceva_core::{by_count, counted};
 
 use super::{Candidate, Choice, Dropped, Step};
 use crate::html::Document;
@@ -65,17 +66,12 @@ impl Choice {
                 ));
             }
         }
-        let unknown = self.ranked.iter().flat_map(|candidate| {
-            let steps = candidate.steps.iter();
-            let unknown = steps.filter(|step| !step.is_bound && step.share.is_none());
-            unknown.map(move |step| format!("{} of {}", step.property, candidate.name))
-        });
-        let unknown: Vec<String> = unknown.collect();
-        if !unknown.is_empty() {
-            table.note(format!(
-                "Counted as a share of 0, because it is unknown: {}.",
-                unknown.join(", ")
-            ));
+        let ranked = self.ranked.iter();
+        let mut steps = ranked.flat_map(|candidate| &candidate.steps);
+        if steps.any(|step| step.property.is_of_both_axes()) {
+            table.note(
+                "MAE of Pxy or Fxy is the mean of both axes. The mean distance in the plane is up to twice as large.",
+            );
         }
         if !self.limits_of_catalogue.is_empty() {
             table.note(format!(
@@ -118,8 +114,9 @@ impl Choice {
         if !self.unknown.is_empty() {
             let known = self.ranked.len() + self.others.len();
             table.note(format!(
-                "{known} of {} sensors have a requested number; none is known of: {}.",
-                known + self.unknown.len(),
+                "{known} of {} {} a requested number; none is known of: {}.",
+                counted(known + self.unknown.len(), "sensor"),
+                by_count(known, "has", "have"),
                 first(&self.unknown)
             ));
         }

@@ -89,15 +89,28 @@ fn what_a_real_sensor_stands_is_not_known_of_a_simulated_one_and_said_to_be_of_t
     let without = choose_results(std::slice::from_ref(&measured), &needs);
     assert_eq!(without.unplaced[0].reason, "no known uniformity");
     let needs = Need::parse("depth, force 1 N").expect("needs");
+    let text = |study: &crate::Study| {
+        let choice = choose_results(std::slice::from_ref(study), &needs);
+        choice.table().text()
+    };
+    let limits =
+        "Greatest depth and force are from the catalogue, not from these results: MagicTac.";
+    assert!(text(&measured).contains(limits), "{}", text(&measured));
     measured
         .scores
         .retain(|score| score.metric != "repeatability");
-    let measured = choose_results(&[measured], &needs).table().text();
-    let limits =
-        "Greatest depth and force are from the catalogue, not from these results: MagicTac.";
-    assert!(measured.contains(limits), "{measured}");
-    let unknown = "Counted as a share of 0, because it is unknown: repeatability of Pz of MagicTac";
-    assert!(measured.contains(unknown), "{measured}");
+    let unknown = "Not ranked, no known repeatability of Pz: MagicTac.";
+    assert!(text(&measured).contains(unknown), "{}", text(&measured));
+}
+
+#[test]
+fn an_error_in_the_plane_is_said_to_be_no_distance() {
+    let noted = |words: &str| {
+        let choice = choose(&catalogue::all(), &Need::parse(words).expect("needs"));
+        choice.table().text().contains("the mean of both axes")
+    };
+    assert!(noted("localisation 0.3 mm, shear"));
+    assert!(!noted("normal force"));
 }
 
 #[test]

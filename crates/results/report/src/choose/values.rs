@@ -2,6 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use taceva_core::{by_count, counted};
+
 use super::{Choice, Property, Step};
 use crate::catalogue::Sensor;
 use crate::number::numeral;
@@ -33,8 +35,9 @@ impl Choice {
         let first = ["sensor", "place"].map(Column::new).into_iter();
         let known = self.ranked.len() + self.others.len();
         let caption = format!(
-            "Values side by side: {known} of {} sensors have a requested number",
-            known + self.unknown.len()
+            "Values side by side: {known} of {} {} a requested number",
+            counted(known + self.unknown.len(), "sensor"),
+            by_count(known, "has", "have")
         );
         let mut table = Table::new(caption, first.chain(heads));
         let mut marks: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();

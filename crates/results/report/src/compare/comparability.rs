@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use taceva_core::counted;
 use taceva_metrics::Sides;
 
 use crate::names::listed;
@@ -57,7 +58,7 @@ fn ground(study: &Study) -> String {
         found.map(|(_, text)| text.as_str())
     };
     let n = study.of_metric("skill").map(|skill| skill.n).max();
-    let samples = n.map(|n| format!("{n} samples"));
+    let samples = n.map(|n| counted(n, "sample"));
     let data = of("dataset").map(|digest| {
         let short: String = digest.chars().take(SHORT).collect();
         format!("of {short}")

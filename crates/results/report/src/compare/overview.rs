@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use taceva_core::{by_count, counted};
 use taceva_metrics::{Better, Standing, Verdict};
 
 use super::{Answer, Comparison, Remarks};
@@ -72,19 +73,19 @@ impl Decision {
 }
 
 impl Comparison {
-    /// First questions with their answers: the named ones, or else the first score of each metric.
+    /// First questions with their answers: the named ones, and the first score of each other metric that was asked for. If no question has
+    /// a name, the first score of each metric.
     pub fn decisions(&self) -> Vec<Decision> {
         let named = QUESTIONS.iter();
         let named =
             named.filter_map(|(metric, channel, name)| self.decision(name, metric, channel));
         let mut decisions: Vec<Decision> = named.collect();
-        if decisions.is_empty() {
-            let mut metrics: Vec<&str> = Vec::new();
-            for answer in &self.answers {
-                if !metrics.contains(&answer.metric.as_str()) {
-                    metrics.push(&answer.metric);
-                    decisions.extend(self.decision("", &answer.metric, &answer.channel));
-                }
+        let is_unnamed = decisions.is_empty();
+        for answer in &self.answers {
+            let metric = &answer.metric;
+            let is_known = decisions.iter().any(|decision| decision.metric == *metric);
+            if !is_known && (is_unnamed || self.asked.contains(metric)) {
+                decisions.extend(self.decision("", metric, &answer.channel));
             }
         }
         decisions
@@ -119,11 +120,9 @@ impl Comparison {
             false => format!(": {}", causes.join(", ")),
         };
         let kept = all - shown - without - equivalent;
-        let number = |count: usize, one: &str, more: &str| match count {
-            1 => format!("1 {one}"),
-            _ => format!("{count} {more}"),
-        };
-        let pairs = number(all, "pair", "pairs");
+        let number =
+            |count: usize, one: &str, more: &str| format!("{count} {}", by_count(count, one, more));
+        let pairs = counted(all, "pair");
         let shown = number(shown, "differs", "differ");
         let others = [
             (
@@ -156,8 +155,7 @@ impl Comparison {
         let decisions = self.decisions();
         let more = match decisions.len().saturating_sub(room) {
             0 => String::new(),
-            1 => "1 more question, and ".to_owned(),
-            more => format!("{more} more questions, and "),
+            more => format!("{}, and ", counted(more, "more question")),
         };
         let mut lines = vec![line(&self.summary())];
         lines.extend(decisions.iter().take(room).map(|of| line(&of.line())));
@@ -192,7 +190,7 @@ impl Comparison {
                 (None, format!("{}{unbeaten}", tie.words))
             }
             (None, None) if answers.is_empty() => (None, "no verdict".to_owned()),
-            (None, None) => (None, untested(&answers, &valued, &self.names)),
+            (None, None) => (None, untested(metric, &answers, &valued, &self.names)),
             (Some((at, value)), None) => {
                 let lost = |answer: &&&Answer| answer.better() == Some(at);
                 let won: Vec<&Answer> = answers.iter().filter(lost).copied().collect();
@@ -347,13 +345,22 @@ fn values(answers: &[&Answer], is_wanted: impl Fn(&Answer) -> bool) -> Vec<(usiz
 }
 
 /// Reason that nothing is decided.
-fn untested(answers: &[&Answer], valued: &[(usize, f64)], names: &[String]) -> String {
+fn untested(
+    metric: &str,
+    answers: &[&Answer],
+    valued: &[(usize, f64)],
+    names: &[String],
+) -> String {
     let reason = answers.iter().find_map(|answer| answer.reason.as_deref());
     match valued {
         [] => format!("no answer: {}", reason.unwrap_or("no value")),
         [(at, _)] => format!("only {} has a value", names[*at]),
         _ => {
-            let reason = reason.unwrap_or("the score is neither good nor bad by itself");
+            let undirected = match Better::of(metric) {
+                Some(_) => "the score is neither good nor bad by itself",
+                None => "this version of taceva does not know which values are better",
+            };
+            let reason = reason.unwrap_or(undirected);
             format!("no winner: {reason}")
         }
     }

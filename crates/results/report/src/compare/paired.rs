@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use taceva_metrics::{ClusterSums, ComparisonError, Difference, Sides, SignFlip};
+use taceva_metrics::{
+    ClusterSums, ComparisonError, Difference, Sides, SignFlip, TrainingSpread,
+    paired_over_trainings,
+};
 
 use crate::results::Study;
 use taceva_results::Score;
@@ -13,6 +16,8 @@ use taceva_results::{SampleChannel, Samples};
 /// Pairing requires three conditions. Both results name the same truth, or none. Both have the same ids with the same truth, bit by bit.
 /// The errors of the samples have the mean stated by the score; otherwise the table belongs to other results. Two sensors pressed by the
 /// same plan share ids and commanded positions, but not samples.
+///
+/// Trainings of both models that differ make it a paired t test with their variance; otherwise it is the sign-flip test.
 ///
 /// # Errors
 /// The reason in words if both results name the same truth; `None` if nothing says that they do.
@@ -35,11 +40,17 @@ pub(super) fn difference(
     if a.truths != b.truths {
         return Err(known("they did not predict the same samples".to_owned()));
     }
-    let test = SignFlip::default().with_seed(seed);
-    Ok(test.test(Sides {
+    let sums = Sides {
         a: &a.sums,
         b: &b.sums,
-    }))
+    };
+    let sides = [(studies.a, scores.a), (studies.b, scores.b)].into_iter();
+    let spreads = sides.filter_map(|(study, score)| study.trainings(score));
+    let spreads: Vec<TrainingSpread> = spreads.filter(TrainingSpread::varies).collect();
+    Ok(match spreads.is_empty() {
+        true => SignFlip::default().with_seed(seed).test(sums),
+        false => paired_over_trainings(sums, &spreads),
+    })
 }
 
 /// Digest of the truth: of the predicted dataset, or of the truth table, if the result states it.

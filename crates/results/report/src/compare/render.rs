@@ -5,7 +5,7 @@ use taceva_metrics::{Difference, DifferenceTest};
 
 use super::overview::OVERVIEW_WIDTH;
 use super::{Answer, Comparison, Decision};
-use crate::escape::terminal;
+use crate::escape::{markdown, terminal};
 use crate::number::{fixed, numeral, significant, spaced};
 use crate::table::{Column, Table};
 use crate::wrap::wrapped;
@@ -122,6 +122,27 @@ impl Comparison {
         }
         for note in self.rules() {
             out += &format!("\n{}", below(&note));
+        }
+        out
+    }
+
+    /// Summary, first questions with their answers, and every pair, as Markdown.
+    pub fn markdown(&self) -> String {
+        let mut out = format!("{}.\n", markdown(&self.summary()));
+        let decisions = self.decisions();
+        let questions = decisions.iter();
+        let questions: Vec<String> = questions
+            .map(|decision| format!("- {}\n", markdown(&decision.line())))
+            .collect();
+        if !questions.is_empty() {
+            out += &format!("\n{}", questions.concat());
+        }
+        match self.answers.is_empty() {
+            true => {
+                let notes = self.notes.iter();
+                out.extend(notes.map(|note| format!("\nNote: {}.\n", markdown(note))));
+            }
+            false => out += &format!("\n{}", self.table().markdown()),
         }
         out
     }

@@ -1,5 +1,7 @@
 //! Run time against error of models: one panel per channel, with its Pareto front.
 
+use taceva_core::counted;
+
 use crate::figure::{
     Area, Axes, Canvas, Figure, Grid, Ink, Panel, Points, Scale, Stroke, axis_label, beside,
     extent, short,
@@ -74,16 +76,13 @@ fn caption(bench: &ModelBench) -> String {
     let recording = &bench.recording;
     let simulated = simulated(bench.is_simulated(), recording);
     let machine = &bench.machine;
-    let threads = match machine.threads {
-        1 => "one thread".to_owned(),
-        threads => format!("{threads} threads"),
-    };
+    let threads = counted(machine.threads, "thread");
     format!(
-        "Mean absolute error on {} samples, with its 95 % interval by contact point, over the time from one frame to its prediction. {}, {}; fitted on {} samples, split {}; {}, {threads}. Filled and joined: on the Pareto front, where no other model is both faster and more accurate.{simulated}",
-        recording.test,
+        "Mean absolute error on {}, with its 95 % interval by contact point, over the time from one frame to its prediction. {}, {}; fitted on {}, split {}; {}, {threads}. Filled and joined: on the Pareto front, where no other model is both faster and more accurate.{simulated}",
+        counted(recording.test, "sample"),
         recording.name,
         recording.sensor,
-        recording.train,
+        counted(recording.train, "sample"),
         recording.split,
         machine.cpu
     )

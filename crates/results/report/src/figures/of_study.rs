@@ -3,17 +3,13 @@
 mod gratings;
 mod grey;
 mod planes;
+mod predictions;
 mod radar;
 mod repeats;
 mod spokes;
 
 use crate::figure::{Figure, FigureStyle};
 use crate::results::Study;
-
-/// The planes of the study.
-const PLANES: [&str; 4] = ["Pxy", "Pz", "Fxy", "Fz"];
-/// The channels that a plane is the mean of.
-const AXES: [(&str, [&str; 2]); 2] = [("Pxy", ["Px", "Py"]), ("Fxy", ["Fx", "Fy"])];
 
 /// The figures of the study, each with the need of those that are absent.
 #[derive(Clone, Debug, Default)]
@@ -27,7 +23,7 @@ pub struct StudyFigures {
 /// The figures 3 to 8 of the study of `studies`, in a style for print.
 pub fn study_figures(studies: &[Study], style: &FigureStyle) -> StudyFigures {
     let room = style.room();
-    let all: [(&str, Option<Figure>, &str); 9] = [
+    let all: [(&str, Option<Figure>, &str); 10] = [
         (
             "figure-3c",
             gratings::draw(studies, room),
@@ -52,6 +48,11 @@ pub fn study_figures(studies: &[Study], style: &FigureStyle) -> StudyFigures {
             "figure-6b",
             grey::draw(studies, room),
             "samples in several scenes of light, with their mean grey level",
+        ),
+        (
+            "figure-7a",
+            predictions::draw(studies, room),
+            "predictions of repeated presses, with their points and steps of depth",
         ),
         (
             "figure-7b",

@@ -1,5 +1,7 @@
 //! Selects the samples to draw.
 
+use taceva_core::counted;
+
 /// Positions of the samples to draw, ascending: all of up to `most`. Of more, evenly spaced rows, and the largest errors as a tenth of
 /// `most`, so that outliers stay visible.
 pub(crate) fn thin(errors: &[f64], most: usize) -> Vec<usize> {
@@ -20,10 +22,11 @@ pub(crate) fn thin(errors: &[f64], most: usize) -> Vec<usize> {
 /// The rule of [`thin`] in words.
 pub(crate) fn rule(drawn: usize, all: usize) -> String {
     if drawn == all {
-        format!("{all} samples, all drawn")
+        format!("{}, all drawn", counted(all, "sample"))
     } else {
         format!(
-            "{all} samples, {drawn} drawn: evenly spaced ones and those with the largest errors"
+            "{}, {drawn} drawn: evenly spaced ones and those with the largest errors",
+            counted(all, "sample")
         )
     }
 }
@@ -31,6 +34,12 @@ pub(crate) fn rule(drawn: usize, all: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_rule_counts_one_sample() {
+        assert_eq!(rule(1, 1), "1 sample, all drawn");
+        assert_eq!(rule(9, 9), "9 samples, all drawn");
+    }
 
     #[test]
     fn few_are_all_drawn_and_of_many_the_worst_are_never_lost() {

@@ -1,11 +1,12 @@
 //! Comparison as an HTML page.
 
 use maud::{Markup, html};
+use taceva_core::counted;
 
 use super::{Document, lead, radars};
 use crate::compare::{Answer, Comparison};
 use crate::figures::figures;
-use crate::markup::{counted, fold, folded_glossary, score_link};
+use crate::markup::{fold, folded_glossary, score_link};
 use crate::names::listed;
 use crate::number::{numeral, spaced};
 use crate::results::Study;

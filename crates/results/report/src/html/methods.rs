@@ -5,9 +5,9 @@ mod statistics;
 use std::collections::{BTreeMap, BTreeSet};
 
 use maud::{Markup, html};
+use taceva_core::counted;
 
-use super::studied::{points, span, whole};
-use crate::markup::counted;
+use super::studied::{counted_span, points, span, whole};
 use crate::markup::{heads, scroll};
 use crate::names::{listed, names};
 use crate::results::Study;
@@ -72,17 +72,19 @@ fn evaluated(studies: &[Study]) -> String {
 
 /// Sentence on the origin of the samples.
 fn origin(studies: &[Study]) -> String {
-    let simulated = studies.iter().filter(|study| study.is_simulated()).count();
+    let unmeasured = studies.iter().filter(|study| study.is_simulated());
+    let sources: Vec<&str> = unmeasured.map(|study| study.source.as_str()).collect();
+    let kinds: BTreeSet<&str> = sources.iter().copied().collect();
+    let kinds = kinds.into_iter().collect::<Vec<_>>().join(" and ");
     let published = studies
         .iter()
         .filter(|study| study.source == "published")
         .count();
-    let mut out = match (simulated, studies.len() - simulated) {
+    let mut out = match (sources.len(), studies.len() - sources.len()) {
         (0, _) => String::new(),
-        (_, 0) => " All samples were simulated on TacEva's bench, none was measured on hardware."
-            .to_owned(),
+        (_, 0) => format!(" All samples are {kinds}, none was measured on hardware."),
         (some, _) => format!(
-            " The samples of {} were simulated on TacEva's bench.",
+            " The samples of {} are {kinds} and were not measured on hardware.",
             counted(some, "sensor")
         ),
     };
@@ -97,12 +99,12 @@ fn origin(studies: &[Study]) -> String {
 
 /// Presses of the recordings, and places of the scored samples.
 fn pressed(studies: &[Study]) -> String {
-    let presses = span(studies, |study| whole(study.made.presses));
-    let points = span(studies, points);
+    let presses = counted_span(studies, "press", |study| whole(study.made.presses));
+    let points = counted_span(studies, "contact point", points);
     let presses = presses.map(|presses| {
-        format!(" A protocol made {presses} presses for each recording, including those without a usable sample.")
+        format!(" A protocol made {presses} for each recording, including those without a usable sample.")
     });
-    let points = points.map(|points| format!(" Scored samples lie at {points} contact points."));
+    let points = points.map(|points| format!(" Scored samples lie at {points}."));
     presses.into_iter().chain(points).collect()
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use maud::{Markup, html};
 
-use super::Report;
+use super::ReportPage;
 use super::data_address::address;
 use super::picks::{Pick, picks};
 use super::place::Place;
@@ -28,7 +28,7 @@ pub struct Picture {
 }
 
 /// Number of samples, with a card for each.
-pub(super) fn section(report: &Report<'_>) -> Option<(usize, Markup)> {
+pub(super) fn section(report: &ReportPage<'_>) -> Option<(usize, Markup)> {
     let pictures: BTreeMap<(usize, &str), &Picture> = report
         .pictures
         .iter()

@@ -4,9 +4,10 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use maud::{Markup, html};
+use taceva_core::counted;
 
 use crate::catalogue::find;
-use crate::markup::{counted, metric_link};
+use crate::markup::metric_link;
 use crate::markup::{heads, right_heads, scroll};
 use crate::number::{minus, spaced, with_interval};
 use crate::results::Study;
@@ -46,7 +47,8 @@ pub(super) fn order(studies: &[Study]) -> Option<String> {
     (pairs > 0).then(|| {
         let tau = (f64::from(alike) - f64::from(reversed)) / f64::from(pairs);
         format!(
-            "The sensors are in the published order in {alike} of {pairs} pairs over {} (Kendall's τ {}): 1 is the same order, 0 no agreement, −1 the reverse.",
+            "The sensors are in the published order in {alike} of {} over {} (Kendall's τ {}): 1 is the same order, 0 no agreement, −1 the reverse.",
+            counted(pairs, "pair"),
             counted(values.len(), "score"),
             minus(&format!("{tau:.2}"))
         )

@@ -16,7 +16,7 @@ pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
     let over = named.filter_map(|(study, name)| Some((study.over_seeds.as_ref()?, name)));
     let over: Vec<(&OverSeeds, String)> =
         over.filter(|(over, _)| !over.scores.is_empty()).collect();
-    let note = "The 95 % interval is that of the mean over seeds; it shows how much a score varies between trainings, and is not used in verdicts.";
+    let note = "The 95 % interval is that of the mean over seeds; it shows how much a score varies between trainings. Comparisons add the variance between trainings to that between contact points.";
     let body = html! {
         p.note { (note) } "\n"
         @for (over, name) in &over { (table(over, name)) }

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::markup::counted;
+use taceva_core::counted;
+
 use crate::names::{listed, names};
 use crate::results::Study;
 
@@ -13,14 +14,12 @@ pub(super) fn studied(studies: &[Study]) -> String {
         counted(studies.len(), "sensor"),
         listed(&names(studies))
     );
-    let presses = span(studies, |study| whole(study.made.presses));
-    let points = span(studies, points);
+    let presses = counted_span(studies, "press", |study| whole(study.made.presses));
+    let points = counted_span(studies, "contact point", points);
     match (presses, points) {
-        (Some(presses), Some(points)) => {
-            out += &format!(" {presses} presses and {points} contact points a sensor.")
-        }
-        (Some(presses), None) => out += &format!(" {presses} presses a sensor."),
-        (None, Some(points)) => out += &format!(" {points} contact points a sensor."),
+        (Some(presses), Some(points)) => out += &format!(" {presses} and {points} a sensor."),
+        (Some(presses), None) => out += &format!(" {presses} a sensor."),
+        (None, Some(points)) => out += &format!(" {points} a sensor."),
         (None, None) => {}
     }
     let mut channels: Vec<String> = Vec::new();
@@ -53,12 +52,31 @@ pub(super) fn studied(studies: &[Study]) -> String {
 
 /// `400`, or `380 to 400` if studies differ; `None` if unknown.
 pub(super) fn span(studies: &[Study], of: impl Fn(&Study) -> Option<usize>) -> Option<String> {
-    let known: Vec<usize> = studies.iter().filter_map(of).collect();
-    let (least, most) = (known.iter().min()?, known.iter().max()?);
+    let [least, most] = ends(studies, of)?;
     Some(match least == most {
         true => least.to_string(),
         false => format!("{least} to {most}"),
     })
+}
+
+/// `1 press`, or `380 to 400 presses` if studies differ; `None` if unknown.
+pub(super) fn counted_span(
+    studies: &[Study],
+    noun: &str,
+    of: impl Fn(&Study) -> Option<usize>,
+) -> Option<String> {
+    let [least, most] = ends(studies, of)?;
+    let most_counted = counted(most, noun);
+    Some(match least == most {
+        true => most_counted,
+        false => format!("{least} to {most_counted}"),
+    })
+}
+
+/// The least and the greatest known number.
+fn ends(studies: &[Study], of: impl Fn(&Study) -> Option<usize>) -> Option<[usize; 2]> {
+    let known: Vec<usize> = studies.iter().filter_map(of).collect();
+    Some([*known.iter().min()?, *known.iter().max()?])
 }
 
 /// Number of contact points of a study; `None` without samples.
@@ -74,4 +92,25 @@ pub(super) fn points(study: &Study) -> Option<usize> {
 /// `count`, or `None` if it is zero.
 pub(super) fn whole(count: u64) -> Option<usize> {
     usize::try_from(count).ok().filter(|count| *count > 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::Made;
+
+    #[test]
+    fn one_press_is_one_press_and_several_numbers_are_a_range() {
+        let study = |presses| Study {
+            sensor: "A".to_owned(),
+            made: Made {
+                presses,
+                ..Made::default()
+            },
+            ..Study::default()
+        };
+        assert_eq!(studied(&[study(1)]), "1 sensor: A. 1 press a sensor.");
+        let said = studied(&[study(1), study(3)]);
+        assert!(said.ends_with(" 1 to 3 presses a sensor."), "{said}");
+    }
 }

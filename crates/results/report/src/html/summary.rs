@@ -12,7 +12,7 @@ use crate::results::Study;
 use crate::scores::{ScoreCell, ScoreRow, ScoreTable};
 use crate::spread;
 use crate::tie::{best, tie};
-use taceva_results::Score;
+use taceva_results::{Score, not_measured};
 
 /// Subtitle.
 pub(crate) fn lead(studies: &[Study]) -> Markup {
@@ -21,13 +21,9 @@ pub(crate) fn lead(studies: &[Study]) -> Markup {
 
 /// Badge for simulated samples; empty if everything was measured.
 pub(crate) fn badge(studies: &[Study]) -> Markup {
-    let simulated = studies.iter().filter(|study| study.is_simulated()).count();
+    let words = not_measured(studies.iter().map(|study| study.source.as_str()));
     html! {
-        @if simulated == studies.len() {
-            p.badge { "Nothing here was measured: the samples are simulated." }
-        } @else if simulated > 0 {
-            p.badge { "Not everything here was measured: some of the samples are simulated." }
-        }
+        @if let Some(words) = words { p.badge { (words) } }
     }
 }
 

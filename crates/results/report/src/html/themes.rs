@@ -1,12 +1,13 @@
 //! Scores and figures by theme, each theme folded.
 
 use maud::{Markup, html};
+use taceva_core::counted;
 use taceva_metrics::{Theme, catalogue};
 
 use super::figures::{is_radar, one as figure};
 use super::tables::table;
 use crate::figure::Figure;
-use crate::markup::{counted, fold};
+use crate::markup::fold;
 use crate::scores::{ScoreRow, ScoreTable};
 
 /// Section of a page: a theme of the catalogue, or the label distributions.
@@ -88,7 +89,10 @@ pub(super) fn section(table: &ScoreTable, figures: &[Figure]) -> Markup {
     ));
     if table.rows.len() > headlines.rows.len() {
         let all: Vec<&ScoreRow> = table.rows.iter().collect();
-        let holds = format!("all {} rows: every channel and every variant", all.len());
+        let holds = format!(
+            "all {}: every channel and every variant",
+            counted(all.len(), "row")
+        );
         let all = self::table("all", "Every score", &table.names, &all);
         folds.push(fold("theme-all", "Every score", &holds, &all));
     }

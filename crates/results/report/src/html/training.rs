@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use taceva_core::counted;
 use taceva_metrics::catalogue;
 
 use crate::names::{listed, names};
@@ -46,7 +47,8 @@ pub(super) fn is_demonstration(studies: &[Study], metric: &str) -> bool {
 pub(super) fn demonstration(studies: &[Study]) -> Option<String> {
     let fewest = too_few(studies)?;
     Some(format!(
-        "A demonstration: models were fitted and chosen on {fewest} contact places, fewer than {LEAST_PLACES}, so scores of predictions give no verdict on sensors."
+        "A demonstration: models were fitted and chosen on {}, fewer than {LEAST_PLACES}, so scores of predictions give no verdict on sensors.",
+        counted(fewest, "contact place")
     ))
 }
 

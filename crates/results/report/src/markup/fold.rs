@@ -11,11 +11,3 @@ pub(crate) fn fold(id: &str, title: &str, holds: &str, body: &Markup) -> Markup 
         } "\n"
     }
 }
-
-/// `1 figure`, `3 figures`.
-pub(crate) fn counted(count: usize, what: &str) -> String {
-    match count {
-        1 => format!("1 {what}"),
-        count => format!("{count} {what}s"),
-    }
-}

@@ -6,6 +6,9 @@ use crate::results::Study;
 use crate::scores::{BARRED, ScoreTable};
 use crate::table::{Cell, Estimate};
 
+/// The sensors that the study measured, in the order of its tables.
+pub(super) const SENSORS: [&str; 4] = ["ViTacTip", "MagicTac", "GelSight", "GelSightWM"];
+
 /// The way in which a table of the study prints numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Digits {

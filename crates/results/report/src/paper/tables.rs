@@ -6,6 +6,7 @@ use crate::results::Study;
 use crate::scores::BARRED;
 use crate::scores::ScoreTable;
 use crate::table::{Align, Cell, Column, Row, Table, Words, latex_symbol};
+use crate::variables::VARIABLES;
 use taceva_metrics::Better;
 
 /// Table of the study, or the data that it lacks.
@@ -15,12 +16,10 @@ pub(super) struct Made {
     pub(super) needs: &'static str,
 }
 
-/// The planes in the order of the tables of robustness.
-const PLANES: [&str; 4] = ["Pxy", "Pz", "Fxy", "Fz"];
-/// The planes in the order of the table of lighting.
-const LIT: [&str; 4] = ["Fxy", "Fz", "Pxy", "Pz"];
+/// Variables by quantity, in the order of the tables of calibration and lighting.
+const BLOCKS: [[&str; 2]; 2] = [["Fxy", "Fz"], ["Pxy", "Pz"]];
 /// Scenes of light.
-const SCENES: [&str; 4] = ["S1", "S2", "S3", "S4"];
+pub(super) const SCENES: [&str; 4] = ["S1", "S2", "S3", "S4"];
 
 /// Every table, in order.
 pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> [Made; 5] {
@@ -47,23 +46,23 @@ pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> [Made; 5] {
 }
 
 /// True if a cell has a number of ours.
-fn has_values(table: &Table) -> bool {
+pub(super) fn has_values(table: &Table) -> bool {
     let mut cells = table.rows.iter().flat_map(|row| &row.cells);
     cells.any(|cell| matches!(cell, Cell::Estimate(of) if !matches!(of.formatted.value.as_str(), "" | "–")))
 }
 
 /// The results that tables are made of.
-struct Sheet<'a> {
-    studies: &'a [Study],
-    scores: &'a ScoreTable,
+pub(super) struct Sheet<'a> {
+    pub(super) studies: &'a [Study],
+    pub(super) scores: &'a ScoreTable,
 }
 
 impl Sheet<'_> {
-    fn names(&self) -> &[String] {
+    pub(super) fn names(&self) -> &[String] {
         &self.scores.names
     }
 
-    fn cell(&self, at: usize, metric: &str, channel: &str, digits: Digits) -> Cell {
+    pub(super) fn cell(&self, at: usize, metric: &str, channel: &str, digits: Digits) -> Cell {
         cell(self.studies, self.scores, at, [metric, channel], digits)
     }
 
@@ -136,7 +135,7 @@ impl Sheet<'_> {
         let first = ["sensor", "variable"].map(column);
         let caption = "Table II. Calibration by sensor and variable (MAE in N and mm).";
         let mut table = self.table(caption, first.into_iter().chain(columns));
-        for block in [["Fxy", "Fz"], ["Pxy", "Pz"]] {
+        for block in BLOCKS {
             for (at, name) in self.names().iter().enumerate() {
                 for (line, channel) in block.into_iter().enumerate() {
                     let name = if line == 0 { name.as_str() } else { "" };
@@ -160,7 +159,7 @@ impl Sheet<'_> {
     fn of_planes(&self, metric: &str, caption: &str) -> Table {
         let sensors = self.names().iter().map(|name| number_column(name));
         let mut table = self.table(caption, [column("plane")].into_iter().chain(sensors));
-        for channel in PLANES {
+        for channel in VARIABLES {
             let plane = Words::new(channel).latex(latex_symbol(channel));
             let cells = (0..self.studies.len())
                 .map(|at| self.cell(at, metric, channel, Digits::Significant(3)));
@@ -176,8 +175,9 @@ impl Sheet<'_> {
     /// Table IV: a row a scene and their mean, a column a plane and sensor that light reaches.
     fn lighting(&self) -> Table {
         let lit = self.with("r_light");
-        let pairs = LIT
+        let pairs = BLOCKS
             .iter()
+            .flatten()
             .flat_map(|channel| lit.iter().map(move |at| (*channel, *at)));
         let pairs: Vec<(&str, usize)> = pairs.collect();
         let columns = pairs.iter().map(|(channel, at)| {
@@ -211,13 +211,13 @@ impl Sheet<'_> {
 
     /// Table V: a row a sensor, a column a plane.
     fn repeatability(&self) -> Table {
-        let planes = PLANES.map(|channel| {
+        let planes = VARIABLES.map(|channel| {
             Column::new(Words::new(channel).latex(latex_symbol(channel))).align(Align::Right)
         });
         let caption = "Table V. Repeatability by plane (mm, N; less is better).";
         let mut table = self.table(caption, [column("sensor")].into_iter().chain(planes));
         for (at, name) in self.names().iter().enumerate() {
-            let cells = PLANES
+            let cells = VARIABLES
                 .map(|channel| self.cell(at, "repeatability", channel, Digits::Significant(3)));
             table.rows.push(Row {
                 cells: [Cell::text(name.as_str())]
@@ -231,7 +231,7 @@ impl Sheet<'_> {
         table
     }
 
-    fn table(&self, caption: &str, columns: impl Iterator<Item = Column>) -> Table {
+    pub(super) fn table(&self, caption: &str, columns: impl Iterator<Item = Column>) -> Table {
         let simulated = self
             .studies
             .iter()
@@ -246,7 +246,7 @@ impl Sheet<'_> {
     }
 
     /// Adds the legend of values, bold and marks.
-    fn explain(&self, table: &mut Table) {
+    pub(super) fn explain(&self, table: &mut Table) {
         let cells = || {
             let cells = table.rows.iter().flat_map(|row| &row.cells);
             cells.filter_map(|cell| match cell {
@@ -272,11 +272,11 @@ impl Sheet<'_> {
     }
 }
 
-fn column(name: &str) -> Column {
+pub(super) fn column(name: &str) -> Column {
     Column::new(name).align(Align::Left)
 }
 
-fn number_column(name: &str) -> Column {
+pub(super) fn number_column(name: &str) -> Column {
     Column::new(name).align(Align::Right)
 }
 
@@ -290,8 +290,8 @@ mod tests {
             sensor: sensor.to_owned(),
             ..Study::default()
         };
-        for sensor in super::super::SENSORS {
-            for channel in PLANES {
+        for sensor in super::super::beside::SENSORS {
+            for channel in VARIABLES {
                 for metric in ["mae", "r2", "smape", "r_spatial"] {
                     let found = super::super::beside::printed(&study(sensor), metric, channel);
                     assert!(found.is_some(), "{sensor} {metric} {channel}");

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use taceva_core::{by_count, counted};
+
 use super::{ScoreCell, ScoreTable};
 use crate::results::Study;
 use taceva_results::OPTIMISTIC;
@@ -78,9 +80,9 @@ impl ScoreTable {
                     "unknown" => String::new(),
                     sensor => format!(" of {sensor}"),
                 };
-                format!("{} results{of}", several.len())
+                format!("{}{of}", counted(several.len(), "result"))
             }
-            (several, _) => format!("{} sensors", several.len()),
+            (several, _) => counted(several.len(), "sensor"),
         }
     }
 
@@ -119,15 +121,9 @@ impl ScoreTable {
             Some(Some("train")) if parts.len() == 1 => "training ",
             _ => "",
         };
-        let many = match self.common_n() {
-            Some(1) => "1 ".to_owned(),
-            Some(n) => format!("{n} "),
-            None => String::new(),
-        };
-        let noun = match many.as_str() {
-            "1 " => "sample",
-            _ => "samples",
-        };
+        let n = self.common_n();
+        let many = n.map_or_else(String::new, |n| format!("{n} "));
+        let noun = by_count(n.unwrap_or_default(), "sample", "samples");
         let each = match self.names.len() > 1 && !many.is_empty() {
             true => " each",
             false => "",

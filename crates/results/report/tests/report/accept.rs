@@ -2,7 +2,7 @@
 
 use crate::support;
 use serde_json::{Value, json};
-use taceva_report::{Finding, LimitsFile, Study, accept};
+use taceva_report::{LimitCheck, LimitsFile, Study, accept};
 
 /// The score of every test, and the ends of its interval: dyadic fractions, so that a limit can lie on them.
 const VALUE: f64 = 0.5;
@@ -32,8 +32,8 @@ fn study() -> Study {
     support::study(&json)
 }
 
-/// Finding for one limit of a metric and a channel.
-fn held(metric: &str, channel: &str, unit: &str, limit: &str) -> Finding {
+/// Check of one limit of a metric and a channel.
+fn held(metric: &str, channel: &str, unit: &str, limit: &str) -> LimitCheck {
     let text = format!(
         "limits_version = 1\n[[limit]]\nmetric = {metric:?}\nchannel = {channel:?}\nunit = {unit:?}\n{limit}\n"
     );

@@ -12,7 +12,7 @@ use std::path::Path;
 use crate::support::drawn;
 use serde_json::{Value, json};
 use taceva_needs::{Browser, skip};
-use taceva_report::{Report, Study, report};
+use taceva_report::{ReportPage, Study, report};
 
 /// A page of drawn results in a file, opened.
 struct Opened {
@@ -25,7 +25,7 @@ fn open(studies: &[Study]) -> Option<Opened> {
 }
 
 fn page_of(studies: &[Study]) -> String {
-    report(&Report {
+    report(&ReportPage {
         title: "drawn",
         studies,
         pictures: &[],

@@ -1,6 +1,8 @@
 //! Comparisons of drawn scores: the better sensor, the words, and lines and rows of readable length.
 
+mod asked;
 mod pairs;
+mod trainings;
 mod variants;
 
 use crate::support;
@@ -292,42 +294,6 @@ fn a_page_says_who_is_better_and_has_radars_only_if_some_are_drawn() {
     let studies = [of("one", 0.25), of("two", 0.75)];
     let page = of_metric(&studies, "rmse").page(&studies);
     assert!(!has_radars(&studies) && !page.contains("Side by side"));
-}
-
-#[test]
-fn a_difference_of_one_training_of_a_model_that_draws_says_so() {
-    let compared = |settings: [&[(&str, &str)]; 2], seeds: bool| {
-        let mut studies = errors(&[("Coarse", 0.75), ("Fine", 0.25)]);
-        for (study, of) in studies.iter_mut().zip(settings) {
-            let of = of.iter();
-            study.made.settings = of.map(|&(key, value)| (key.into(), value.into())).collect();
-            study.over_seeds = seeds.then(Default::default);
-        }
-        let comparison = of_metric(&studies, "mae");
-        let words = comparison.answers[0].words(&comparison.names);
-        let note = comparison
-            .notes
-            .iter()
-            .find(|note| note.contains("--seeds"));
-        (words, note.cloned())
-    };
-    let drawn: &[(&str, &str)] = &[("epochs", "24"), ("seed", "11")];
-    let (words, note) = compared([drawn, drawn], false);
-    assert!(
-        words.ends_with("; only one training of Coarse and Fine"),
-        "{words}"
-    );
-    assert!(
-        note.expect("a note")
-            .contains("one training of Coarse and Fine")
-    );
-    let (words, _) = compared([&[], drawn], false);
-    assert!(words.ends_with("; only one training of Fine"), "{words}");
-    // Ridge draws nothing, and several seeds are shown by themselves.
-    for (settings, seeds) in [([&[][..], &[]], false), ([drawn, drawn], true)] {
-        let (words, note) = compared(settings, seeds);
-        assert!(!words.contains("training") && note.is_none(), "{words}");
-    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ use crate::support::{self, results, samples};
 use serde_json::json;
 use taceva_report::catalogue::Sensor;
 use taceva_report::{
-    Acceptance, CompareRequest, LimitsFile, Need, Picture, Report, Study, Triple, accept,
+    Acceptance, CompareRequest, LimitsFile, Need, Picture, ReportPage, Study, Triple, accept,
     choose_results, compare, picks, report,
 };
 use taceva_results::Samples;
@@ -56,7 +56,7 @@ fn report_of(name: &str) -> String {
         bytes: vec![1],
     };
     let pictures: Vec<Picture> = picks(&studies[0]).into_iter().map(picture).collect();
-    report(&Report {
+    report(&ReportPage {
         title: name,
         studies: &studies,
         pictures: &pictures,

@@ -236,7 +236,7 @@ fn a_caption_of_folds_says_that_each_sample_was_held_out() {
         caption,
         "Accuracy of GelSight (ridge) on 20 simulated samples, each held out once (5-fold cross-validation by video), with 95 % intervals."
     );
-    let page = taceva_report::report(&taceva_report::Report {
+    let page = taceva_report::report(&taceva_report::ReportPage {
         title: "folds",
         studies: &[study],
         pictures: &[],

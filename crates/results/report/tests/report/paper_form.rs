@@ -139,6 +139,75 @@ fn a_sensor_that_the_study_did_not_measure_stands_alone() {
 }
 
 #[test]
+fn numbers_that_the_study_prints_in_figures_stand_beside_ours() {
+    let studies = SENSORS.map(|sensor| {
+        let mut study = study(sensor);
+        study.samples = support::drawn(sensor, 50, 1.0).samples;
+        study
+    });
+    let form = paper_form(&studies);
+    let figures = study_figures(&studies, &FigureStyle::default());
+    let text = form.markdown_of(&figures);
+    let of = |id: &str| {
+        let table = form.figures.iter().find(|(name, _)| name == id);
+        let (_, table) = table.unwrap_or_else(|| panic!("no numbers of {id}: {text}"));
+        let rows: Vec<Vec<String>> = table.rows.iter().map(taceva_report::Row::plain).collect();
+        rows
+    };
+    let rates = of("figure-3c");
+    // ViTacTip stands first, as in the study.
+    assert_eq!(rates[0][..2], ["lines", "90.0 %, 81.2 % (×1.11)"]);
+    assert_eq!(rates[2][..2], ["both", "–, 80.6 %"]);
+    let surface = of("figure-4");
+    assert_eq!(surface[0][1], "2.000, 6.753 (×0.30)");
+    assert_eq!(surface[1][1], "0.800, 0.863 (×0.93)");
+    let tables = form.latex();
+    assert!(tables.contains("Numbers of figure 3c"), "{tables}");
+    assert!(text.contains("![Figure 7a"), "{text}");
+    let said = text.matches("prints no numbers with its figures").count();
+    assert_eq!(said, 1, "{text}");
+}
+
+#[test]
+fn mean_grey_levels_stand_beside_those_of_figure_6b() {
+    let mut study = study("MagicTac");
+    let rows = "id,protocol,scene,intensity\na,light-sweep,S4,100\nb,light-sweep,S4,136\nc,light-sweep,normal,53\nd,calibration,S4,1\n";
+    study.samples = Some(taceva_results::Samples::read(rows).expect("samples"));
+    let form = paper_form(&[study]);
+    let table = form.figures.iter().find(|(name, _)| name == "figure-6b");
+    let (_, table) = table.expect("numbers");
+    let rows: Vec<Vec<String>> = table.rows.iter().map(taceva_report::Row::plain).collect();
+    assert_eq!(rows[0], ["normal", "53, 106 (×0.50)"]);
+    assert_eq!(rows[1], ["S1", "–, 106"]);
+    assert_eq!(rows[4], ["S4", "118, 118 (×1.00)"]);
+}
+
+#[test]
+fn a_sensor_that_the_study_did_not_measure_has_no_numbers_beside_figures() {
+    let form = paper_form(&[study("mine")]);
+    assert!(form.figures.is_empty(), "{:?}", form.figures);
+}
+
+#[test]
+fn repeated_presses_are_drawn_by_plane_and_their_truths_give_the_depth() {
+    let mut study = study("ViTacTip");
+    let head = "id,protocol,point_id,depth_step,Px,Px_predicted,Py,Py_predicted,Pz,Pz_predicted";
+    let rows = "a,repeatability,p,0,1,1.5,2,2.5,0.25,0.3\nb,repeatability,p,0,1,1.4,2,2.6,0.25,0.2\nc,calibration,p,0,9,9,9,9,9,9\n";
+    let samples = taceva_results::Samples::read(&format!("{head}\n{rows}"));
+    study.samples = Some(samples.expect("samples"));
+    let figures = study_figures(&[study], &FigureStyle::default());
+    let figure = figures.drawn.iter().find(|figure| figure.id == "figure-7a");
+    let svg = figure.expect("drawn").svg();
+    for words in [
+        "ViTacTip, point p, step 0: predicted Px (mm) 1.5, predicted Py (mm) 2.5",
+        "ViTacTip, point p, step 0: depth (mm) 0.25, predicted Pz (mm) 0.2",
+    ] {
+        assert!(svg.contains(words), "{words}: {svg}");
+    }
+    assert!(!svg.contains("predicted Fx"), "no force was predicted");
+}
+
+#[test]
 fn figures_three_to_eight_are_drawn_with_the_quantities_of_the_study() {
     let studies = SENSORS.map(|name| {
         let mut study = study(name);
@@ -165,6 +234,7 @@ fn figures_three_to_eight_are_drawn_with_the_quantities_of_the_study() {
         "figure-4",
         "figure-5-radius",
         "figure-5-depth",
+        "figure-7a",
         "figure-7b",
         "figure-8a",
         "figure-8c",
@@ -172,7 +242,7 @@ fn figures_three_to_eight_are_drawn_with_the_quantities_of_the_study() {
         assert!(drawn.contains(&name), "{name}: {drawn:?}, {absent:?}");
     }
     assert!(absent.contains(&"figure-6a"), "{absent:?}");
-    assert_eq!(drawn.len() + absent.len(), 10);
+    assert_eq!(drawn.len() + absent.len(), 11);
     let robustness = figures.drawn.iter().find(|figure| figure.id == "figure-8c");
     let robustness = robustness.expect("drawn");
     assert!(

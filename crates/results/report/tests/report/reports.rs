@@ -6,11 +6,11 @@ use std::time::{Duration, Instant};
 
 use crate::support::{self, drawn};
 use taceva_report::{
-    CompareRequest, Layout, Report, ScoreTable, Study, compare, figures, picks, report,
+    CompareRequest, Layout, ReportPage, ScoreTable, Study, compare, figures, picks, report,
 };
 
 fn page(studies: &[Study]) -> String {
-    report(&Report {
+    report(&ReportPage {
         title: "drawn",
         studies,
         pictures: &[],

@@ -201,3 +201,10 @@ fn a_choice_shows_the_numbers_of_every_sensor_that_was_considered() {
     assert!(table.text().contains("0.0245 N"), "{}", table.text());
     assert_whole_within(&table, 40);
 }
+
+#[test]
+fn a_published_number_keeps_its_digits() {
+    let table = values(&["GelSightWM", "ViTacTip"].map(published), &["mae"], false);
+    let error = &row(&table, "mae Pxy (mm) ↓")[1];
+    assert!(error.starts_with("0.1445"), "{error}");
+}

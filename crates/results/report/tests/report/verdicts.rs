@@ -4,7 +4,7 @@ use crate::support;
 use serde_json::{Value, json};
 use taceva_metrics::Standing;
 use taceva_report::{
-    CompareRequest, Comparison, LimitsFile, Need, OVERVIEW_LINES, OVERVIEW_WIDTH, Report,
+    CompareRequest, Comparison, LimitsFile, Need, OVERVIEW_LINES, OVERVIEW_WIDTH, ReportPage,
     ScoreTable, Study, accept, choose_results, compare, figures, limits_template, report,
 };
 
@@ -26,7 +26,7 @@ fn compared(studies: &[Study]) -> Comparison {
 
 /// First verdicts of the page, without markup.
 fn summary(studies: &[Study]) -> String {
-    let page = report(&Report {
+    let page = report(&ReportPage {
         title: "drawn",
         studies,
         pictures: &[],

@@ -129,7 +129,9 @@ impl LiveSpec {
         let sensor_source = sensor.descriptor.source();
         let sensor_facts = sensor.descriptor.sensor().cloned().unwrap_or_default();
         let latency_ms = self.sensor.latency_ms;
-        let sensor = sensor.timely(|facts| latency_ms.or(facts.sensor()?.latency_ms));
+        let sensor = sensor.timely(self.is_emulated, |facts| {
+            latency_ms.or(facts.sensor()?.latency_ms)
+        });
         let mut force = None;
         if let Some(named) = &self.force {
             let selector = named.selector.clone();
@@ -150,7 +152,9 @@ impl LiveSpec {
                 _ => taceva_core::ForceFacts::default(),
             };
             let latency_ms = named.latency_ms;
-            let mut device = opened.timely(|facts| latency_ms.or(facts.force()?.latency_ms));
+            let mut device = opened.timely(self.is_emulated, |facts| {
+                latency_ms.or(facts.force()?.latency_ms)
+            });
             if let Some(axes) = self.axes {
                 device = Box::new(Turned::new(device, axes));
             }
@@ -226,13 +230,10 @@ impl LiveDevices {
         self.sensor.settings()
     }
 
-    pub(super) fn sensor_source(&self) -> DriverSource {
-        self.sensor_source
-    }
-
-    /// True if the rig file marks its devices as emulated.
-    pub(super) fn is_emulated(&self) -> bool {
-        self.is_emulated
+    /// True if a device is simulated or emulated, so that nothing is measured.
+    pub fn is_simulated(&self) -> bool {
+        // A simulated transducer is rejected at opening.
+        self.is_emulated || self.sensor_source == DriverSource::Simulated
     }
 
     /// Starts the devices and zeroes the force.

@@ -1,6 +1,6 @@
 //! An open device with its descriptor.
 
-use taceva_core::{Descriptor, Device, Registry, Rig};
+use taceva_core::{Descriptor, Device, DriverSource, Facts, Registry, Rig, SampleTiming};
 use taceva_drivers::{OpenError, Selector, open};
 
 use super::latency::{IntoDevice, Late};
@@ -39,11 +39,202 @@ impl<D: ?Sized + 'static> Opened<D>
 where
     Late<D>: IntoDevice<D>,
 {
-    /// Corrects the stamps of the device by `latency_ms` of its facts, if above 0.
-    pub(crate) fn timely(self, latency_ms: impl Fn(&Descriptor) -> Option<f64>) -> Box<D> {
-        match latency_ms(&self.descriptor) {
-            Some(latency_ms) if latency_ms > 0.0 => Late::new(self.device, latency_ms).boxed(),
-            _ => self.device,
+    /// Corrects the stamps of the device by `latency_ms` of its facts, if above 0, and checks the timing of its samples.
+    pub(crate) fn timely(
+        self,
+        is_emulated: bool,
+        latency_ms: impl Fn(&Descriptor) -> Option<f64>,
+    ) -> Box<D> {
+        let latency_ms = latency_ms(&self.descriptor).unwrap_or(0.0);
+        let timing = timing(&self.descriptor, is_emulated);
+        if latency_ms <= 0.0 && timing.is_none() {
+            return self.device;
+        }
+        let driver = self.descriptor.key().clone();
+        let timing = timing.unwrap_or_else(SampleTiming::unchecked);
+        Late::new(self.device, driver, latency_ms, timing).boxed()
+    }
+}
+
+/// Timing of the samples of a real sensor or transducer. An emulated one shares its processors with this program, so only its stamps are checked.
+fn timing(descriptor: &Descriptor, is_emulated: bool) -> Option<SampleTiming> {
+    let rate = match descriptor.facts() {
+        Facts::Sensor(facts) => facts.rate,
+        Facts::Force(facts) => facts.rate,
+        _ => return None,
+    };
+    let is_real = descriptor.source() == DriverSource::Real;
+    is_real.then(|| SampleTiming::of(rate.filter(|_| !is_emulated)))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use taceva_core::{
+        Axes, Deadline, DescriptorSpec, DriverError, DriverKey, ErrorKind, ForceFacts,
+        ForceTransducer, FrameInfo, FrameMut, Hertz, PixelFormat, Sensor, SensorFacts, Stamp,
+        Wrench,
+    };
+    use taceva_drivers::MonotonicClock;
+
+    use super::*;
+
+    const HOUR: Duration = Duration::from_secs(3600);
+    const FRAME: FrameInfo = FrameInfo {
+        width: 1,
+        height: 1,
+        format: PixelFormat::Gray8,
+    };
+
+    /// A device whose samples take these times.
+    struct Slow {
+        delays: std::vec::IntoIter<Duration>,
+    }
+
+    impl Slow {
+        /// The device as its driver opens it.
+        fn opened(
+            source: DriverSource,
+            rate: Hertz,
+            delays: Vec<Duration>,
+        ) -> Opened<dyn ForceTransducer> {
+            let facts = ForceFacts::default()
+                .with_axes(Axes::NORMAL)
+                .with_rate(rate);
+            let device = Slow {
+                delays: delays.into_iter(),
+            };
+            opened::<dyn ForceTransducer>(Box::new(device), source, Facts::Force(facts))
+        }
+    }
+
+    impl ForceTransducer for Slow {
+        fn axes(&self) -> Axes {
+            Axes::NORMAL
+        }
+
+        fn read(&mut self, _: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+            std::thread::sleep(self.delays.next().expect("a delay for each reading"));
+            Ok((Wrench::default(), Stamp::at(MonotonicClock.now())))
+        }
+    }
+
+    /// A camera whose clock is once set ahead by an hour.
+    struct Jumping {
+        frames: u32,
+    }
+
+    impl Jumping {
+        fn opened(source: DriverSource) -> Opened<dyn Sensor> {
+            let facts = SensorFacts::default().with_frame(FRAME);
+            let facts = Facts::Sensor(Box::new(facts));
+            opened::<dyn Sensor>(Box::new(Jumping { frames: 0 }), source, facts)
+        }
+    }
+
+    impl Sensor for Jumping {
+        fn frame_info(&self) -> FrameInfo {
+            FRAME
+        }
+
+        fn capture(&mut self, _: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
+            self.frames += 1;
+            let now = MonotonicClock.now();
+            Ok(Stamp::at(if self.frames > 2 { now + HOUR } else { now }))
+        }
+    }
+
+    fn opened<D: ?Sized>(device: Box<D>, source: DriverSource, facts: Facts) -> Opened<D> {
+        let key = DriverKey::fixed("test/device");
+        let spec = DescriptorSpec::new(key, "a device of this test", source, facts);
+        Opened {
+            device,
+            descriptor: spec.check().expect("no contradiction"),
+            selector: "test/device".parse().expect("a selector"),
+        }
+    }
+
+    /// Number of readings before the first error, and that error.
+    fn readings(device: &mut dyn ForceTransducer, count: usize) -> (usize, Option<DriverError>) {
+        for number in 0..count {
+            if let Err(error) = device.read(Deadline::PASSED) {
+                return (number, Some(error));
+            }
+        }
+        (count, None)
+    }
+
+    /// Readings that take eleven periods of 1 kHz, or more on a busy machine.
+    fn eleven_periods(count: usize) -> Vec<Duration> {
+        vec![Duration::from_millis(11); count]
+    }
+
+    #[test]
+    fn a_transducer_that_is_ten_times_too_slow_for_ten_readings_is_an_error_of_that_device() {
+        let slow = Slow::opened(DriverSource::Real, Hertz(1000.0), eleven_periods(10));
+        let (read, error) = readings(&mut *slow.timely(false, |_| None), 10);
+        let error = error.expect("the tenth");
+        assert_eq!((read, error.kind()), (9, ErrorKind::DeviceFault));
+        let error = error.to_string();
+        assert!(
+            error.starts_with("test/device: cannot read the force: 10 samples in a row"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn an_emulated_or_simulated_transducer_may_be_slow() {
+        for (source, is_emulated) in [
+            (DriverSource::Real, true),
+            (DriverSource::Simulated, false),
+            (DriverSource::Recorded, false),
+        ] {
+            let slow = Slow::opened(source, Hertz(1000.0), eleven_periods(12));
+            let (read, error) = readings(&mut *slow.timely(is_emulated, |_| None), 12);
+            assert!(error.is_none(), "{source}, reading {read}: {error:?}");
+        }
+    }
+
+    #[test]
+    fn a_sensor_whose_stamps_jump_by_an_hour_is_refused_unless_its_time_is_its_own() {
+        for (source, is_emulated, is_refused) in [
+            (DriverSource::Real, false, true),
+            (DriverSource::Real, true, true),
+            (DriverSource::Simulated, false, false),
+            (DriverSource::Recorded, false, false),
+        ] {
+            let mut sensor = Jumping::opened(source).timely(is_emulated, |_| None);
+            let mut bytes = [0];
+            let mut capture = || {
+                let frame = FrameMut::new(FRAME, &mut bytes).expect("a byte");
+                sensor.capture(frame, Deadline::PASSED)
+            };
+            capture().expect("the first");
+            capture().expect("the second");
+            // A jump is refused for good.
+            for _ in 0..2 {
+                let third = capture();
+                assert_eq!(third.is_err(), is_refused, "{source}: {third:?}");
+                if let Err(error) = third {
+                    assert_eq!(error.kind(), ErrorKind::DeviceFault);
+                    assert!(error.to_string().contains("its stamps jump"), "{error}");
+                }
+            }
+        }
+    }
+
+    mod waiting {
+        use super::*;
+
+        #[test]
+        fn a_transducer_that_is_slow_for_nine_readings_only_is_no_error() {
+            let mut delays = vec![Duration::from_millis(210); 9];
+            delays.push(Duration::ZERO);
+            delays.extend_from_within(..9);
+            let slow = Slow::opened(DriverSource::Real, Hertz(50.0), delays);
+            let (read, error) = readings(&mut *slow.timely(false, |_| None), 19);
+            assert!(error.is_none(), "reading {read}: {error:?}");
         }
     }
 }

@@ -21,7 +21,7 @@ use super::registration::{Registered, Turned};
 use super::viewed_sensor::Seen;
 use super::workshop::{Surroundings, Workshop};
 use crate::error::AcquireError;
-use crate::scene::{PlannedStudy, RigSpec, open_switch};
+use crate::scene::{PlannedStudy, RigSpec, check_taught, open_switch};
 
 /// Deadline of the first pose of a robot.
 pub(super) const FIRST_POSE: Duration = Duration::from_secs(2);
@@ -87,6 +87,9 @@ impl OpenRig {
             switches: _,
         } = workshop.drivers;
         let rig_file = study.study.rig.as_deref();
+        if let Some(rig) = rig_file {
+            check_taught(rig, workshop.drivers)?;
+        }
         // The switch comes first: without it no moving device is opened.
         let switch = rig_file.map(|rig| open_switch(rig, workshop.drivers));
         let switch = switch.transpose().map_err(AcquireError::from)?.flatten();
@@ -124,11 +127,15 @@ impl OpenRig {
         }
         let [robot_latency, force_latency, sensor_latency] =
             rig_file.map_or([None; 3], written_latencies_ms);
+        let is_emulated = rig_file.is_some_and(|rig| rig.simulated);
         let sensor = sensor.map(|sensor| match &surroundings.bench {
             Some(bench) if sensor.selector.bench() != selector.bench() => {
-                Box::new(OnBench::new(sensor.device, Arc::clone(bench)))
+                let sensor = sensor.timely(is_emulated, |_| None);
+                Box::new(OnBench::new(sensor, Arc::clone(bench)))
             }
-            _ => sensor.timely(|facts| sensor_latency.or(facts.sensor()?.latency_ms)),
+            _ => sensor.timely(is_emulated, |facts| {
+                sensor_latency.or(facts.sensor()?.latency_ms)
+            }),
         });
         let sensor = match (sensor, workshop.viewer) {
             (Some(sensor), Some(viewer)) => {
@@ -138,13 +145,17 @@ impl OpenRig {
             (sensor, _) => sensor,
         };
         let force_driver = force.descriptor.key().clone();
-        let mut robot = robot.timely(|facts| robot_latency.or(facts.robot()?.latency_ms));
+        let mut robot = robot.timely(is_emulated, |facts| {
+            robot_latency.or(facts.robot()?.latency_ms)
+        });
         if let Some(registered) = rig_file.and_then(|rig| rig.robot.as_ref()) {
             let deadline = Deadline::after(FIRST_POSE);
             let mapped = Registered::new(robot, registered, deadline);
             robot = Box::new(mapped.map_err(|error| failed(OpenError::Device(error)))?);
         }
-        let mut force = force.timely(|facts| force_latency.or(facts.force()?.latency_ms));
+        let mut force = force.timely(is_emulated, |facts| {
+            force_latency.or(facts.force()?.latency_ms)
+        });
         if let Some(mounted) = rig_file.and_then(|rig| rig.force.as_ref()) {
             force = Box::new(Turned::new(force, mounted.axes.value));
         }

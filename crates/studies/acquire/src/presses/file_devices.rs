@@ -13,17 +13,10 @@ use super::device::Opened;
 use super::devices::{FIRST_POSE, Opener, written_latencies_ms};
 use super::registration::{Registered, Turned};
 use crate::error::AcquireError;
-use crate::scene::RigSpec;
+use crate::scene::{Refused, RigSpec, check_changers};
 
 /// An open device and its descriptor.
 type Described<D> = (Box<D>, Descriptor);
-
-/// Open devices of a rig file, in the frame of the sensor.
-pub(crate) struct FileDevices {
-    pub(crate) robot: Option<Described<dyn Robot>>,
-    pub(crate) force: Option<Described<dyn ForceTransducer>>,
-    pub(crate) sensor: Option<Described<dyn Sensor>>,
-}
 
 /// Opens devices of a rig file.
 pub(crate) struct FileOpener<'a> {
@@ -40,56 +33,105 @@ impl<'a> FileOpener<'a> {
         FileOpener { rig, spec, drivers }
     }
 
-    /// Opens all devices, mapped into the frame of the sensor.
+    /// Checks driver and arguments of every device. Opens nothing.
     ///
     /// # Errors
-    /// [`AcquireError::Scene`] for an invalid driver or argument, [`AcquireError::OpenOfRig`] if a device does not open.
-    pub(crate) fn all(&self) -> Result<FileDevices, AcquireError> {
-        let [_, force_latency, sensor_latency] = written_latencies_ms(self.rig);
+    /// [`AcquireError::Scene`] for an invalid driver or argument, with its line.
+    pub(crate) fn check(&self) -> Result<(), AcquireError> {
+        self.check_device(&self.drivers.sensors, self.spec.sensor.as_ref())?;
+        self.check_device(&self.drivers.robots, self.spec.robot.as_ref())?;
+        self.check_device(&self.drivers.forces, self.spec.force.as_ref())?;
+        check_changers(self.rig, self.drivers)?;
+        let light = self.rig.changers.light.as_ref();
+        let described = self.spec.describe(&self.drivers.lightings, light, "1");
+        described.map(drop).map_err(|refused| self.refused(refused))
+    }
+
+    /// Opens the changer `device` and returns the names of what it holds. Nothing moves.
+    ///
+    /// # Errors
+    /// [`AcquireError::OpenOfRig`] if the device does not open.
+    pub(crate) fn held(
+        &self,
+        device: Option<&Setting<String>>,
+    ) -> Result<Option<Vec<String>>, AcquireError> {
+        let opened = self.opened(&self.drivers.changers, device)?;
+        Ok(opened.map(|opened| opened.device.holds().to_vec()))
+    }
+
+    /// Opens the lighting `device` and returns the names of its scenes. The light stays as it is.
+    ///
+    /// # Errors
+    /// As [`held`](FileOpener::held).
+    pub(crate) fn scenes(
+        &self,
+        device: Option<&Setting<String>>,
+    ) -> Result<Option<Vec<String>>, AcquireError> {
+        let opened = self.opened(&self.drivers.lightings, device)?;
+        Ok(opened.map(|opened| opened.device.scenes().to_vec()))
+    }
+
+    /// Opens the sensor.
+    ///
+    /// # Errors
+    /// As [`check`](FileOpener::check), and [`AcquireError::OpenOfRig`] if the device does not open.
+    pub(crate) fn sensor(&self) -> Result<Option<Described<dyn Sensor>>, AcquireError> {
+        let [_, _, latency_ms] = written_latencies_ms(self.rig);
         let sensor = self.open(&self.drivers.sensors, self.spec.sensor.as_ref())?;
-        let sensor = sensor.map(|sensor| {
+        Ok(sensor.map(|sensor| {
             let descriptor = sensor.descriptor.clone();
-            let of_facts = |facts: &Descriptor| sensor_latency.or(facts.sensor()?.latency_ms);
-            (sensor.timely(of_facts), descriptor)
-        });
-        let robot = match (self.base_robot()?, &self.rig.robot) {
-            (Some((robot, descriptor)), Some(registered)) => {
-                let deadline = Deadline::after(FIRST_POSE);
-                let mapped = Registered::new(robot, registered, deadline);
-                let mapped = mapped
-                    .map_err(|error| self.failed(DriverKind::Robot, OpenError::Device(error)))?;
-                let mapped: Box<dyn Robot> = Box::new(mapped);
-                Some((mapped, descriptor))
-            }
-            _ => None,
-        };
+            let of_facts = |facts: &Descriptor| latency_ms.or(facts.sensor()?.latency_ms);
+            (sensor.timely(self.rig.simulated, of_facts), descriptor)
+        }))
+    }
+
+    /// Opens the force transducer, turned into the frame of the sensor.
+    ///
+    /// # Errors
+    /// As [`sensor`](FileOpener::sensor).
+    pub(crate) fn force(&self) -> Result<Option<Described<dyn ForceTransducer>>, AcquireError> {
+        let [_, latency_ms, _] = written_latencies_ms(self.rig);
         let mounted = self.rig.force.as_ref();
         let force = self.open(&self.drivers.forces, self.spec.force.as_ref())?;
-        let force = force.zip(mounted).map(|(force, mounted)| {
+        Ok(force.zip(mounted).map(|(force, mounted)| {
             let descriptor = force.descriptor.clone();
-            let of_facts = |facts: &Descriptor| force_latency.or(facts.force()?.latency_ms);
-            let turned = Turned::new(force.timely(of_facts), mounted.axes.value);
+            let of_facts = |facts: &Descriptor| latency_ms.or(facts.force()?.latency_ms);
+            let turned = Turned::new(
+                force.timely(self.rig.simulated, of_facts),
+                mounted.axes.value,
+            );
             let turned: Box<dyn ForceTransducer> = Box::new(turned);
             (turned, descriptor)
-        });
-        Ok(FileDevices {
-            robot,
-            force,
-            sensor,
-        })
+        }))
+    }
+
+    /// Opens the robot, mapped into the frame of the sensor.
+    ///
+    /// # Errors
+    /// As [`sensor`](FileOpener::sensor).
+    pub(crate) fn robot(&self) -> Result<Option<Described<dyn Robot>>, AcquireError> {
+        let (Some((robot, descriptor)), Some(registered)) = (self.base_robot()?, &self.rig.robot)
+        else {
+            return Ok(None);
+        };
+        let mapped = Registered::new(robot, registered, Deadline::after(FIRST_POSE));
+        let mapped =
+            mapped.map_err(|error| self.failed(DriverKind::Robot, OpenError::Device(error)))?;
+        let mapped: Box<dyn Robot> = Box::new(mapped);
+        Ok(Some((mapped, descriptor)))
     }
 
     /// Opens the robot in its base frame.
     ///
     /// # Errors
-    /// As [`all`](FileOpener::all).
+    /// As [`sensor`](FileOpener::sensor).
     pub(crate) fn base_robot(&self) -> Result<Option<Described<dyn Robot>>, AcquireError> {
         let [latency_ms, ..] = written_latencies_ms(self.rig);
         let robot = self.open(&self.drivers.robots, self.spec.robot.as_ref())?;
         Ok(robot.map(|robot| {
             let descriptor = robot.descriptor.clone();
             let of_facts = |facts: &Descriptor| latency_ms.or(facts.robot()?.latency_ms);
-            (robot.timely(of_facts), descriptor)
+            (robot.timely(self.rig.simulated, of_facts), descriptor)
         }))
     }
 
@@ -98,28 +140,47 @@ impl<'a> FileOpener<'a> {
         registry: &Registry<D>,
         device: Option<&Setting<String>>,
     ) -> Result<Option<Opened<D>>, AcquireError> {
-        let Some(device) = device else {
-            return Ok(None);
-        };
-        let refused = |(at, problem): (Option<usize>, SceneProblem)| {
-            AcquireError::from(self.rig.error(at, problem))
-        };
-        let selector = self.spec.selector(registry, device, "1").map_err(refused)?;
-        let factory = registry.get(selector.driver());
-        let source = factory.map(|factory| factory.descriptor().source());
-        if source.is_ok_and(|source| source != DriverSource::Real) {
-            let problem = format!(
-                "`{}` is simulated in the program: there is nothing to set up",
-                taceva_core::shown(&device.value)
-            );
-            return Err(refused((device.at(), SceneProblem::Contradiction(problem))));
-        }
+        self.check_device(registry, device)?;
+        self.opened(registry, device)
+    }
+
+    /// Opens a device that was checked before.
+    fn opened<D: Device + ?Sized>(
+        &self,
+        registry: &Registry<D>,
+        device: Option<&Setting<String>>,
+    ) -> Result<Option<Opened<D>>, AcquireError> {
         let opener = Opener {
             rig: &self.spec,
             unit: "1",
         };
-        let opened = opener.open(registry, Some(device), &mut Rig::new());
+        let opened = opener.open(registry, device, &mut Rig::new());
         opened.map_err(|error| self.failed(D::KIND, error))
+    }
+
+    fn check_device<D: Device + ?Sized>(
+        &self,
+        registry: &Registry<D>,
+        device: Option<&Setting<String>>,
+    ) -> Result<(), AcquireError> {
+        let described = self.spec.describe(registry, device, "1");
+        let described = described.map_err(|refused| self.refused(refused))?;
+        match device.zip(described) {
+            Some((device, described)) if described.source() != DriverSource::Real => {
+                let problem = format!(
+                    "`{}` is simulated in the program: there is nothing to set up",
+                    taceva_core::shown(&device.value)
+                );
+                let problem = SceneProblem::Contradiction(problem);
+                Err(self.refused((device.at(), problem)))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn refused(&self, refused: Refused) -> AcquireError {
+        let (at, problem) = refused;
+        AcquireError::from(self.rig.error(at, problem))
     }
 
     fn failed(&self, device: DriverKind, source: OpenError) -> AcquireError {

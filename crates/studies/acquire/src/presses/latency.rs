@@ -1,33 +1,65 @@
-//! Wrappers that correct the stamps of devices by their latency.
+//! Wrappers that correct the stamps of devices by their latency, and check their rate and stamps.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::time::Instant;
 
 use taceva_core::{
-    Axes, Deadline, DriverError, ExpiringMotion, ForceTransducer, FrameInfo, FrameMut, Guard,
-    GuardedMotion, GuardedStop, Halt, Interrupt, Lighting, Pose, Robot, RobotWatch, Sensor, Speed,
-    Stamp, Tare, Wrench,
+    Axes, Deadline, DriverError, DriverKey, ErrorKind, ExpiringMotion, ForceTransducer, FrameInfo,
+    FrameMut, Guard, GuardedMotion, GuardedStop, Halt, Interrupt, Lighting, Pose, Robot,
+    RobotWatch, SampleTiming, Sensor, Speed, Stamp, Tare, Wrench,
 };
 
-/// A device whose stamps are later than the observation by a known latency.
+/// A device whose stamps are later than the observation by a known latency. The timing of its samples is checked.
 pub(crate) struct Late<D: ?Sized> {
     latency_s: f64,
+    driver: DriverKey,
+    timing: SampleTiming,
     device: Box<D>,
 }
 
 impl<D: ?Sized> Late<D> {
-    /// Wraps `device`, whose stamps are `latency_ms` late.
-    pub(super) fn new(device: Box<D>, latency_ms: f64) -> Late<D> {
-        let latency_s = latency_ms * 1e-3;
-        Late { latency_s, device }
+    /// Wraps `device` of `driver`, whose stamps are `latency_ms` late.
+    pub(super) fn new(
+        device: Box<D>,
+        driver: DriverKey,
+        latency_ms: f64,
+        timing: SampleTiming,
+    ) -> Late<D> {
+        Late {
+            latency_s: latency_ms * 1e-3,
+            driver,
+            timing,
+            device,
+        }
     }
 
     fn true_stamp(&self, stamp: Stamp) -> Stamp {
         true_stamp(stamp, self.latency_s)
     }
+
+    /// Checks the rate and the stamp of a sample that was `asked` for.
+    fn checked<T>(
+        &mut self,
+        doing: &'static str,
+        asked: Instant,
+        taken: Result<T, DriverError>,
+        stamp: impl FnOnce(&T) -> Stamp,
+    ) -> Result<T, DriverError> {
+        self.timing.wait(asked.elapsed());
+        let sample = taken?;
+        let kept = self.timing.sample(Instant::now(), stamp(&sample));
+        kept.map_err(|error| {
+            DriverError::new(ErrorKind::DeviceFault, &self.driver, doing).because(error)
+        })?;
+        Ok(sample)
+    }
 }
 
 fn true_stamp(stamp: Stamp, latency_s: f64) -> Stamp {
+    if latency_s <= 0.0 {
+        return stamp;
+    }
     Stamp {
         valid_s: stamp.valid_s - latency_s,
         // The old stamp is the time of arrival, if the device gives no other.
@@ -45,7 +77,9 @@ impl ForceTransducer for Late<dyn ForceTransducer> {
     }
 
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
-        let (wrench, stamp) = self.device.read(deadline)?;
+        let asked = Instant::now();
+        let taken = self.device.read(deadline);
+        let (wrench, stamp) = self.checked("read the force", asked, taken, |(_, stamp)| *stamp)?;
         Ok((wrench, self.true_stamp(stamp)))
     }
 
@@ -177,7 +211,9 @@ impl Sensor for Late<dyn Sensor> {
     }
 
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
-        let stamp = self.device.capture(into, deadline)?;
+        let asked = Instant::now();
+        let taken = self.device.capture(into, deadline);
+        let stamp = self.checked("capture a frame", asked, taken, |stamp| *stamp)?;
         Ok(self.true_stamp(stamp))
     }
 
@@ -230,126 +266,4 @@ impl IntoDevice<dyn Sensor> for Late<dyn Sensor> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    struct Arrived;
-
-    impl ForceTransducer for Arrived {
-        fn axes(&self) -> Axes {
-            Axes::FORCE
-        }
-
-        fn read(&mut self, _: Deadline) -> Result<(Wrench, Stamp), DriverError> {
-            let stamp = Stamp {
-                valid_s: 7.0,
-                received_s: None,
-            };
-            Ok((Wrench::default(), stamp))
-        }
-
-        fn sequence(&self) -> Option<u64> {
-            Some(5)
-        }
-    }
-
-    /// A robot whose guarded motion ends by contact or arrival, at 7 s.
-    struct Stops {
-        is_felt: bool,
-    }
-
-    const AT_SEVEN: Stamp = Stamp {
-        valid_s: 7.0,
-        received_s: None,
-    };
-
-    impl Halt for Stops {
-        fn halt(&self) -> Result<(), DriverError> {
-            Ok(())
-        }
-    }
-
-    impl Robot for Stops {
-        fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
-            Ok((Pose::default(), AT_SEVEN))
-        }
-
-        fn move_to(&mut self, _: Pose, _: Speed, _: Deadline) -> Result<Stamp, DriverError> {
-            Ok(AT_SEVEN)
-        }
-
-        fn halt_handle(&self) -> Arc<dyn Halt> {
-            Arc::new(Stops { is_felt: false })
-        }
-
-        fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
-            Ok(())
-        }
-
-        fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
-            Some(self)
-        }
-
-        fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
-            Some(self)
-        }
-    }
-
-    impl ExpiringMotion for Stops {
-        fn move_expiring(&mut self, _: Pose, _: Speed, _: Deadline) -> Result<Stamp, DriverError> {
-            Ok(AT_SEVEN)
-        }
-    }
-
-    impl GuardedMotion for Stops {
-        fn move_guarded(
-            &mut self,
-            pose: Pose,
-            _: Speed,
-            _: Guard,
-            _: Deadline,
-        ) -> Result<GuardedStop, DriverError> {
-            let stamp = AT_SEVEN;
-            Ok(match self.is_felt {
-                true => GuardedStop::Guarded { pose, stamp },
-                false => GuardedStop::Arrived { stamp },
-            })
-        }
-    }
-
-    #[test]
-    fn the_stamps_of_a_guarded_motion_lose_the_latency_however_it_ends() {
-        for is_felt in [true, false] {
-            let stops: Box<dyn Robot> = Box::new(Stops { is_felt });
-            let mut late = Late::new(stops, 4.0);
-            let guarded = late.guarded_motion().expect("it has it");
-            let guard = Guard::at(taceva_core::Newton(0.5));
-            let speed = Speed::try_new(1.0).expect("a speed");
-            let stop = guarded.move_guarded(Pose::default(), speed, guard, Deadline::PASSED);
-            let (GuardedStop::Guarded { stamp, .. } | GuardedStop::Arrived { stamp }) =
-                stop.expect("it stops");
-            assert!((stamp.valid_s - 6.996).abs() < 1e-12, "{stamp:?}");
-            assert_eq!(stamp.received_s, Some(7.0));
-        }
-    }
-
-    #[test]
-    fn the_stamp_of_an_expiring_motion_loses_the_latency() {
-        let stops: Box<dyn Robot> = Box::new(Stops { is_felt: false });
-        let mut late = Late::new(stops, 4.0);
-        let expiring = late.expiring_motion().expect("it has it");
-        let speed = Speed::try_new(1.0).expect("a speed");
-        let stamp = expiring.move_expiring(Pose::default(), speed, Deadline::PASSED);
-        assert!((stamp.expect("it arrives").valid_s - 6.996).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_reading_that_was_stamped_on_arrival_was_true_by_the_latency_earlier() {
-        let arrived: Box<dyn ForceTransducer> = Box::new(Arrived);
-        let mut late = Late::new(arrived, 4.0);
-        let (_, stamp) = late.read(Deadline::PASSED).expect("a reading");
-        assert!((stamp.valid_s - 6.996).abs() < 1e-12, "{stamp:?}");
-        assert_eq!(stamp.received_s, Some(7.0));
-        assert_eq!(late.sequence(), Some(5));
-    }
-}
+mod tests;

@@ -3,13 +3,14 @@
 use std::collections::BTreeSet;
 use std::sync::PoisonError;
 
+use taceva_core::{by_count, counted};
 use taceva_drivers::{Drivers, OpenError};
 use taceva_protocol::{Answer, Left, Plan, Question, RigFile, RunError, StopCause};
 
 use super::changers::bring_unit;
 use super::devices::{OpenRig, Sitting};
 use crate::error::AcquireError;
-use crate::scene::{PlannedScene, PlannedStudy, RigSpec, StudySource};
+use crate::scene::{PlannedScene, PlannedStudy, RigSpec, StudySource, is_untaught};
 
 /// Changes on a real rig, by hand or by a changer.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -116,18 +117,23 @@ impl PlannedStudy {
             lights,
             units,
         } = changes;
-        let named = |names: &[String], changer: Option<&Vec<String>>, what: &str| {
+        let named = |names: &[String], changer: Option<&Vec<String>>, noun: &str, rest: &str| {
             let beside = match changer {
                 Some(_) => format!(", which the changer does not hold: {}", few(names)),
                 None => String::new(),
             };
             let count = names.len();
-            (count > 0).then(|| format!("{count} {what} are changed by hand{beside}"))
+            let are = by_count(count, "is", "are");
+            let counted = counted(count, noun);
+            (count > 0).then(|| format!("{counted}{rest} {are} changed by hand{beside}"))
         };
         let needed = [
-            named(&specimens, held.specimens.as_ref(), "specimens"),
-            (lights > 0).then(|| format!("{lights} lights are changed by hand")),
-            named(&units, held.units.as_ref(), "units of the sensor"),
+            named(&specimens, held.specimens.as_ref(), "specimen", ""),
+            (lights > 0).then(|| {
+                let are = by_count(lights, "is", "are");
+                format!("{} {are} changed by hand", counted(lights, "light"))
+            }),
+            named(&units, held.units.as_ref(), "unit", " of the sensor"),
         ];
         needed.into_iter().flatten().collect()
     }
@@ -181,6 +187,11 @@ impl PlannedStudy {
     /// Rig file that names its devices, if any.
     pub fn rig(&self) -> Option<&RigFile> {
         self.study.rig.as_deref()
+    }
+
+    /// True if its rig file still has the place of the robot that a new file begins with, so that a run is refused.
+    pub fn is_untaught(&self, drivers: &Drivers) -> bool {
+        self.rig().is_some_and(|rig| is_untaught(rig, drivers))
     }
 }
 

@@ -1,20 +1,21 @@
 //! `rig check`: rate, gaps and noise of each device of a rig, and the stop time of its robot.
 
-use std::fmt;
 use std::time::Duration;
 
 use taceva_core::{
-    Deadline, DriverError, EnablingSwitch, ErrorKind, ForceTransducer, FrameMut, Pose, Robot,
-    Sensor, Speed,
+    Deadline, Descriptor, DriverError, EnablingSwitch, ErrorKind, ForceTransducer, FrameMut, Pose,
+    Robot, Sensor, Speed,
 };
 use taceva_drivers::{Drivers, MonotonicClock};
 use taceva_protocol::{Answer, Cancel, Operator, Question, RigFile};
 
+use super::problem::{HALT_MS, RigProblem};
+use super::stock::{Stock, TriedStock, take_stock};
 use super::stream::{Listener, Stream};
 use super::switch::{SwitchCheck, look_at};
 use crate::error::AcquireError;
-use crate::presses::{FileDevices, FileOpener};
-use crate::scene::open_switch;
+use crate::presses::FileOpener;
+use crate::scene::{check_switch, is_untaught, open_switch};
 
 /// Duration of the measurement of each device.
 const LISTENED: Duration = Duration::from_secs(2);
@@ -32,8 +33,6 @@ const HOLD_PATIENCE_S: f64 = 10.0;
 const FEEL: Duration = Duration::from_millis(5);
 /// Time of the halt after the start of the motion.
 const INTO: Duration = Duration::from_millis(300);
-/// Longest time from a halt to a robot at rest, in ms, as plans demand of a stated stop time.
-const HALT_MS: f64 = 50.0;
 /// Age of readings that interrupts a press: in periods, and at least in ms.
 const STALE_PERIODS: f64 = 3.0;
 const STALE_MS: f64 = 50.0;
@@ -41,9 +40,11 @@ const STALE_MS: f64 = 50.0;
 const NOISE_PART: f64 = 0.5;
 
 /// Result of a check.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RigCheck {
+    /// True if the devices are emulated, as the rig file states.
+    pub simulated: bool,
     /// Force transducer at rest; noise in N.
     pub force: Option<Stream>,
     /// Pose of the robot at rest; noise in mm.
@@ -52,9 +53,13 @@ pub struct RigCheck {
     pub sensor: Option<Stream>,
     /// Enabling switch, if the rig file names one.
     pub switch: Option<SwitchCheck>,
-    /// Halt of the robot in motion; `None` if it was not allowed to move.
+    /// Changers and lighting that the rig file names and that opened.
+    pub changers: Vec<Stock>,
+    /// Halt of the robot in motion; `None` if it was left out.
     pub halt: Option<HaltTrip>,
-    /// Problems that would reject or stop a run.
+    /// Reason for which the halt was left out; `None` if it was timed.
+    pub halt_left_out: Option<String>,
+    /// Problems that would reject or stop a run, and devices that failed.
     pub problems: Vec<RigProblem>,
 }
 
@@ -70,135 +75,92 @@ pub struct HaltTrip {
     pub left_mm: f64,
 }
 
-/// Problems of a run on this rig, with their remedies.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-#[non_exhaustive]
-pub enum RigProblem {
-    /// A device gave no readings.
-    Unheard {
-        /// `force`, `robot` or `sensor`.
-        device: &'static str,
-    },
-    /// Gaps interrupt presses.
-    Gaps {
-        /// Longest gap, in ms.
-        gap_ms: f64,
-        /// Longest allowed gap, in ms.
-        allowed_ms: f64,
-    },
-    /// The measured noise is more than twice the noise that the driver states.
-    Noise {
-        /// `force` or `robot`.
-        device: &'static str,
-        /// Measured noise, in N or mm.
-        measured: f64,
-        /// Noise that the driver states, in the same unit.
-        stated: f64,
-    },
-    /// The robot stops too late.
-    SlowHalt {
-        /// Time until the motion had ended, in ms.
-        ended_ms: f64,
-    },
-    /// The robot did not stop.
-    NotHalted,
-    /// The enabling switch was never seen held, although the operator was asked to hold it.
-    Unheld,
-}
-
-impl fmt::Display for RigProblem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            RigProblem::Unheard { device } => write!(
-                f,
-                "the {device} sent nothing: check its cable, its address in the rig file, and whether another program uses it"
-            ),
-            RigProblem::Gaps { gap_ms, allowed_ms } => write!(
-                f,
-                "force readings arrive up to {gap_ms:.0} ms apart (limit {allowed_ms:.0} ms): stop other traffic on this network and other programs, or run with `chrt -f 10`"
-            ),
-            RigProblem::Noise {
-                device,
-                measured,
-                stated,
-            } => write!(
-                f,
-                "the {device} has noise of {measured:.4}, but its driver states {stated:.4}: presses may be halted without cause; check what shakes it"
-            ),
-            RigProblem::SlowHalt { ended_ms } => write!(
-                f,
-                "the robot came to rest {ended_ms:.0} ms after a halt, expected at most {HALT_MS} ms: lower `speed_mm_s` in contact, or shorten its braking at the controller"
-            ),
-            RigProblem::Unheld => f.write_str(
-                "the enabling switch was never read as held: hold it when the check asks for it; if you did, correct `byte` and `mask` of `enable`; nothing moves without it",
-            ),
-            RigProblem::NotHalted => f.write_str(
-                "the robot did not stop at a halt: do not run it; check the driver and the controller",
-            ),
-        }
-    }
-}
-
 /// Measures the devices of `rig`, and halts its robot once on its way up, if `operator` allows it or the rig is emulated.
 ///
+/// Every device is tried: one that fails becomes a problem, and the next one follows. Nothing moves if the robot, the force transducer or the
+/// enabling switch failed, or if the tip is not above the gel according to the file.
+///
 /// # Errors
-/// [`AcquireError::Scene`] with the line of the rig file, [`AcquireError::OpenOfRig`] if a device does not open, [`AcquireError::Device`] if one
-/// fails.
+/// [`AcquireError::Scene`] with the line of a wrong rig file, before a device is opened.
 pub fn check_rig(
     rig: &RigFile,
     drivers: &Drivers,
     mut operator: Option<&mut dyn Operator>,
 ) -> Result<RigCheck, AcquireError> {
-    // The switch comes first: without it no moving device is opened.
-    let switch = open_switch(rig, drivers)?;
-    let FileDevices {
-        robot,
-        force,
-        sensor,
-    } = FileOpener::new(rig, drivers).all()?;
+    let opener = FileOpener::new(rig, drivers);
+    check_switch(rig, drivers)?;
+    opener.check()?;
     let mut check = RigCheck {
-        force: None,
-        robot: None,
-        sensor: None,
-        switch: None,
-        halt: None,
-        problems: Vec::new(),
+        simulated: rig.simulated,
+        ..RigCheck::default()
     };
-    if let Some((mut force, descriptor)) = force {
-        let heard = listen_to_force(&mut *force)?;
-        let facts = descriptor.force();
-        let period_ms = facts
-            .and_then(|facts| facts.rate)
-            .map_or(0.0, |rate| 1e3 / rate.0);
-        let allowed_ms = STALE_MS.max(STALE_PERIODS * period_ms);
-        if heard.gap_ms > allowed_ms {
-            let gap_ms = heard.gap_ms;
-            check.problems.push(RigProblem::Gaps { gap_ms, allowed_ms });
+    // The switch comes first: without it no robot moves.
+    let switch = check.of("switch", open_switch(rig, drivers)).flatten();
+    let sensor = check.of("sensor", opener.sensor()).flatten();
+    let robot = check.of("robot", opener.robot()).flatten();
+    let force = check.of("force", opener.force()).flatten();
+    for TriedStock { key, holds } in take_stock(rig, &opener) {
+        if let Some(holds) = check.of(key, holds).flatten() {
+            check.changers.push(Stock { key, holds });
         }
-        let stated = facts.and_then(|facts| facts.noise).map(|noise| noise.0);
-        check.note("force", &heard, stated);
-        check.force = Some(heard);
+    }
+    if let Some((mut force, descriptor)) = force {
+        let heard = listen_to_force(&mut *force).map_err(without_answer);
+        if let Some(heard) = check.of("force", heard) {
+            check.hear_force(heard, &descriptor);
+        }
     }
     if let Some((mut sensor, _)) = sensor {
-        let heard = listen_to_sensor(&mut *sensor)?;
-        check.note("sensor", &heard, None);
-        check.sensor = Some(heard);
+        let heard = listen_to_sensor(&mut *sensor);
+        if let Some(heard) = check.of("sensor", heard) {
+            check.note("sensor", &heard, None);
+            check.sensor = Some(heard);
+        }
     }
     if let Some(switch) = &switch {
-        check.feel(&**switch, &mut operator)?;
+        let felt = check.feel(&**switch, &mut operator).map_err(without_answer);
+        check.of("switch", felt);
     }
-    if let Some((mut robot, descriptor)) = robot {
-        let heard = listen_to_robot(&mut *robot)?;
+    let Some((mut robot, descriptor)) = robot else {
+        check.halt_left_out = Some(match rig.robot {
+            Some(_) => check.obstacle().unwrap_or_default(),
+            None => "the rig file has no [robot]".to_owned(),
+        });
+        return Ok(check);
+    };
+    let heard = listen_to_robot(&mut *robot).map_err(without_answer);
+    if let Some(heard) = check.of("robot", heard) {
         let facts = descriptor.robot();
         let stated = facts.and_then(|facts| facts.pose_noise.or(facts.repeatability));
         check.note("robot", &heard, stated.map(|noise| noise.0));
         check.robot = Some(heard);
-        let name = descriptor.key().to_string();
-        if rig.simulated || operator.is_some_and(|operator| is_let_move(operator, name)) {
-            check.halt_on_its_way(&mut *robot, switch.as_deref())?;
+        let pose = robot.pose(DEADLINE).ok().filter(|_| heard.count > 0);
+        let depth_mm = pose.map_or(0.0, |(tip, _)| tip.position.z.0);
+        if is_untaught(rig, drivers) {
+            check.problems.push(RigProblem::Untaught);
+        } else if depth_mm > 0.0 {
+            check.problems.push(RigProblem::InGel { depth_mm });
         }
     }
+    let name = descriptor.key().to_string();
+    check.halt_left_out = check.obstacle();
+    if check.halt_left_out.is_some() {
+        return Ok(check);
+    }
+    if rig.simulated || operator.is_some_and(|operator| is_let_move(operator, name)) {
+        let halted = check.halt_on_its_way(&mut *robot, switch.as_deref());
+        check.of("robot", halted.map_err(without_answer));
+    } else {
+        check.halt_left_out = Some("nobody permitted the robot to move".to_owned());
+    }
     Ok(check)
+}
+
+/// The failure of an open device, with its remedy.
+fn without_answer(error: DriverError) -> String {
+    format!(
+        "{error}; check its cable and power, and whether another program uses it, then run `taceva rig check` again"
+    )
 }
 
 fn is_let_move(operator: &mut dyn Operator, robot: String) -> bool {
@@ -206,6 +168,60 @@ fn is_let_move(operator: &mut dyn Operator, robot: String) -> bool {
 }
 
 impl RigCheck {
+    /// The result of a step of `device`; a failure becomes a problem.
+    fn of<T>(&mut self, device: &'static str, tried: Result<T, impl ToString>) -> Option<T> {
+        match tried {
+            Ok(done) => Some(done),
+            Err(error) => {
+                let why = error.to_string();
+                self.problems.push(RigProblem::Failed { device, why });
+                None
+            }
+        }
+    }
+
+    /// Reason for which the robot must not move: devices that failed, or a place at which upwards may be downwards.
+    fn obstacle(&self) -> Option<String> {
+        let failed = self.problems.iter().filter(|problem| problem.is_failure());
+        let failed: Vec<&str> = failed
+            .filter_map(|problem| match problem.device()? {
+                "robot" => Some("the robot"),
+                "force" => Some("the force transducer"),
+                "switch" => Some("the enabling switch"),
+                _ => None,
+            })
+            .collect();
+        let mut problems = self.problems.iter();
+        let is_misplaced =
+            problems.any(|of| matches!(of, RigProblem::Untaught | RigProblem::InGel { .. }));
+        match failed.as_slice() {
+            [] if is_misplaced => {
+                Some("nothing moves, because the place of the robot is wrong".to_owned())
+            }
+            [] => None,
+            failed => Some(format!(
+                "nothing moves, because {} failed",
+                failed.join(" and ")
+            )),
+        }
+    }
+
+    /// Notes the readings of the force transducer that `descriptor` describes.
+    fn hear_force(&mut self, heard: Stream, descriptor: &Descriptor) {
+        let facts = descriptor.force();
+        let period_ms = facts
+            .and_then(|facts| facts.rate)
+            .map_or(0.0, |rate| 1e3 / rate.0);
+        let allowed_ms = STALE_MS.max(STALE_PERIODS * period_ms);
+        if heard.gap_ms > allowed_ms {
+            let gap_ms = heard.gap_ms;
+            self.problems.push(RigProblem::Gaps { gap_ms, allowed_ms });
+        }
+        let stated = facts.and_then(|facts| facts.noise).map(|noise| noise.0);
+        self.note("force", &heard, stated);
+        self.force = Some(heard);
+    }
+
     fn note(&mut self, device: &'static str, heard: &Stream, stated: Option<f64>) {
         if heard.count == 0 {
             self.problems.push(RigProblem::Unheard { device });
@@ -226,7 +242,7 @@ impl RigCheck {
         &mut self,
         switch: &dyn EnablingSwitch,
         operator: &mut Option<&mut dyn Operator>,
-    ) -> Result<(), AcquireError> {
+    ) -> Result<(), DriverError> {
         let patience = match operator {
             Some(operator) => {
                 operator.call_to_hold(HOLD_PATIENCE_S);
@@ -247,11 +263,13 @@ impl RigCheck {
         &mut self,
         robot: &mut dyn Robot,
         switch: Option<&dyn EnablingSwitch>,
-    ) -> Result<(), AcquireError> {
+    ) -> Result<(), DriverError> {
         let is_let_go = || switch.is_some_and(|switch| !switch.is_held().unwrap_or(false));
         if is_let_go() {
+            self.halt_left_out = Some("the enabling switch was released".to_owned());
             return Ok(());
         }
+        self.halt_left_out = Some("the robot failed on its way up".to_owned());
         robot.clear_halt(DEADLINE)?;
         let (from, _) = robot.pose(DEADLINE)?;
         let mut up = from;
@@ -278,10 +296,11 @@ impl RigCheck {
         match moved {
             Ok(_) => {
                 self.problems.push(RigProblem::NotHalted);
+                self.halt_left_out = Some("the robot did not stop, so there is no time".to_owned());
                 return Ok(());
             }
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            Err(error) => return Err(error.into()),
+            Err(error) => return Err(error),
         }
         let (left, _) = robot.pose(DEADLINE)?;
         let trip = HaltTrip {
@@ -294,6 +313,7 @@ impl RigCheck {
             self.problems.push(RigProblem::SlowHalt { ended_ms });
         }
         self.halt = Some(trip);
+        self.halt_left_out = None;
         Ok(())
     }
 }
@@ -345,11 +365,10 @@ fn listen_to_robot(robot: &mut dyn Robot) -> Result<Stream, DriverError> {
     })
 }
 
-fn listen_to_sensor(sensor: &mut dyn Sensor) -> Result<Stream, AcquireError> {
-    sensor.start(DEADLINE)?;
+fn listen_to_sensor(sensor: &mut dyn Sensor) -> Result<Stream, String> {
+    sensor.start(DEADLINE).map_err(without_answer)?;
     let info = sensor.frame_info();
-    let too_large =
-        || AcquireError::Request(format!("frames of {info} are too large for this machine"));
+    let too_large = || format!("frames of {info} are too large for this machine");
     let mut bytes = vec![0; info.byte_len().ok_or_else(too_large)?];
     let heard = listen(|listener| {
         let into = FrameMut::new(info, &mut bytes)
@@ -363,7 +382,7 @@ fn listen_to_sensor(sensor: &mut dyn Sensor) -> Result<Stream, AcquireError> {
         Ok(())
     });
     let stopped = sensor.stop();
-    let heard = heard?;
-    stopped?;
-    Ok(heard)
+    heard
+        .and_then(|heard| stopped.map(|()| heard))
+        .map_err(without_answer)
 }

@@ -33,6 +33,8 @@ indentations = 1
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RigTap {
+    /// True if the devices are emulated, as the rig file states.
+    pub simulated: bool,
     /// Number of taps.
     pub taps: usize,
     /// Previous latencies of robot, transducer and sensor, ms: from the rig file, or else from the drivers.
@@ -97,6 +99,7 @@ pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireErr
     let (force, sensor) = tapped.latencies().map_err(refused)?;
     let latencies = RigLatencies::measured(before_ms, &force, &sensor);
     Ok(RigTap {
+        simulated: rig.simulated,
         taps: tapped.count(),
         before_ms,
         force,

@@ -150,7 +150,8 @@ impl RigSpec {
         Ok(described.and_then(|described| Some(described.changer()?.holds.clone())))
     }
 
-    fn describe<D: Device + ?Sized>(
+    /// Descriptor of `device` with its arguments. Opens nothing.
+    pub(crate) fn describe<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,
         device: Option<&Setting<String>>,
@@ -189,9 +190,10 @@ pub(crate) fn check_drivers(scene: &Scene, drivers: &Drivers) -> Result<(), Scen
     scene.check_drivers(&known)
 }
 
-/// Rejects an `enable` that does not name an enabling switch, with the line of the rig file. Also rejects a simulated robot: no switch can be held in
-/// simulated time. Opens nothing.
+/// Rejects an `enable` that does not name an enabling switch, with the line of the rig file, and a switch in place of a device. Also rejects a
+/// simulated robot: no switch can be held in simulated time. Opens nothing.
 pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
+    check_places(rig, drivers)?;
     let Some(operator) = &rig.operator else {
         return Ok(());
     };
@@ -209,6 +211,26 @@ pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), Scene
         let problem = "`enable`: the robot is simulated, and no switch can be held in simulated time: remove [operator]";
         let problem = SceneProblem::Contradiction(problem.to_owned());
         return Err(refused((enable.at(), problem)));
+    }
+    Ok(())
+}
+
+/// Rejects an enabling switch as robot, force transducer or sensor of `rig`.
+fn check_places(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
+    let robot = rig.robot.as_ref().map(|robot| &robot.driver);
+    let force = rig.force.as_ref().map(|force| &force.driver);
+    let sensor = rig.sensor.as_ref().map(|sensor| &sensor.driver);
+    for device in [robot, force, sensor].into_iter().flatten() {
+        let selector: Result<Selector, _> = device.value.parse();
+        if let Ok(selector) = selector
+            && drivers.switches.has(selector.driver())
+        {
+            let problem = format!(
+                "`{}` is an enabling switch and measures nothing: write it as `enable` under [operator]",
+                selector.driver()
+            );
+            return Err(rig.error(device.at(), SceneProblem::Contradiction(problem)));
+        }
     }
     Ok(())
 }
@@ -243,6 +265,33 @@ pub(crate) fn check_changers(rig: &RigFile, drivers: &Drivers) -> Result<(), Sce
         }
     }
     Ok(())
+}
+
+/// True if the robot of `rig` moves in its base frame, and the file still has the place that a new file begins with.
+pub(crate) fn is_untaught(rig: &RigFile, drivers: &Drivers) -> bool {
+    let Some(robot) = &rig.robot else {
+        return false;
+    };
+    let selector: Option<Selector> = robot.driver.value.parse().ok();
+    let factory = selector.and_then(|selector| drivers.robots.get(selector.driver()).ok());
+    let facts = factory.and_then(|factory| factory.descriptor().robot());
+    facts.is_some_and(|facts| facts.base_frame)
+        && robot.origin_mm.value.iter().all(|mm| *mm == 0.0)
+        && robot.axes.value.to_string() == r#"["x", "y", "z"]"#
+}
+
+/// Rejects a robot whose place is that of a new file: it would move elsewhere than to the gel. Opens nothing.
+pub(crate) fn check_taught(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
+    match &rig.robot {
+        Some(robot) if is_untaught(rig, drivers) => {
+            let problem = format!(
+                "`origin_mm` and `axes` are those of a new file: run taceva rig teach {}; nothing moves before",
+                taceva_core::shown(rig.name())
+            );
+            Err(rig.error(robot.origin_mm.at(), SceneProblem::Contradiction(problem)))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// True if the robot of `rig` is simulated in this program.

@@ -7,6 +7,7 @@ use std::collections::BTreeSet;
 use taceva_dataset::Dataset;
 use taceva_models::{FoldGroups, FoldSpec, Fractions, Split, SplitError, SplitKind, SplitSpec};
 
+use super::fold_progress::FoldProgress;
 use super::request::{EvaluateRequest, Evaluated};
 use super::scores::{Behind, score};
 use crate::assess::FitFacts;
@@ -319,10 +320,15 @@ impl<'a> Folds<'a> {
         let (mut passes, mut unlearnt, mut unpredicted) = (1, 0, 0);
         for (number, fold) in (1_usize..).zip(&self.folds) {
             let plan = self.plan(fit, fold)?;
-            let (name, count) = (fit.model.name(), self.folds.len());
-            let stage = format!("fit {name}, fold {number} of {count}");
-            work.progress.begin(&stage, None);
-            work.progress.end();
+            let mut name = format!("fold {number} of {}", self.folds.len());
+            if self.are_recordings {
+                name += &format!(" without {}", fold.name);
+            }
+            let progress = FoldProgress::of(work.progress, fit.model.name(), name);
+            let work = Work {
+                progress: &progress,
+                ..work
+            };
             if plan.reads_frames() {
                 decoded.extend(plan.train.iter().chain(&plan.validation).copied());
                 passes = plan.passes();

@@ -1,6 +1,6 @@
 //! Steps of an evaluation, before any frame is read.
 
-use taceva_core::{SkipReason, Skipped, shown};
+use taceva_core::{SkipReason, Skipped, counted, shown};
 use taceva_dataset::Dataset;
 
 use super::folds;
@@ -18,8 +18,8 @@ use crate::rows::{DataPart, Divided};
 /// [`EvaluateError`] if the request is not valid.
 pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Plan, EvaluateError> {
     let mut plan = Plan::default();
-    let rows = dataset.table().rows();
-    plan.step("read", format!("{rows} rows of {}", shown(&dataset.path())));
+    let rows = counted(dataset.table().rows(), "row");
+    plan.step("read", format!("{rows} of {}", shown(&dataset.path())));
     let (target, channels, reads_frames) = match &request.model {
         ModelChoice::Fit(fit) => {
             let fit = match folds::of(dataset, fit, request.part)? {
@@ -53,7 +53,11 @@ pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Pla
     if reads_frames {
         plan.step(
             "decode",
-            format!("{count} frames of the part `{}`", target.part.name()),
+            format!(
+                "{} of the part `{}`",
+                counted(count, "frame"),
+                target.part.name()
+            ),
         );
     } else {
         plan.skipped
@@ -61,7 +65,7 @@ pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Pla
     }
     let metrics = metrics(dataset, &channels, request.asked())?;
     let ids: Vec<&str> = metrics.kept().iter().map(|metric| metric.id).collect();
-    plan.step("predict", format!("{count} samples"));
+    plan.step("predict", counted(count, "sample"));
     plan.step("score", ids.join(", "));
     plan.skipped.extend(metrics.skipped().iter().cloned());
     Ok(plan)

@@ -1,6 +1,6 @@
 //! A fit on a dataset: its channels, its rows, and the frames it will read.
 
-use taceva_core::Channels;
+use taceva_core::{Channels, counted};
 use taceva_dataset::Dataset;
 use taceva_models::{
     Checkpoints, ChosenModel, FeatureSpec, ModelEstimator, ModelSettings, OpenFeatures,
@@ -160,21 +160,24 @@ impl<'a> FitPlan<'a> {
                 },
             };
             match self.reads_frames() {
-                true => plan.step("decode", format!("{rows} frames to features {features}")),
-                false => plan.step("read", format!("{features} of {rows} samples")),
+                true => plan.step(
+                    "decode",
+                    format!("{} to features {features}", counted(rows, "frame")),
+                ),
+                false => plan.step("read", format!("{features} of {}", counted(rows, "sample"))),
             }
         }
         let names: Vec<&str> = self.channels.iter().map(|channel| channel.name()).collect();
         plan.step(
             "fit",
             format!(
-                "{} of {} on {} training samples, settings chosen on {}",
+                "{} of {} on {}, settings chosen on {}",
                 self.model.name(),
                 names.join(", "),
-                self.train.len(),
+                counted(self.train.len(), "training sample"),
                 match self.validation.len() {
                     0 => "the training part, leaving groups out".to_owned(),
-                    count => format!("{count} validation samples"),
+                    count => counted(count, "validation sample"),
                 }
             ),
         );

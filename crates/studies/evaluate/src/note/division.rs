@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use taceva_core::shown;
+use taceva_core::{counted, shown};
 use taceva_results::OPTIMISTIC;
 
 /// Order of the samples, by which they are neighbours.
@@ -77,7 +77,8 @@ pub(super) fn write(
     match division {
         Division::Blocks { count, gap } => write!(
             f,
-            ", so {count} blocks of time stay together, with a gap of {gap} samples between training and test blocks"
+            ", so {count} blocks of time stay together, with a gap of {} between training and test blocks",
+            counted(*gap, "sample")
         ),
         Division::Column(name) => {
             write!(f, ", so samples with equal `{}` stay together", shown(name))

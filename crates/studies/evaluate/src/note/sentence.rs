@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use taceva_core::{Channel, shown};
+use taceva_core::{Channel, by_count, counted, shown};
 use taceva_results::OPTIMISTIC;
 
 use super::{Independence, Learning, Note, division};
@@ -29,7 +29,8 @@ impl fmt::Display for Note {
             } => clusters(*recordings, *points, *least, f),
             Note::FewPoints(points) => write!(
                 f,
-                "scored on {points} contact points, too few for intervals; test on more of them: --split 'by-point 50/10/40'"
+                "scored on {}, too few for intervals; test on more of them: --split 'by-point 50/10/40'",
+                counted(*points, "contact point")
             ),
             Note::Extended {
                 recording,
@@ -37,8 +38,10 @@ impl fmt::Display for Note {
                 extension,
             } => write!(
                 f,
-                "{}{added} samples were added to {} on {} from {}; each sample before kept its part",
+                "{}{} {} added to {} on {} from {}; each sample before kept its part",
                 of(recording),
+                counted(*added, "sample"),
+                by_count(*added, "was", "were"),
                 extension.rows,
                 extension.date,
                 shown(&extension.from)
@@ -93,9 +96,10 @@ impl fmt::Display for Note {
                 most,
             } => write!(
                 f,
-                "rotation {}: mean angle between predictions and truth {mean:.2} degrees over {samples} samples, 95 % below {most:.2}; \
+                "rotation {}: mean angle between predictions and truth {mean:.2} degrees over {}, 95 % below {most:.2}; \
                  scores of single components depend on how the rotation is written",
-                channels.join(", ")
+                channels.join(", "),
+                counted(*samples, "sample")
             ),
             Note::Seen(part) => write!(
                 f,
@@ -117,7 +121,10 @@ impl fmt::Display for Note {
             ),
             Note::LeftOut { part, count } => write!(
                 f,
-                "{count} samples of the part {part} lack a label or a frame and were left out"
+                "{} of the part {part} {} a label or a frame and {} left out",
+                counted(*count, "sample"),
+                by_count(*count, "lacks", "lack"),
+                by_count(*count, "was", "were")
             ),
             Note::Bounded(shares) => {
                 let shares: Vec<String> = shares
@@ -164,7 +171,7 @@ impl fmt::Display for Note {
             Note::Unbounded => f.write_str(
                 "predictions were not clipped to the bounds of the training labels, as those of other models are",
             ),
-            Note::States(count) => write!(f, "{count} states merged"),
+            Note::States(count) => write!(f, "{} merged", counted(*count, "state")),
             Note::Shards([own, all]) => write!(
                 f,
                 "{own} of {all} rows: the others are in shards that were not merged"
@@ -191,14 +198,14 @@ impl fmt::Display for Note {
                 metrics.join(", "),
                 shown(&of.join(", "))
             ),
-            Note::DetectionLimit => f.write_str(
-                "detection limit: not verified; noise_equivalent_force uses untouched frames only; light presses at many places would \
-                 verify a limit",
-            ),
+            Note::DetectionLimit(detection) => write!(f, "{detection}"),
             Note::Spacings(way) => f.write_str(way),
             Note::FramesRetried(count) => write!(
                 f,
-                "{count} frames were lost, damaged or older than their contact, and were recorded again"
+                "{} {were} lost, damaged or older than {} contact, and {were} recorded again",
+                counted(*count, "frame"),
+                by_count(*count, "its", "their"),
+                were = by_count(*count, "was", "were")
             ),
         }
     }
@@ -220,20 +227,24 @@ fn clusters(
     if recordings < least {
         return write!(
             f,
-            "scored on {points} contact points of {recordings} recordings; intervals by contact point do not show how scores vary between \
-             recordings; that takes {least} recordings with scored samples"
+            "scored on {} of {}; intervals by contact point do not show how scores vary between \
+             recordings; that takes {least} recordings with scored samples",
+            counted(points, "contact point"),
+            counted(recordings, "recording")
         );
     }
     write!(
         f,
-        "intervals of errors, R² and skill are by recording ({recordings} recordings with {points} contact points): they show how scores \
-         vary between recordings"
+        "intervals of errors, R² and skill are by recording ({} with {}): they show how scores \
+         vary between recordings",
+        counted(recordings, "recording"),
+        counted(points, "contact point")
     )?;
     if recordings < CLUSTERS_MANY {
         write!(
             f,
-            "; {recordings} are few: one more recording may change an interval much, since it has only {} degrees of freedom",
-            recordings - 1
+            "; {recordings} are few: one more recording may change an interval much, since it has only {} of freedom",
+            counted(recordings.saturating_sub(1), "degree")
         )?;
     }
     Ok(())
@@ -266,4 +277,38 @@ fn unit_of_one(names: &[String], f: &mut fmt::Formatter<'_>) -> fmt::Result {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_of_a_thing_is_counted_as_one() {
+        let left_out = |count| Note::LeftOut {
+            part: "test".to_owned(),
+            count,
+        };
+        for (note, said) in [
+            (
+                Note::FramesRetried(1),
+                "1 frame was lost, damaged or older than its contact, and was recorded again",
+            ),
+            (
+                Note::FramesRetried(2),
+                "2 frames were lost, damaged or older than their contact, and were recorded again",
+            ),
+            (
+                left_out(1),
+                "1 sample of the part test lacks a label or a frame and was left out",
+            ),
+            (
+                left_out(9),
+                "9 samples of the part test lack a label or a frame and were left out",
+            ),
+            (Note::States(1), "1 state merged"),
+        ] {
+            assert_eq!(note.to_string(), said);
+        }
+    }
 }

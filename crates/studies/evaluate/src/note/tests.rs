@@ -1,3 +1,6 @@
+use taceva_core::Unit;
+use taceva_results::{Score, Value, Variant};
+
 use super::*;
 
 #[test]
@@ -55,4 +58,45 @@ fn depths_state_the_uncertainty_of_their_zero_and_how_many_have_none() {
         ),
         "{some}"
     );
+}
+
+#[test]
+fn a_detection_limit_names_the_presses_that_it_stands_on_or_the_reason_that_there_is_none() {
+    let score = |metric: &str, value: Option<f64>| {
+        let mut score = Score::of_number(metric, "Fz", value.unwrap_or_default(), Unit::Newton);
+        if value.is_none() {
+            score.value = Value::Undefined("no light press".to_owned());
+        }
+        score
+    };
+    let said = |scores: &[Score]| Detection::of(scores).map(|detection| detection.to_string());
+    let noise = score("noise_equivalent_force", Some(0.04));
+    let only_noise = said(std::slice::from_ref(&noise)).expect("a note");
+    assert!(
+        only_noise.starts_with("detection limit: not verified; noise_equivalent_force uses"),
+        "{only_noise}"
+    );
+    let none = said(&[noise.clone(), score("detection_limit", None)]).expect("a note");
+    assert!(
+        none.starts_with("detection limit: not verified (no light press); "),
+        "{none}"
+    );
+    let mut limit = score("detection_limit", Some(0.0812));
+    limit.n = 24;
+    limit.counts.push(("places".to_owned(), 12));
+    let forces = [("least_force", 0.021), ("greatest_force", 0.199)];
+    limit.variants = forces
+        .map(|(name, force)| Variant {
+            name: name.to_owned(),
+            value: Value::Number(force),
+            unit: Unit::Newton,
+            interval: None,
+        })
+        .to_vec();
+    assert_eq!(
+        said(&[noise, limit]).expect("a note"),
+        "detection limit: 0.081 N of Fz, from 24 light presses of 0.021 N to 0.199 N at 12 places; it is not verified for other \
+         forces, places and days"
+    );
+    assert_eq!(said(&[score("mae", Some(0.1))]), None);
 }

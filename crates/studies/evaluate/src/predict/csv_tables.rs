@@ -6,14 +6,15 @@ use taceva_core::Column;
 use taceva_results::Samples;
 
 use super::Predicted;
+use crate::rows::DISTANCE;
 
 impl Predicted {
-    /// Writes the predictions as `score` reads them: `sample` and one column for each channel.
+    /// Writes the predictions as `score` reads them: `sample`, one column for each channel, and `distance` if it is known.
     ///
     /// # Errors
     /// Those of `out`.
     pub fn write_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
-        self.write(&self.prediction, false, out)
+        self.write(&self.prediction, false, self.distance(), out)
     }
 
     /// Writes the unclipped predictions in the form of [`write_predictions`](Predicted::write_predictions); `score` computes robustness
@@ -22,7 +23,7 @@ impl Predicted {
     /// # Errors
     /// Those of `out`.
     pub fn write_unbounded_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
-        self.write(&self.unbounded, false, out)
+        self.write(&self.unbounded, false, self.distance(), out)
     }
 
     /// Writes the standard deviation of each prediction: `sample` and one column for each channel. Returns false if the model gives none.
@@ -31,7 +32,7 @@ impl Predicted {
     /// Those of `out`.
     pub fn write_deviations(&self, out: &mut dyn Write) -> io::Result<bool> {
         match &self.deviation {
-            Some(deviation) => self.write(deviation, false, out).map(|()| true),
+            Some(deviation) => self.write(deviation, false, None, out).map(|()| true),
             None => Ok(false),
         }
     }
@@ -42,10 +43,16 @@ impl Predicted {
     /// # Errors
     /// Those of `out`.
     pub fn write_truth(&self, out: &mut dyn Write) -> io::Result<()> {
-        self.write(&self.truth, true, out)
+        self.write(&self.truth, true, None, out)
     }
 
-    fn write(&self, columns: &[Column], is_truth: bool, out: &mut dyn Write) -> io::Result<()> {
+    fn write(
+        &self,
+        columns: &[Column],
+        is_truth: bool,
+        distance: Option<&[f64]>,
+        out: &mut dyn Write,
+    ) -> io::Result<()> {
         let points = self.points.as_ref().filter(|_| is_truth);
         let beside = if is_truth { &self.beside[..] } else { &[] };
         let mut writer = csv::Writer::from_writer(out);
@@ -53,6 +60,7 @@ impl Predicted {
         head.extend(points.map(|_| "point_id"));
         head.extend(beside.iter().map(|(name, _)| *name));
         head.extend(self.channels.iter().map(|channel| channel.name()));
+        head.extend(distance.map(|_| DISTANCE));
         writer.write_record(head)?;
         for row in 0..self.rows() {
             let mut cells = vec![self.ids[row].clone()];
@@ -63,6 +71,7 @@ impl Predicted {
             let text =
                 |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
             cells.extend(values.map(text));
+            cells.extend(distance.map(|distance| format!("{:?}", distance[row])));
             writer.write_record(cells)?;
         }
         writer.flush()

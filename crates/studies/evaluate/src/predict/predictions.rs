@@ -25,6 +25,8 @@ pub struct Predicted {
     pub(super) unbounded: Vec<Column>,
     /// The standard deviation of each prediction, if the model gives one.
     pub(super) deviation: Option<Vec<Column>>,
+    /// Distance of each picture from the training part of the model, 1 at its limit, if it was requested and the model knows it.
+    pub(super) distance: Option<Vec<f64>>,
     /// True for each prediction beyond the bounds of the model, by channel; `None` for a channel without bounds.
     pub(super) beyond: Vec<Option<Vec<bool>>>,
     /// The best constant predictions, by channel, as far as the model knows them.
@@ -69,6 +71,10 @@ impl Predicted {
             join(&mut own, &other);
             own
         });
+        self.distance = self.distance.zip(other.distance).map(|(mut own, other)| {
+            own.extend(other);
+            own
+        });
         let beyond = self.beyond.into_iter().zip(other.beyond);
         let both = beyond.map(|pair| match pair {
             (Some(mut own), Some(other)) => {
@@ -109,6 +115,9 @@ impl Predicted {
             prediction: columns(self.prediction),
             unbounded: columns(self.unbounded),
             deviation: self.deviation.map(columns),
+            distance: self
+                .distance
+                .map(|distance| order.iter().map(|&at| distance[at]).collect()),
             beyond: self
                 .beyond
                 .into_iter()
@@ -182,6 +191,11 @@ impl Predicted {
     /// The standard deviations of the predictions, if the model gives them.
     pub fn deviation(&self) -> Option<&[Column]> {
         self.deviation.as_deref()
+    }
+
+    /// The [distance](taceva_models::FeatureDistance) of each picture from the training part, if [`predict`](super::predict) computed it.
+    pub fn distance(&self) -> Option<&[f64]> {
+        self.distance.as_deref()
     }
 
     /// The contact point of each row, if all rows name one.

@@ -92,7 +92,7 @@ impl Matching {
     /// Rejects the first pair of rows that disagrees in a column of both tables.
     ///
     /// # Errors
-    /// [`EvaluateError::Dataset`] at the cell of the predictions.
+    /// [`EvaluateError::Table`] at the cell of the predictions.
     pub(super) fn check(
         &self,
         [truth, prediction]: [&CsvTable; 2],

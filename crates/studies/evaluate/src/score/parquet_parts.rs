@@ -5,8 +5,7 @@ use std::io::{Read, Seek, SeekFrom};
 use std::ops::Range;
 use std::path::Path;
 
-use taceva_dataset::DatasetError;
-use taceva_import::CsvTable;
+use taceva_import::{CsvTable, ImportError};
 use taceva_tables::ParquetTable;
 
 use crate::error::EvaluateError;
@@ -32,7 +31,7 @@ pub(super) fn is_parquet(path: &Path) -> bool {
 /// The given columns of some rows.
 ///
 /// # Errors
-/// [`EvaluateError::Parquet`]; [`EvaluateError::Dataset`] for more text than is read at once.
+/// [`EvaluateError::Parquet`]; [`EvaluateError::Table`] for more text than is read at once.
 pub(super) fn read(
     table: &ParquetTable,
     names: &[String],
@@ -55,8 +54,8 @@ pub(super) fn read(
 }
 
 /// Moves an error to its place in the file: a row number, since a Parquet file has no lines.
-pub(super) fn by_row(mut error: DatasetError, first: u64) -> DatasetError {
-    if let DatasetError::Table { place, .. } = &mut error
+pub(super) fn by_row(mut error: ImportError, first: u64) -> ImportError {
+    if let ImportError::Table { place, .. } = &mut error
         && let Some(line) = place.line.take()
     {
         // The header is line 1.

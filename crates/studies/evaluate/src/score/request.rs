@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use taceva_core::Unit;
 
+use super::period::Period;
 use super::row_key::RowKey;
 
 /// Request of scores.
@@ -16,8 +17,9 @@ pub struct ScoreRequest {
     pub prediction: PathBuf,
     /// Units of channels besides the six; others have the unit 1.
     pub units: Vec<(String, Unit)>,
-    /// Periods of angles, degrees: values that differ by a period are equal. A channel named only here is in degrees.
-    pub periods: Vec<(String, u16)>,
+    /// Periods of angles: values that differ by a period are equal. A channel named only here is in degrees, or in radians by its name (`_rad`)
+    /// or by a multiple of π.
+    pub periods: Vec<(String, Period)>,
     /// The key that pairs rows; `None` to find it by name.
     pub key: Option<RowKey>,
     /// True if samples are independent, so that each is a point of its own in intervals.

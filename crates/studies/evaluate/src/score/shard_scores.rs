@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use taceva_core::{Channel, ErrorKind, ModelError, Progress, shown};
+use taceva_core::{Channel, ErrorKind, ModelError, Progress, counted, shown};
 use taceva_dataset::Digest;
 use taceva_dataset::internal::each_part;
 use taceva_import::{CsvParts, CsvTable};
@@ -66,8 +66,8 @@ impl ScoreTables {
             false => Err(EvaluateError::Tables {
                 path: tables.prediction.path().to_owned(),
                 problem: format!(
-                    "{} rows, but {} has {}: each row of the truth needs one prediction",
-                    tables.prediction.rows(),
+                    "{}, but {} has {}: each row of the truth needs one prediction",
+                    counted(tables.prediction.rows(), "row"),
                     shown(tables.truth.path()),
                     tables.truth.rows()
                 ),

@@ -174,7 +174,7 @@ impl Reader<'_> {
     /// Moves `error` from the rows of a part to its place in the file.
     pub(super) fn placed(&self, error: EvaluateError, part: u64) -> EvaluateError {
         match (self, error) {
-            (Reader::Parquet(table, _), EvaluateError::Dataset(error)) => {
+            (Reader::Parquet(table, _), EvaluateError::Table(error)) => {
                 parquet_parts::by_row(error, rows_of(part, table.rows()).start).into()
             }
             (_, error) => error,
@@ -188,10 +188,5 @@ pub(super) fn rows_of(part: u64, rows: u64) -> Range<u64> {
 }
 
 fn read_error(path: &Path, source: io::Error) -> EvaluateError {
-    DatasetError::Io {
-        doing: "read",
-        path: path.to_owned(),
-        source,
-    }
-    .into()
+    DatasetError::io("read", path)(source).into()
 }

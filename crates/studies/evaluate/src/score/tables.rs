@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 use taceva_core::shown;
 
-use taceva_core::{Channel, Channels, Unit};
+use taceva_core::{Channel, Channels, Unit, counted};
 use taceva_dataset::internal::each_part;
 use taceva_dataset::{Digest, Place};
 use taceva_import::CsvTable;
@@ -16,6 +16,7 @@ use super::table_parts::TableParts;
 use super::{ScoreRequest, parquet_parts};
 use crate::error::EvaluateError;
 use crate::note::Note;
+use crate::rows::DISTANCE;
 
 /// Pairing of rows.
 #[derive(Debug)]
@@ -116,7 +117,10 @@ pub(super) fn channels(
             || KEY_NAMES.contains(&name)
             || keys.names().any(|key| key == name)
     };
-    let is_channel = |name: &&String| is_declared(request, name) || !is_beside(name);
+    // Distances that `predict` writes are no predictions, unless the truth has such a column.
+    let is_distance = |name: &str| name == DISTANCE && !truth.has(name);
+    let is_channel =
+        |name: &&String| is_declared(request, name) || !(is_beside(name) || is_distance(name));
     let six = |name: &str| {
         Channel::SIX
             .into_iter()
@@ -135,8 +139,12 @@ pub(super) fn channels(
             .map(|(_, unit)| *unit);
         let declared = declared.or_else(|| six(name).map(|channel| channel.unit()));
         let channel = match periods.iter().find(|(known, _)| known == name) {
-            Some((_, period)) => Channel::named(name, declared.unwrap_or(Unit::Degree))
-                .and_then(|channel| channel.with_period(*period)),
+            Some((_, period)) => {
+                let unit = declared.unwrap_or_else(|| period.own_unit(name));
+                let degrees = period.degrees(name, unit);
+                let degrees = degrees.map_err(EvaluateError::Request)?;
+                Channel::named(name, unit).and_then(|channel| channel.with_period(degrees))
+            }
             None => Channel::named(name, declared.unwrap_or(Unit::One)),
         };
         found.push(channel.map_err(|error| wrong(prediction, error.to_string()))?);
@@ -209,8 +217,8 @@ pub(super) fn pair<'a>(
         return Err(EvaluateError::Tables {
             path: prediction.path().to_owned(),
             problem: format!(
-                "{} rows, but {} has {}; rows are matched by order, because no column `sample` or `id` is in both tables",
-                prediction.rows(),
+                "{}, but {} has {}; rows are matched by order, because no column `sample` or `id` is in both tables",
+                counted(prediction.rows(), "row"),
                 shown(&truth.path()),
                 truth.rows()
             ),
@@ -248,7 +256,7 @@ fn rows_by_key<'a>(
 /// The error for a row whose key is empty.
 ///
 /// # Errors
-/// [`EvaluateError::Dataset`] if the table has no column called `name`.
+/// [`EvaluateError::Table`] if the table has no column called `name`.
 pub(super) fn without_key(
     table: &CsvTable,
     row: usize,

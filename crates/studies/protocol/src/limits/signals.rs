@@ -104,7 +104,7 @@ impl Signals {
 
 /// Rejects a rig with two clocks: that of a simulated bench and that of the machine.
 ///
-/// A real sensor may join a bench: its frames are stamped on arrival.
+/// A real sensor may join a bench: its frames are stamped on arrival, and its recording is simulated.
 fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneError> {
     let is_simulated = |device: &Descriptor| device.source() == DriverSource::Simulated;
     let Some(robot) = &rig.robot else {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
-use taceva_core::{Field, SkipReason};
+use taceva_core::{Field, SkipReason, counted};
 
 use super::{Plan, PlannedMetric, PlannedPress};
 use crate::reason::{PlanReason, PlanSkip, Subject};
@@ -89,12 +89,12 @@ impl fmt::Display for Costs<'_> {
         let cost = &self.0.cost;
         write!(
             f,
-            "{} presses, ~{:.0} min",
-            cost.presses,
+            "{}, ~{:.0} min",
+            counted(cost.presses, "press"),
             cost.minutes.ceil()
         )?;
         if cost.frames > 0 {
-            write!(f, ", {} frames", cost.frames)?;
+            write!(f, ", {}", counted(cost.frames, "frame"))?;
         }
         if let Some(bytes) = cost.bytes.filter(|bytes| *bytes > 0) {
             // Lossless compression reduces it by an amount that depends on the noise.

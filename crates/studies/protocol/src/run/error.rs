@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use taceva_core::{DriverError, Fault, SinkError};
+use taceva_core::{DriverError, Fault, SinkError, by_count, counted};
 
 use super::halt_reason::Trip;
 use super::reference_touch::TouchFault;
@@ -29,7 +29,10 @@ pub enum StopCause {
     Cancelled,
     /// Presses are left because the operator skipped a step; all others are made.
     #[error(
-        "{presses} presses are left because the operator skipped a step that they need: resume the same run"
+        "{} {} left because the operator skipped a step that {}: resume the same run",
+        counted(*presses, "press"),
+        by_count(*presses, "is", "are"),
+        by_count(*presses, "it needs", "they need")
     )]
     Skipped {
         /// Number of presses left.

@@ -187,7 +187,7 @@ pub enum SceneProblem {
     },
     /// Devices use different clocks.
     #[error(
-        "`{simulated}` uses simulated time and `{real}` uses the clock of this machine, but a rig has one clock: choose both devices simulated or both real; only a real sensor may join a simulated robot, which stamps its pictures"
+        "`{simulated}` uses simulated time and `{real}` uses the clock of this machine, but a rig has one clock: choose both devices simulated or both real; only a sensor may be real beside a simulated robot, which stamps its pictures, and its recording is then `simulated`"
     )]
     MixedClocks {
         /// The simulated device.

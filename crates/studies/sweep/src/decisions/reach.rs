@@ -18,20 +18,19 @@ pub(super) fn flips_of(tests: usize) -> u32 {
     u32::try_from(wanted.min(most)).unwrap_or(u32::MAX)
 }
 
-/// Message for a family in which no test can have a p value small enough for the first step of Holm's procedure; else `None`.
+/// Message for a family in which no test can have a p value small enough for the first step of Holm's procedure; else `None`. Only sign
+/// flips have a least p value.
 pub(super) fn out_of_reach(family: &[Difference]) -> Option<String> {
     let step = LEVEL / family.len() as f64;
-    let least = family
-        .iter()
-        .filter_map(|difference| match difference.test {
-            DifferenceTest::SignFlip {
-                flips,
-                exhaustive: true,
-                ..
-            } => Some(2.0 / f64::from(flips)),
-            DifferenceTest::SignFlip { flips, .. } => Some(1.0 / (f64::from(flips) + 1.0)),
-            _ => None,
-        });
+    let least = family.iter().map(|difference| match difference.test {
+        DifferenceTest::SignFlip {
+            flips,
+            exhaustive: true,
+            ..
+        } => 2.0 / f64::from(flips),
+        DifferenceTest::SignFlip { flips, .. } => 1.0 / (f64::from(flips) + 1.0),
+        _ => 0.0,
+    });
     let least = least.min_by(f64::total_cmp)?;
     (least > step).then(|| {
         format!(

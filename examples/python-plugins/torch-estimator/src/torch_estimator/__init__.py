@@ -6,7 +6,7 @@ import os
 import tempfile
 from typing import Annotated
 
-# Torch makes a folder for code that it compiles, and a plugin can make none: one that is there will do.
+# Torch creates a folder for compiled code, but a plugin cannot create folders: use an existing one.
 os.environ.setdefault("TORCHINDUCTOR_CACHE_DIR", tempfile.gettempdir())
 
 import numpy as np
@@ -16,7 +16,7 @@ import taceva.plugin as tp
 
 FILTERS = 8
 HIDDEN = 32
-# Cells of the grid in which the network still knows where something is.
+# Cells of the pooled grid, per side: positions stay distinguishable.
 GRID = 4
 
 # One thread: sums have one order, so the same samples give the same network and the same predictions.
@@ -34,12 +34,12 @@ class Network(tp.Estimator):
         self.epochs = epochs
         self.seed = seed
         self.net: torch.nn.Sequential | None = None
-        # Of the labels, in the order of the channels.
+        # Mean and standard deviation of the labels, in the order of the channels.
         self.mean = self.spread = np.zeros(0)
 
     @staticmethod
     def made(depth: int, outputs: int) -> torch.nn.Sequential:
-        # The process of a plugin computes convolutions without oneDNN, which would write code while it runs.
+        # A plugin's process computes convolutions without oneDNN, which generates code at run time.
         return torch.nn.Sequential(
             torch.nn.Conv2d(depth, FILTERS, kernel_size=5, stride=2, padding=2),
             torch.nn.Tanh(),
@@ -52,7 +52,7 @@ class Network(tp.Estimator):
 
     @staticmethod
     def pictures(features) -> torch.Tensor:
-        # Torch wants the depth first, and a copy that it may write to.
+        # Torch needs the depth first, and a writable copy.
         return torch.from_numpy(np.asarray(features, np.float32).transpose(0, 3, 1, 2).copy())
 
     def fit(self, training: tp.Samples, validation: tp.Samples | None, progress: tp.Training) -> None:
@@ -74,7 +74,7 @@ class Network(tp.Estimator):
     def predict(self, features) -> np.ndarray:
         rows = np.zeros((len(features), len(self.mean)))
         with torch.inference_mode():
-            # Sample by sample: a batch of another size may be summed in another order.
+            # Sample by sample: the order of sums may depend on the batch size.
             for row, sample in zip(rows, self.pictures(features), strict=True):
                 row[:] = self.net(sample[None]).numpy()[0]
         return rows * self.spread + self.mean
@@ -92,7 +92,7 @@ class Network(tp.Estimator):
             raise ValueError(f"{len(data)} bytes, expected {8 * sum(sizes)} for {shape} and {channels}")
         numbers = np.frombuffer(data, "<f8")
         if not np.isfinite(numbers).all():
-            raise ValueError("a weight that is no number")
+            raise ValueError("a weight is not finite")
         model.mean, model.spread, *parts = np.split(numbers, np.cumsum(sizes)[:-1])
         with torch.no_grad():
             for weights, part in zip(net.parameters(), parts, strict=True):

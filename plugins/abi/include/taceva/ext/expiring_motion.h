@@ -1,4 +1,4 @@
-/* Extension of a robot, since minor 2: it stands by itself where nobody renews its motion. */
+/* Extension of a robot, since minor 2: it stops by itself if its motion is not renewed. */
 #ifndef TACEVA_EXT_EXPIRING_MOTION_H
 #define TACEVA_EXT_EXPIRING_MOTION_H
 
@@ -13,8 +13,8 @@ extern "C" {
 typedef struct taceva_expiring_motion_calls {
   uint32_t size;
   uint32_t reserved;
-  /* [owner & open] Moves as `move_to` and `wait` do, by commands that the controller drops by itself: where the process of the plugin ends in the
-   * middle of it, the robot begins to brake 200 ms later at most. */
+  /* [owner & open] Moves like `move_to` and `wait`, by commands that expire in the controller. If the process of the plugin ends during the motion,
+   * the robot begins to brake within 200 ms. */
   taceva_status (*move_expiring)(void *handle, const taceva_motion *motion, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error);
 } taceva_expiring_motion_calls;
 

@@ -20,7 +20,7 @@ typedef struct taceva_guarded_stop {
 typedef struct taceva_guarded_motion_calls {
   uint32_t size;
   uint32_t reserved;
-  /* [owner & open] Moves as `move_to` and `wait` do, and ends where the magnitude of the force reaches `guard_n`. */
+  /* [owner & open] Moves like `move_to` and `wait`, and stops when the magnitude of the force reaches `guard_n`, N. */
   taceva_status (*move_guarded)(void *handle, const taceva_motion *motion, double guard_n, taceva_guarded_stop *stop,
                                 uint64_t timeout_ns, taceva_error *error);
 } taceva_guarded_motion_calls;

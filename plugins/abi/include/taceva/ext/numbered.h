@@ -1,4 +1,4 @@
-/* Extension of a force transducer: its readings have numbers, by which a signal that froze is told from a load that rests. */
+/* Extension of a force transducer: numbered readings. They distinguish a frozen signal from a constant load. */
 #ifndef TACEVA_EXT_NUMBERED_H
 #define TACEVA_EXT_NUMBERED_H
 
@@ -13,8 +13,8 @@ extern "C" {
 typedef struct taceva_numbered_calls {
   uint32_t size;
   uint32_t reserved;
-  /* [owner & open] The number that the device itself gave the last reading: never one that the plugin counts, which would go on counting
-   * while the device repeats itself. It may begin anew. NOT_FOUND before the first reading. */
+  /* [owner & open] Number of the last reading, assigned by the device. A plugin must not count readings itself, because it would also count
+   * repeated ones. The number may restart. NOT_FOUND before the first reading. */
   taceva_status (*sequence)(void *handle, uint64_t *sequence, taceva_error *error);
 } taceva_numbered_calls;
 

@@ -1,4 +1,4 @@
-/* Extension of a sensor: it sets the light around it by itself. */
+/* Extension of a sensor: it controls its own lighting. */
 #ifndef TACEVA_EXT_SENSOR_LIGHTING_H
 #define TACEVA_EXT_SENSOR_LIGHTING_H
 

@@ -1,4 +1,4 @@
-/* Extension of a force transducer: it can call the present load zero. */
+/* Extension of a force transducer: it can set the present load as zero. */
 #ifndef TACEVA_EXT_TARE_H
 #define TACEVA_EXT_TARE_H
 

@@ -17,7 +17,7 @@ pub(crate) struct BenchProxy {
 
 struct Line {
     caller: Caller,
-    /// Last reading of the bench's clock, kept for when the bench is gone.
+    /// Last reading of the bench's clock, used after the bench is gone.
     now: Duration,
 }
 

@@ -54,13 +54,13 @@ impl ModelProxy {
         let failed = |failure: Failure| of_failure(&estimator, &failure);
         loop {
             if is_cancelled.is_none() && progress.is_cancelled() {
-                // An unreachable child is gone or will time out.
+                // If the send fails, the child is gone or will time out.
                 let _ = send_now(talk.as_fd(), &ModelWord::Cancel {});
                 let life = child.life();
                 let after = life.patience.open.min(ENDS_WITHIN);
                 is_cancelled = Some(life.watch.begin("end a fit", after));
                 let line = format!(
-                    "stopping the fit of {estimator}; its process is ended if it takes longer than {after:?}"
+                    "stopping the fit of {estimator}; its process is killed if it takes longer than {after:?}"
                 );
                 child.tell(Level::Warn, &line);
             }
@@ -157,7 +157,7 @@ impl Regressor for ModelProxy {
             memory(Some(bytes)).map_err(|failure| of_failure(&self.estimator, &failure))?;
         put(features.values(), memory.bytes_mut());
         let samples = samples as u64;
-        // One millisecond per sample, beyond the usual timeout of a call.
+        // One millisecond per sample, added to the usual timeout of a call.
         let after = self.child.life().patience.open + Duration::from_millis(samples);
         let call = ModelCall::Predict { samples };
         match self.ask(&call, &[memory.file()], DOING, after)? {
@@ -206,12 +206,12 @@ impl SavedRegressor for ModelProxy {
 impl Drop for ModelProxy {
     fn drop(&mut self) {
         let calls = self.calls.get_mut().unwrap_or_else(PoisonError::into_inner);
-        // No answer follows. The child drops the model on this message, or when the socket closes.
+        // The child sends no answer. It drops the model on this message, or when the socket closes.
         let _ = send_now(calls.as_fd(), &(0_u32, ModelCall::Close {}));
     }
 }
 
-/// Converts a failure into the estimator's error as it would read without a child.
+/// Converts a failure into the estimator's error as it would read without a child process.
 pub(crate) fn of_failure(estimator: &DriverKey, failure: &Failure) -> ModelError {
     let why = match &failure.cause {
         // The message already names the estimator.

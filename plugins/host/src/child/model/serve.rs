@@ -33,7 +33,7 @@ pub(in crate::child) fn serve(
             Ok(model) if talk.send(&ModelEvent::Made {}, &[]).is_ok() => answer(talk, &*model),
             Ok(_) => {}
             Err(failure) => {
-                // Ignored if the host is gone.
+                // A send error means that the host is gone, and is ignored.
                 let _ = talk.send(&ModelEvent::Failed { failure }, &[]);
             }
         }
@@ -76,10 +76,11 @@ fn make(
             length,
         } => {
             let mut memory = next()?;
-            let length = usize::try_from(length).map_err(|_| broken("too many bytes"))?;
+            let length = usize::try_from(length)
+                .map_err(|_| broken("the saved model exceeds the address space"))?;
             let bytes = memory.bytes_mut().get(..length);
             let saved = Saved::new(
-                bytes.ok_or_else(|| broken("fewer bytes than its stated length"))?,
+                bytes.ok_or_else(|| broken("the saved model is shorter than its stated length"))?,
                 &channels,
                 shape,
             );
@@ -133,11 +134,11 @@ fn one_answer(
             let mut memory = memory()?;
             let place = memory.bytes_mut().get_mut(..saved.len());
             place
-                .ok_or_else(|| broken("memory that is too small"))?
+                .ok_or_else(|| broken("the shared memory is too small"))?
                 .copy_from_slice(saved);
             Ok(ModelAnswer::Done {})
         }
-        ModelCall::Close {} => Err(broken("a call with an answer")),
+        ModelCall::Close {} => Err(broken("a close request that expects an answer")),
     }
 }
 
@@ -147,7 +148,7 @@ fn predict(
     samples: u64,
     memory: &mut SharedMemory,
 ) -> Result<(), Failure> {
-    let refused = || broken("memory that is smaller than its samples");
+    let refused = || broken("the shared memory is smaller than its samples");
     let samples = usize::try_from(samples).map_err(|_| refused())?;
     let length = samples.checked_mul(model.shape().len());
     let (values, _) = length
@@ -207,14 +208,14 @@ impl Progress for Listener {
     }
 
     fn is_cancelled(&self) -> bool {
-        // One thread at a time, so that the receiving thread also stores the cancellation.
+        // Only one thread receives at a time, so this thread also records the cancellation.
         let _heard = self.heard.lock().unwrap_or_else(PoisonError::into_inner);
         if !self.is_cancelled.load(Ordering::Acquire)
             && let Some(bell) = &self.bell
         {
             let is_cancelled = match try_receive::<ModelWord>(bell.as_fd()) {
                 Ok(None) => false,
-                // If the host is gone, the fit is cancelled.
+                // The fit is cancelled if the host is gone.
                 Ok(Some(ModelWord::Cancel {})) | Err(LinkError::Closed) => true,
                 Err(_) => false,
             };

@@ -7,23 +7,23 @@ use crate::child::wire::{Malformed, Reader, Wire, fields};
 
 /// Limits that a child imposes on itself before it loads anything.
 ///
-/// An untrusted child can always read the system libraries. It never gets other files or sockets than needed, a program to start, other
-/// processes to see, or memory that is writable and executable.
+/// An untrusted child can always read the system libraries. It never gets unneeded files or sockets, and cannot start programs or see other
+/// processes. Its memory is never both writable and executable.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Confinement {
     /// Limit of address space, bytes.
     pub memory: u64,
     /// Limit of open files.
     pub files: u64,
-    /// Outside resources that its manifest declares and its user allows.
+    /// Outside resources that the manifest declares and the user allows.
     pub needs: Vec<Need>,
-    /// Readable files and folders of its own: the environment of an interpreter.
+    /// Further readable files and folders: the environment of an interpreter.
     pub readable: Vec<PathBuf>,
     /// True if the child may map no more code once its plugin is loaded.
     pub seals: bool,
     /// True if partial enforcement by the kernel is accepted. Otherwise the child refuses to start.
     pub accepts_less: bool,
-    /// True if nothing is restricted: the user trusts the plugin, and the separate process only isolates crashes.
+    /// True if nothing is restricted: the user trusts the plugin, and the process only contains crashes.
     pub is_trusted: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Files behind needs: device files of the named kinds, and the system files that describe them.
+//! Files behind needs: device files of the requested kinds, and the system files that describe them.
 
 use std::fs::{self, Metadata};
 use std::os::unix::fs::{FileTypeExt, MetadataExt};
@@ -21,7 +21,7 @@ const FIRST_PORT: u32 = 64;
 const CAMERAS: [&str; 2] = ["/sys/class/video4linux", "/sys/devices"];
 const HIDS: [&str; 3] = ["/sys/class/hidraw", "/sys/bus/hid", "/sys/devices"];
 
-/// Existing devices that `needs` name, each checked to be of the named kind.
+/// Existing devices that `needs` name. Each is checked to be of the requested kind.
 pub(super) fn devices(needs: &[Need]) -> Vec<PathBuf> {
     let mut devices = Vec::new();
     for need in needs {
@@ -56,7 +56,7 @@ pub(super) fn readable(needs: &[Need]) -> Vec<PathBuf> {
     readable
 }
 
-/// True for a character device that is neither memory of the machine nor a person's terminal.
+/// True for a character device that is neither the machine's memory nor a user's terminal.
 fn is_device(metadata: &Metadata) -> bool {
     let (major, minor) = numbers(metadata);
     let is_terminal =
@@ -72,9 +72,7 @@ pub(crate) fn no_port(needs: &[Need]) -> Option<String> {
     needs.iter().find_map(|need| match need {
         Need::Serial { path } if !need.has_star() => {
             let is_other = fs::metadata(path).is_ok_and(|metadata| !is_serial(&metadata));
-            is_other.then(|| {
-                format!("`{need}`: not a serial port of a device; name other files by `device:`")
-            })
+            is_other.then(|| format!("`{need}`: not a serial port; use `device:` for other files"))
         }
         _ => None,
     })
@@ -93,7 +91,7 @@ fn numbers(metadata: &Metadata) -> (u32, u32) {
     (rustix::fs::major(device), rustix::fs::minor(device))
 }
 
-/// Device number of the controlling terminal, at which a person types; `None` without one.
+/// Device number of the process's controlling terminal; `None` without one.
 fn own_terminal() -> Option<(u32, u32)> {
     let status = fs::read_to_string("/proc/self/stat").ok()?;
     // The name, in parentheses, may contain spaces. The terminal is the fifth field after it.
@@ -111,7 +109,7 @@ fn own_terminal() -> Option<(u32, u32)> {
     (number != 0).then_some((major, minor))
 }
 
-/// Existing paths that match `pattern`, in which `*` stands for any characters but `/`.
+/// Existing paths that match `pattern`. `*` stands for any characters except `/`.
 fn matching(pattern: &str) -> Vec<PathBuf> {
     if !pattern.contains('*') {
         let path = PathBuf::from(pattern);

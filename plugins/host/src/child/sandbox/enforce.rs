@@ -3,10 +3,10 @@
 use super::isolation::LANDLOCK_WHOLE;
 use super::{Confinement, Isolation, files, identity, seccomp};
 
-/// Gives up, for good, every right that `confinement` does not grant. Call it before anything is loaded, while there is one thread.
+/// Permanently gives up every right that `confinement` does not grant. Call it before anything is loaded, while there is one thread.
 ///
 /// # Errors
-/// Describes the right that could not be given up. The process must end then, since it may be partly confined.
+/// Describes the right that could not be given up. The process must then end, because it may be partly confined.
 pub(crate) fn confine(confinement: &Confinement, parent: u32) -> Result<Isolation, String> {
     if confinement.is_trusted {
         identity::end_with(parent)?;

@@ -23,7 +23,7 @@ const READABLE: [&str; 12] = [
     "/etc/ld.so.cache",
     "/etc/localtime",
     "/usr/share/zoneinfo",
-    // For checking the plugin's pointers; of this process only.
+    // Memory map of this process only, to check the plugin's pointers.
     "/proc/self/maps",
     "/dev/zero",
     "/dev/random",
@@ -33,10 +33,10 @@ const READABLE: [&str; 12] = [
 /// Folders of the USB devices and their descriptions.
 const USB: [&str; 3] = ["/dev/bus/usb", "/sys/bus/usb", "/sys/devices"];
 
-/// Denies all files except system libraries, readable files and needed devices, all TCP ports except needed ones, and all other processes.
-/// Returns the enforcing Landlock version; `None` if the kernel has no Landlock.
+/// Denies all files except system libraries, readable files and needed devices. Denies all TCP ports except needed ones, and access to all other
+/// processes. Returns the enforcing Landlock version; `None` if the kernel has no Landlock.
 pub(super) fn close_off(confinement: &Confinement) -> Result<Option<u32>, String> {
-    restrict(confinement).map_err(|error| format!("cannot close off files: {error}"))
+    restrict(confinement).map_err(|error| format!("cannot restrict files with Landlock: {error}"))
 }
 
 fn restrict(confinement: &Confinement) -> Result<Option<u32>, RulesetError> {
@@ -47,7 +47,7 @@ fn restrict(confinement: &Confinement) -> Result<Option<u32>, RulesetError> {
         .handle_access(AccessNet::from_all(NEWEST))?
         .scope(Scope::from_all(NEWEST))?
         .create()?;
-    // No right to execute: mapping a library needs only the right to read it.
+    // No right to execute: mapping a library needs only read access.
     let read = AccessFs::ReadFile | AccessFs::ReadDir;
     let write = AccessFs::ReadFile | AccessFs::WriteFile;
     let device = read | AccessFs::WriteFile | AccessFs::IoctlDev;

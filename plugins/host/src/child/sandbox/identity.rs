@@ -15,7 +15,7 @@ pub(crate) const NOBODY: u32 = 65_534;
 
 /// Sets the resource limits of the process. They cannot be raised again.
 ///
-/// CPU time has no limit, since a run may last for days. The number of threads has none either, since that limit counts the user's other
+/// CPU time has no limit, because a run may last for days. The number of threads has none either, because that limit includes the user's other
 /// programs. The system-call filter denies new processes.
 pub(super) fn limit(confinement: &Confinement) -> Result<(), String> {
     let limits = [
@@ -37,7 +37,7 @@ pub(super) fn limit(confinement: &Confinement) -> Result<(), String> {
     Ok(())
 }
 
-/// Switches from root to user nobody; `None` if the process is not root. Keeps the groups that own a needed device.
+/// Switches from root to user nobody. Returns `None` if the process is not root. Keeps the groups that own a needed device.
 pub(super) fn give_up_root(needs: &[Need]) -> Result<Option<u32>, String> {
     if !geteuid().is_root() {
         return Ok(None);
@@ -59,19 +59,19 @@ pub(super) fn give_up_root(needs: &[Need]) -> Result<Option<u32>, String> {
     Ok(Some(NOBODY))
 }
 
-/// Makes the process end with its parent, hides its memory and prevents it from gaining privileges by starting a program.
+/// Makes the process end with its parent, hides its memory and blocks new privileges.
 ///
-/// Call it after the change of user, which would reset the parent-death signal.
+/// Call it after the change of user, because that change resets the parent-death signal.
 pub(super) fn end_with(parent: u32) -> Result<(), String> {
     let said = |what: &str, error: rustix::io::Errno| format!("cannot {what}: {error}");
     set_parent_process_death_signal(Some(Signal::KILL))
         .map_err(|error| said("end with the process that started it", error))?;
-    // A parent that ended before that call sends no signal.
+    // A parent that ended before this call sends no signal.
     let is_there = getppid()
         .map(Pid::as_raw_nonzero)
         .map(std::num::NonZero::get);
     if is_there.and_then(|found| u32::try_from(found).ok()) != Some(parent) {
-        return Err("the process that started it has ended".to_owned());
+        return Err("the host has ended".to_owned());
     }
     set_dumpable_behavior(DumpableBehavior::NotDumpable)
         .map_err(|error| said("hide its memory", error))?;

@@ -1,7 +1,7 @@
-//! System-call filter of a child: a fixed list. Every other call fails with "not permitted".
+//! System-call filter of a child: a fixed list of allowed calls. Every other call fails with "not permitted".
 //!
-//! Filters accumulate. The first is set before the library is loaded, the second afterwards, since only loading maps code. No memory is
-//! ever writable and executable.
+//! Filters accumulate. The first is set before the library is loaded, the second afterwards, because only loading maps code. No memory is ever both
+//! writable and executable.
 
 mod numbers;
 
@@ -132,7 +132,7 @@ fn device_controls(needs: &[Need]) -> Result<Vec<SeccompRule>, BackendError> {
         )
     });
     if has_device {
-        // Except injecting input into a terminal or taking one over.
+        // All except injecting input into a terminal or taking one over.
         let denied = [libc::TIOCSTI, libc::TIOCLINUX, libc::TIOCSCTTY];
         let conditions: Result<Vec<_>, _> = denied
             .into_iter()
@@ -194,7 +194,7 @@ fn rule(conditions: &[SeccompCondition]) -> Result<SeccompRule, BackendError> {
     SeccompRule::new(conditions.to_vec())
 }
 
-/// Condition that the low 32 bits of the argument equal `value`. The kernel reads no more of these arguments.
+/// Condition that the low 32 bits of the argument equal `value`. The kernel reads only these bits.
 fn equal(argument: u8, value: u64) -> Result<SeccompCondition, BackendError> {
     SeccompCondition::new(argument, SeccompCmpArgLen::Dword, SeccompCmpOp::Eq, value)
 }

@@ -8,7 +8,7 @@ use super::{
 /// Decodes `bytes` as every message type between a host and its child. Returns the number of types that succeed.
 ///
 /// # Panics
-/// If a decoded message does not survive encoding and decoding: a bug of this crate.
+/// If a decoded message changes when it is encoded and decoded: a bug of this crate.
 pub fn read_any_message(bytes: &[u8]) -> usize {
     let read = [
         survives::<(u32, Hello)>(bytes),
@@ -33,7 +33,7 @@ fn survives<T: Wire>(bytes: &[u8]) -> bool {
     let Ok(message) = decode::<T>(bytes) else {
         return false;
     };
-    // Compared as bytes, since NaN is not equal to itself. Lengths are rounded once, so the second encoding equals the first.
+    // The encodings are compared, because NaN is not equal to itself. Lengths are rounded once, so the second encoding equals the first.
     let (mut once, mut twice) = (Vec::new(), Vec::new());
     if encode(&message, &mut once).is_ok() {
         let again = decode::<T>(&once).expect("what was written reads");
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn no_bytes_make_a_reader_fail() {
-        // Xorshift of a fixed seed.
+        // Xorshift generator with a fixed seed.
         let mut state = 0x9E37_79B9_7F4A_7C15_u64;
         let mut draw = |below: usize| {
             state ^= state << 13;

@@ -95,7 +95,7 @@ impl<T: Wire> Wire for Vec<T> {
 
     fn read(from: &mut Reader<'_>) -> Result<Vec<T>, Malformed> {
         let count = from.count()?;
-        // The list grows as items are read, so that a false count allocates nothing.
+        // The list grows as items are read, so a false count allocates no memory.
         let mut items = Vec::new();
         for _ in 0..count {
             items.push(T::read(from)?);
@@ -128,6 +128,6 @@ impl Wire for Duration {
 }
 
 pub(super) fn write_count(count: usize, into: &mut Vec<u8>) {
-    // A count beyond 2³² belongs to a message that is too long to send.
+    // A count above 2³² belongs to a message that is too long to send.
     u32::try_from(count).unwrap_or(u32::MAX).write(into);
 }

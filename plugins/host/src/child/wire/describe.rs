@@ -9,11 +9,11 @@ use super::value::listed;
 use super::{Malformed, Reader, Wire, fields};
 
 listed! {
-    DriverSource, [DriverSource::Real, DriverSource::Simulated, DriverSource::Recorded], "where readings come from";
+    DriverSource, [DriverSource::Real, DriverSource::Simulated, DriverSource::Recorded], "a source of readings";
 }
 
-/// Implements [`Wire`] for a struct that can get further fields, as [`fields`] does for a fixed one. The compiler does not report a missing
-/// field here; the test `facts_that_can_grow_cross_with_every_field` does.
+/// Implements [`Wire`] for a struct that can get further fields, as [`fields`] does for a fixed one. The compiler does not report a missing field
+/// here, but the test `facts_that_can_grow_cross_with_every_field` does.
 macro_rules! growing {
     ($type:ident { $($field:ident),* $(,)? }) => {
         impl Wire for $type {
@@ -221,7 +221,7 @@ impl Wire for Presence {
             0 => Presence::Required,
             1 => Presence::Optional,
             2 => Presence::Default(Wire::read(from)?),
-            _ => return Err(from.malformed("whether an argument must be given")),
+            _ => return Err(from.malformed("a known kind of requirement of an argument")),
         })
     }
 }
@@ -241,7 +241,7 @@ impl Wire for Descriptor {
         let spec = DescriptorSpec::new(key, title, Wire::read(from)?, Wire::read(from)?);
         spec.arguments(Vec::<ArgSpec>::read(from)?)
             .check()
-            .map_err(|_| from.malformed("a description that does not contradict itself"))
+            .map_err(|_| from.malformed("a consistent description"))
     }
 }
 

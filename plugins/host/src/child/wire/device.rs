@@ -49,10 +49,10 @@ messages! {
         6 => InPlace { name: String },
     }
 
-    /// Urgent message of a device, which bypasses its call queue.
+    /// Urgent message for a device. It bypasses the call queue.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     enum Urgent: "an urgent call" {
-        /// Interrupts the pending call; not answered.
+        /// Interrupts the pending call. The child does not answer.
         0 => Interrupt {},
         /// Halts the device. Answered with [`Answer::Done`] or [`Answer::Failed`].
         1 => Halt {},

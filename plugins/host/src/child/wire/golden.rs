@@ -1,4 +1,4 @@
-//! Golden bytes of every message at the current wire version. A build that writes other bytes needs another version number.
+//! Golden bytes of every message at the current wire version. A build that writes other bytes needs a new version number.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;

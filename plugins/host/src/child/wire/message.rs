@@ -1,7 +1,7 @@
 //! Messages between the host and its child.
 //!
-//! One socket pair carries [`Order`]s for the child as a whole. Each open device has a pair for [`Call`](super::Call)s, which are answered
-//! in order. A second pair carries [`Urgent`](super::Urgent) messages, which must not wait for a call. A simulated bench has a pair too.
+//! One socket pair carries [`Order`]s for the child as a whole. Each open device has a pair for [`Call`](super::Call)s, which are answered in order.
+//! A second pair per device carries [`Urgent`](super::Urgent) messages, which do not wait for calls. A simulated bench has a pair too.
 
 use taceva_core::{Access, ArgValue, Descriptor, DriverKey, DriverKind, ErrorKind, Fault, Found};
 
@@ -10,16 +10,16 @@ use crate::child::sandbox::{Confinement, Isolation};
 use crate::offer::Offer;
 use crate::wire_version::WIRE;
 
-/// First message: the limits that the child must impose on itself before it loads anything. The files to serve come with it.
+/// First message, with the limits that the child must impose on itself before it loads anything. The files to serve come with it.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Hello {
-    /// The host's [`WIRE`]. First field, so that a child of any version can read it.
+    /// The host's [`WIRE`]. This is the first field, so a child of any version can read it.
     pub(crate) wire: u32,
-    /// Process number of the host. A child with another parent knows that the host is gone.
+    /// Process number of the host. If its parent is another process, the child knows that the host is gone.
     pub(crate) parent: u32,
     /// Limits that the child imposes on itself.
     pub(crate) confinement: Confinement,
-    /// True if the last file is the socket for the plugin's log.
+    /// True if the last file is the socket for the plugin's log lines.
     pub(crate) is_heard: bool,
     /// True if the child loads a plugin. Otherwise it only reports its isolation.
     pub(crate) loads: bool,
@@ -68,11 +68,11 @@ messages! {
     }
 }
 
-/// Failed operation, described as it would be without a child.
+/// Failed operation, described as without a child process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Failure {
     pub(crate) kind: ErrorKind,
-    /// The operation, in words that follow "cannot".
+    /// The operation, a verb phrase that follows "cannot".
     pub(crate) doing: String,
     /// Cause, if known.
     pub(crate) cause: Option<String>,
@@ -87,12 +87,12 @@ fields!(Hello {
     is_heard,
     loads
 });
-/// First message as a child reads it, from a host of any version.
+/// First message as a child reads it, from a host with any wire version.
 #[derive(Debug, PartialEq)]
 pub(crate) enum FirstWord {
     /// Message of a host with the same wire version.
     Known(Hello),
-    /// Wire version of another host; the rest cannot be read.
+    /// Wire version of another host. The rest of the message cannot be read.
     OfOtherWire(u32),
 }
 
@@ -150,7 +150,7 @@ impl Wire for Found {
         match &self.access {
             Access::Ready => 0_u8.write(into),
             Access::Denied { remedy } => (1_u8, remedy.clone()).write(into),
-            // `Access` can get further variants. Any other variant counts as busy.
+            // `Access` can get further variants. They count as busy.
             _ => 2_u8.write(into),
         }
     }
@@ -164,7 +164,7 @@ impl Wire for Found {
                     remedy: Wire::read(from)?,
                 },
                 2 => Access::Busy,
-                _ => return Err(from.malformed("whether a device could be opened")),
+                _ => return Err(from.malformed("a known access to a device")),
             }))
     }
 }

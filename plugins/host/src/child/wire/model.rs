@@ -84,7 +84,7 @@ listed! {
 impl Wire for FeatureShape {
     fn write(&self, into: &mut Vec<u8>) {
         for side in [self.height, self.width, self.depth] {
-            // A side beyond 2³² belongs to a shape that no memory can hold.
+            // A side above 2³² belongs to a shape that exceeds any memory.
             u32::try_from(side).unwrap_or(u32::MAX).write(into);
         }
     }
@@ -117,6 +117,6 @@ impl Wire for Channels {
             .collect();
         channels
             .and_then(Channels::new)
-            .map_err(|_| from.malformed("channels, each once"))
+            .map_err(|_| from.malformed("channels without duplicates"))
     }
 }

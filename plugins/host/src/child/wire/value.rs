@@ -1,4 +1,4 @@
-//! Encoding of core's values. Numbers are written bit by bit, so that a child changes no value.
+//! Encoding of core's values. Numbers are written bit by bit, so the transfer changes no value.
 
 use taceva_core::{
     ArgValue, Axes, Axis, Deadline, Degree, DriverKind, ErrorKind, Fault, FrameInfo, GratingKind,
@@ -54,7 +54,7 @@ impl Wire for Guard {
     }
 }
 
-variants!(GuardedStop, "how a guarded motion ended" {
+variants!(GuardedStop, "the end of a guarded motion" {
     0 => Arrived { stamp },
     1 => Guarded { pose, stamp },
 });
@@ -131,7 +131,7 @@ impl Wire for ErrorKind {
 impl Wire for Fault {
     fn write(&self, into: &mut Vec<u8>) {
         let number = Fault::ALL.iter().position(|fault| fault == self);
-        // An unlisted fault is written as the last one, a controller fault.
+        // An unlisted fault is written as the last one of the list, a controller fault.
         let number = number.unwrap_or(Fault::ALL.len() - 1);
         u32::try_from(number).unwrap_or(u32::MAX).write(into);
     }
@@ -166,7 +166,7 @@ impl Wire for ArgValue {
     }
 }
 
-/// Implements [`Wire`] for fieldless values by list index. An unlisted value gets the index after the last.
+/// Implements [`Wire`] for fieldless values by list index. An unlisted value gets the index after the last one.
 macro_rules! listed {
     ($($type:ty, $list:expr, $expected:literal;)*) => {$(
         impl Wire for $type {
@@ -189,5 +189,5 @@ listed! {
     PixelFormat, [PixelFormat::Gray8, PixelFormat::Gray16, PixelFormat::Rgb8, PixelFormat::Rgb16], "a pixel format";
     DriverKind, DriverKind::ALL, "a kind of device";
     GratingKind, GratingKind::ALL, "a kind of grating";
-    Level, [Level::Error, Level::Warn, Level::Info, Level::Debug], "how much a line matters";
+    Level, [Level::Error, Level::Warn, Level::Info, Level::Debug], "a log level";
 }

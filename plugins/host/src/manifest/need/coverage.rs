@@ -1,11 +1,11 @@
-//! Inclusion of needs, which decides whether a permission is sufficient.
+//! Inclusion of needs: decides whether a permission is sufficient.
 
 use std::collections::BTreeSet;
 
 use super::Need;
 
 impl Need {
-    /// True if this need includes everything that `other` names. A `*` matches any characters within one part of `other`, including stars.
+    /// True if this need includes every resource of `other`. A `*` matches any characters within one part of `other`, including stars.
     ///
     /// ```
     /// use taceva_host::Need;
@@ -41,7 +41,7 @@ impl Need {
         }
     }
 
-    /// Part of this need that `allowed` grants: all of it, or the smaller needs in `allowed`.
+    /// Part of this need that `allowed` grants: the whole need, or the smaller needs in `allowed`.
     pub(crate) fn given_by(&self, allowed: &BTreeSet<Need>) -> BTreeSet<Need> {
         if allowed.iter().any(|given| given.covers(self)) {
             return BTreeSet::from([self.clone()]);
@@ -76,8 +76,7 @@ fn within(pattern: &str, path: &str) -> bool {
     each_part(pattern, &begin.join("/"), '/', matches)
 }
 
-/// Compares addresses part by part between dots. A numeric pattern such as `10.0.0.*` matches only numeric addresses, not a host name in a
-/// foreign domain.
+/// Compares addresses part by part, separated by dots. A numeric pattern such as `10.0.0.*` matches only numeric addresses, not host names.
 fn address_covers(pattern: &str, address: &str) -> bool {
     if pattern.starts_with('[') || address.starts_with('[') {
         return pattern == address;
@@ -93,7 +92,7 @@ fn address_covers(pattern: &str, address: &str) -> bool {
 /// True if `name`, a single part, matches `pattern`. A `*` stands for any characters.
 pub(crate) fn matches(pattern: &str, name: &str) -> bool {
     let (pattern, name) = (pattern.as_bytes(), name.as_bytes());
-    // Position of the last star and the start of its match. A mismatch extends the match by one.
+    // Position of the last star, and start of its match. A mismatch extends that match by one character.
     let (mut at, mut read) = (0, 0);
     let mut star: Option<(usize, usize)> = None;
     while read < name.len() {

@@ -6,7 +6,7 @@ use taceva_core::Args;
 
 use super::{Need, NeedError};
 
-/// Need of a manifest. The key of an argument in braces may replace an address, a port or a path: `tcp:{host}:{port}`.
+/// Need of a manifest. An argument key in braces may replace an address, a port or a path: `tcp:{host}:{port}`.
 ///
 /// ```
 /// use taceva_core::{ArgSpec, ArgValue, Args};
@@ -24,7 +24,7 @@ use super::{Need, NeedError};
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct DeclaredNeed {
-    /// Checked text: a valid need once examples replace its arguments.
+    /// Checked text: with examples in place of its arguments, it is a valid need.
     text: String,
 }
 
@@ -50,7 +50,7 @@ impl DeclaredNeed {
     /// Need of a device that is opened with `args`; `None` if an argument is missing.
     ///
     /// # Errors
-    /// [`NeedError`] for an argument that is not a valid part of a need, or contains a `*`.
+    /// [`NeedError`] for an argument that is not a valid part of a need or contains a `*`.
     pub fn bound_to(&self, args: &Args) -> Result<Option<Need>, NeedError> {
         let mut is_given = true;
         let text = filled(&self.text, |key, _| {
@@ -62,17 +62,17 @@ impl DeclaredNeed {
             return Ok(None);
         }
         let need: Need = text.parse()?;
-        // An argument selects one resource. Stars are for manifests and user settings.
+        // An argument selects one resource. Stars are only for manifests and user settings.
         if need.has_star() && self.fixed().is_none() {
             return Err(NeedError::new(
                 &text,
-                "an argument names one thing, expected no `*`",
+                "an argument names one resource, expected no `*`",
             ));
         }
         Ok(Some(need))
     }
 
-    /// True if `need` is within this declaration or includes it, so that allowing `need` affects it.
+    /// True if `need` is within this declaration or includes it. Allowing `need` then has an effect.
     pub fn asks_for(&self, need: &Need) -> bool {
         if let Some(fixed) = self.fixed() {
             return fixed.covers(need) || need.covers(&fixed);
@@ -154,7 +154,7 @@ fn filled(text: &str, mut value: impl FnMut(&str, usize) -> String) -> String {
     fields.join(":")
 }
 
-/// Example of a value for the field with that index.
+/// Example value for the field with this index.
 fn example(text: &str, field: usize) -> &'static str {
     match (text.split(':').next(), field) {
         (Some("tcp" | "udp"), 1) => "host",

@@ -27,7 +27,7 @@ fn a_new_manifest_says_all_that_the_library_says_and_stays_as_it_is() {
     let manifest = Manifest::parse(&text).expect("it reads");
     assert_eq!(manifest.drivers().count(), 2);
     assert_eq!(manifest.needs.len(), 2);
-    // As the tests of a new project compare it.
+    // The same replacement as in the tests of a new project.
     for table in &offer().provides {
         let table = table.replace("[[args]]", "[[provides.args]]");
         assert!(text.contains(&table), "{table} in:\n{text}");

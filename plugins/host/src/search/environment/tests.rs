@@ -32,7 +32,7 @@ struct Environment {
 }
 
 impl Environment {
-    /// Folder with a plugin's package and one called `taceva`.
+    /// Folder with the package of a plugin and a package called `taceva`.
     fn new(manifest: &str) -> Environment {
         let folder = tempfile::tempdir().expect("a folder");
         for (file, text) in [
@@ -59,7 +59,7 @@ impl Environment {
         path
     }
 
-    /// Writes an interpreter with the entry point `id`, which names `module`.
+    /// Writes an interpreter whose environment has the entry point `id` for `module`.
     fn naming(&self, id: &str, module: &str) -> PathBuf {
         let folder = self.path().display();
         self.interpreter(&format!(
@@ -135,7 +135,7 @@ fn an_entry_point_that_names_nothing_or_another_plugin_is_refused_with_its_name(
     let said = refused(&environment.naming("org.example.scale", "taceva"));
     assert!(
         said.contains(
-            "it contains no plugin.toml; write it by `python -m taceva.plugin manifest taceva --write`"
+            "it contains no plugin.toml; write it with `python -m taceva.plugin manifest taceva --write`"
         ),
         "{said}"
     );
@@ -143,7 +143,7 @@ fn an_entry_point_that_names_nothing_or_another_plugin_is_refused_with_its_name(
     let interpreter = newer.naming("org.example.scale", "lab_scale");
     let said = refused(&interpreter);
     assert!(
-        said.contains("written for version 2 of the wire, this TacEva speaks 1"),
+        said.contains("written for wire version 2, but this TacEva has 1"),
         "{said}"
     );
     assert_eq!(
@@ -173,7 +173,7 @@ fn an_interpreter_that_is_gone_fails_says_nothing_or_lacks_the_package_is_named_
         ("echo hello", "it printed `hello\\n`"),
         (
             "echo '# taceva environment'; echo 'version = 3'",
-            "it did not list its environment",
+            "cannot list its environment",
         ),
         (
             "echo '# taceva environment'; echo 'version = \"3.11.0\"'; echo 'readable = []'",

@@ -1,4 +1,4 @@
-//! A bench whose clock stands still.
+//! A bench with a constant clock.
 
 use std::time::Duration;
 
@@ -6,7 +6,7 @@ use taceva_core::{DriverError, ErrorKind, SimulatedBench, Specimen};
 
 use super::error;
 
-/// A bench whose clock stands still.
+/// A bench with a constant clock.
 pub(super) struct Table;
 
 impl SimulatedBench for Table {

@@ -1,4 +1,4 @@
-//! A changer that is done at once, or never.
+//! A changer that finishes at once or never.
 
 use std::sync::Arc;
 
@@ -54,7 +54,7 @@ impl Changer for Carousel {
                     .map_err(|interrupted| error(ErrorKind::Interrupted).because(interrupted))?;
                 return Err(error(ErrorKind::Timeout));
             }
-            // What it sees is another.
+            // Its sensor reports a different item.
             "nan" => return Ok("c".to_owned()),
             _ => {}
         }

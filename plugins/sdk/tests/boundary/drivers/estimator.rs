@@ -1,4 +1,4 @@
-//! The mean of what was seen.
+//! An estimator that predicts the mean of its training targets.
 
 use taceva_core::{
     ArgSpec, ArgValue, Channels, DriverKey, ErrorKind, FeatureShape, Features, ModelError,

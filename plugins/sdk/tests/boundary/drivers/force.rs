@@ -1,4 +1,4 @@
-//! A wrist on which 4 N rest.
+//! A wrist with a load of 4 N.
 
 use std::thread;
 use std::time::Duration;
@@ -42,7 +42,7 @@ impl ForceTransducer for Wrist {
     }
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         if self.way == "block" {
-            // Nothing ends this but its time: a driver that cannot be interrupted.
+            // Only the timeout ends this call: a driver that cannot be interrupted.
             thread::sleep(deadline.remaining().min(Duration::from_millis(200)));
             return Err(error(ErrorKind::Timeout));
         }

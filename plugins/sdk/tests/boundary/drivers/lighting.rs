@@ -1,4 +1,4 @@
-//! A lamp that nobody may open.
+//! A lamp without permission to open.
 
 use taceva_core::{
     ArgSpec, Args, Descriptor, DescriptorError, DriverError, ErrorKind, Factory, Facts, Lighting,
@@ -19,7 +19,7 @@ impl LightingMaker {
         )?))
     }
 
-    /// A lamp on a port that must be named.
+    /// A lamp that requires the argument of its port.
     pub(super) fn on_a_port() -> Result<LightingMaker, DescriptorError> {
         let facts = LightingFacts::default().with_scenes(vec!["dark".to_owned()]);
         let port = ArgSpec::text("port");

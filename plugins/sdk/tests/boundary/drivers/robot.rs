@@ -1,4 +1,4 @@
-//! An arm that is where it was sent at once.
+//! An arm that reaches every target at once.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -25,7 +25,7 @@ impl RobotMaker {
     }
 }
 
-/// Half a metre around the gel, at 100 mm/s.
+/// Workspace of half a metre around the gel, at most 100 mm/s.
 fn limits() -> RobotFacts {
     let corner = |side| Point {
         x: Millimetre(side),

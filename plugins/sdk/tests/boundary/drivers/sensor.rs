@@ -1,4 +1,4 @@
-//! A palm that sees the dark or a bright room.
+//! A palm sensor whose frames show a dark or a bright room.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! The bench that the devices of a rig share.
+//! The bench shared by the devices of a rig.
 
 #![expect(unsafe_code, reason = "the tables of a plugin are called")]
 
@@ -11,7 +11,7 @@ use crate::fake_host::{Open, ended, plugin, taken};
 fn a_bench_is_reached_through_the_rig_in_which_its_devices_were_opened() {
     let mut rig: *mut Rig = std::ptr::null_mut();
     let plugin = plugin();
-    // SAFETY: the place lives for the call, and the rig until it is closed below.
+    // SAFETY: the place lives for the call, and the rig lives until it is closed below.
     let bench = unsafe {
         assert_eq!(
             ended(|error| plugin.open_rig.expect("a function")(&raw mut rig, error)).0,
@@ -42,7 +42,7 @@ fn a_bench_is_reached_through_the_rig_in_which_its_devices_were_opened() {
             9,
             (
                 Status::INVALID_ARGUMENT,
-                "a specimen of unknown kind 9".to_owned(),
+                "the specimen has the unknown kind 9".to_owned(),
             ),
         ),
     ] {
@@ -57,7 +57,7 @@ fn a_bench_is_reached_through_the_rig_in_which_its_devices_were_opened() {
         });
         assert_eq!(mounted, expected);
     }
-    // SAFETY: the list takes the text.
+    // SAFETY: `take` appends the text to the list.
     let (_, words) = taken(|context, error| unsafe {
         bench.provenance.expect("a function")(
             rig,
@@ -68,7 +68,7 @@ fn a_bench_is_reached_through_the_rig_in_which_its_devices_were_opened() {
         )
     });
     assert_eq!(words, ["a table"]);
-    // SAFETY: after its last device, or even before: what a device needs, it keeps.
+    // SAFETY: closing is allowed at any time here, because a device keeps its own resources.
     unsafe { plugin.close_rig.expect("a function")(rig) };
     assert_eq!(now("bench"), 0);
 }

@@ -1,4 +1,4 @@
-//! What is promised of a changer.
+//! Guarantees of a changer.
 
 #![expect(unsafe_code, reason = "the tables of a plugin are called")]
 

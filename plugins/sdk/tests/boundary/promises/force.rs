@@ -1,4 +1,4 @@
-//! Force transducers: wrenches and their tare.
+//! Guarantees of force transducers: wrenches and tare.
 
 #![expect(unsafe_code, reason = "the tables of a plugin are called")]
 

@@ -1,4 +1,4 @@
-//! What holds of the library and of every driver in it.
+//! Properties of the library and of every driver in it.
 
 #![expect(unsafe_code, reason = "the tables of a plugin are called")]
 
@@ -29,7 +29,7 @@ fn a_driver_describes_itself_as_its_manifest_would() {
     let force = factory(FORCE_FACTORY);
     assert_eq!(force.drivers, 1);
     let describe = force.describe.expect("a function");
-    // SAFETY: the list takes the text; no arguments stand for whatever they are.
+    // SAFETY: `take` appends the text to the list; NULL stands for any arguments.
     let (ended, texts) = taken(|context, error| unsafe {
         describe(0, null(), Some(crate::fake_host::take), context, error)
     });
@@ -51,7 +51,7 @@ default = "well"
 "#
     );
     let discover = factory(SENSOR_FACTORY).discover.expect("a function");
-    // SAFETY: the list takes the texts.
+    // SAFETY: `take` appends the texts to the list.
     let (_, found) = taken(|context, error| unsafe {
         discover(0, Some(crate::fake_host::take), context, error)
     });
@@ -67,7 +67,7 @@ fn a_driver_that_must_be_given_something_describes_itself_before_it_is() {
         count: 0,
     };
     for args in [null(), &raw const nothing] {
-        // SAFETY: the list takes the text; the arguments live for the call.
+        // SAFETY: `take` appends the text to the list, and the arguments live for the call.
         let (ended, texts) = taken(|context, error| unsafe {
             describe(1, args, Some(crate::fake_host::take), context, error)
         });
@@ -106,7 +106,7 @@ fn arguments_are_checked_once_more_on_this_side() {
             calls: null(),
         };
         let (status, message) = with_args(pairs, |args| {
-            // SAFETY: everything lives for the call.
+            // SAFETY: all arguments live for the call.
             ended(|error| unsafe { open(0, args, std::ptr::null_mut(), &raw mut device, error) })
         });
         assert_eq!(status, Status::INVALID_ARGUMENT);

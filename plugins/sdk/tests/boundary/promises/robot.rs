@@ -1,4 +1,4 @@
-//! Robots: poses, motions, guards, halts.
+//! Guarantees of robots: poses, motions, guards and halts.
 
 #![expect(unsafe_code, reason = "the tables of a plugin are called")]
 
@@ -139,7 +139,7 @@ fn a_halt_from_another_thread_stops_a_motion_and_latches() {
         let blocked = scope.spawn(|| (go(60 * SECOND), Instant::now()));
         thread::sleep(Duration::from_millis(20));
         let asked = Instant::now();
-        // SAFETY: from any thread while the device is open.
+        // SAFETY: allowed from any thread while the device is open.
         let answer =
             ended(|error| unsafe { calls.halt.expect("a function")(robot.handle(), error) });
         assert_eq!(answer.0, Status::OK);
@@ -167,7 +167,7 @@ fn an_expiring_motion_keeps_to_what_the_robot_says_of_itself_and_is_absent_where
     let calls = robot.extension::<ExpiringMotionCalls>(EXPIRING_MOTION);
     let go = calls.expect("it has it").move_expiring.expect("a function");
     let mut stamp = Stamp::default();
-    // Half a metre is its workspace.
+    // The workspace reaches to half a metre.
     for (z, expected) in [
         (0.01, Status::OK),
         (0.6, Status::OUT_OF_RANGE),

@@ -1,4 +1,4 @@
-//! Sensors: frames, light, interrupts, errors.
+//! Guarantees of sensors: frames, lighting, interrupts and errors.
 
 #![expect(unsafe_code, reason = "the tables of a plugin are called")]
 

@@ -10,7 +10,7 @@ use crate::drive::lighting::scenes;
 use crate::optics::{Bits, OpticsSpec};
 use crate::parameters::{Body, Model, Outline, Parameters};
 
-/// Key of its driver.
+/// Key of the driver of a model.
 pub(super) fn key(model: Model) -> DriverKey {
     match model {
         Model::ViTacTip => DriverKey::fixed("sim/vitactip"),
@@ -64,22 +64,22 @@ pub(super) fn describe(
             .help("seed of all noise of the bench"),
         ArgSpec::whole("unit", 0, UNITS)
             .default(ArgValue::Whole(0))
-            .help("number of the sensor specimen; 0 is nominal"),
+            .help("number of the unit of the sensor; 0 is nominal"),
         ArgSpec::whole("reduction", 1, REDUCTIONS)
             .optional()
             .help("camera pixels for each pixel of the frame, along x and along y")
             .changes_facts(),
         ArgSpec::choice("bits", Bits::ALL.map(Bits::name))
             .optional()
-            .help("bits of a sample; by default 8 at the size of the camera and 16 for reduced frames")
+            .help("bits of a sample; default 8 for full frames, 16 for reduced frames")
             .changes_facts(),
         ArgSpec::text("table")
             .optional()
-            .help("whole text of a parameter table that replaces the compiled-in one")
+            .help("full text of a parameter table that replaces the built-in one")
             .changes_facts(),
-        ArgSpec::flag("quiet")
-            .default(ArgValue::Flag(false))
-            .help("disables noise, drift and relaxation, so that all output depends on the pose of the tip alone"),
+        ArgSpec::flag("quiet").default(ArgValue::Flag(false)).help(
+            "disables noise, drift and relaxation, so output depends only on the pose of the tip",
+        ),
     ])
 }
 
@@ -87,7 +87,7 @@ pub(super) fn describe(
 const UNITS: i64 = 1_000_000;
 /// Greatest reduction.
 const REDUCTIONS: i64 = 64;
-/// Approximate pixels along the longer side of a frame by default.
+/// Approximate default length of the longer side of a frame, pixels.
 const LONGER_SIDE: u32 = 160;
 
 /// Reduction by `args`.
@@ -115,7 +115,7 @@ pub(super) fn bits(args: &Args) -> Option<Bits> {
     Bits::ALL.into_iter().find(|bits| bits.name() == name)
 }
 
-/// Frame of such a sensor; `None` if it is invalid, which opening reports in detail.
+/// Frame of a sensor with these parameters; `None` if they are invalid. Opening reports the details.
 pub(super) fn frame(
     parameters: &Parameters,
     reduction: u32,

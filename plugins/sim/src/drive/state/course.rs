@@ -38,7 +38,7 @@ impl Course {
 }
 
 impl State {
-    /// Begins a straight motion, which [`advance`](State::advance) executes. Stops a motion in progress at its place.
+    /// Begins a straight motion that [`advance`](State::advance) executes. Stops a motion in progress at its present place.
     pub(in crate::drive) fn set_out(&mut self, target: Pose, speed_mm_per_s: f64) {
         self.stand();
         let error_mm = self.visit.errors.position_mm;
@@ -65,7 +65,7 @@ impl State {
         self.course.is_some()
     }
 
-    /// Advances the clock to `until` and the tip along its motion; a time in the past changes nothing.
+    /// Advances the clock to `until` and the tip along its motion. A time in the past has no effect.
     pub(in crate::drive) fn advance(&mut self, until: Duration) {
         let until = Ticks::of(until);
         while until > self.now {
@@ -77,14 +77,14 @@ impl State {
             let to_go_mm = course.length_mm() - course.done_mm;
             let step_mm = to_go_mm.min(STEP_MM).min(left_s * course.speed_mm_per_s);
             let step_s = step_mm / course.speed_mm_per_s;
-            // A step below a nanosecond is the last of the motion, or of the remaining time.
+            // A step below one nanosecond ends the motion, or the remaining time.
             let then = self.now.after(Ticks::of(Duration::from_secs_f64(step_s)));
             course.done_mm += step_mm;
             let is_there = step_mm >= to_go_mm;
             let step = then.min(until).since(self.now);
             self.now = self.now.after(step);
             self.tip_mm = match is_there {
-                // The end is met to the bit, wherever the motion began.
+                // The tip ends exactly at its target, for any start.
                 true => course.to_mm,
                 false => mix(course.from_mm, course.to_mm, course.share()),
             };

@@ -52,14 +52,14 @@ impl State {
                 ended = Ended::Halted;
                 break;
             }
-            // Time counts from the start, so that rounding does not accumulate.
+            // Time counts from the start of the motion, so rounding errors do not accumulate.
             let then = Ticks::of(Duration::from_secs_f64((done + 1.0) * step_s));
             if then > patience {
                 ended = Ended::OutOfTime;
                 break;
             }
             done += 1.0;
-            // The end is met to the bit, wherever the motion began.
+            // The tip ends exactly at its target, for any start.
             self.tip_mm = if done < steps {
                 mix(from, to, done / steps)
             } else {

@@ -5,7 +5,7 @@ use crate::displacement::{Load, NODES, Profile, Quantity, node};
 use crate::number::narrow;
 use crate::optics::simd::Lanes;
 
-/// Slopes around one contact at each node of the radial tables: slope of the sink over r, bulge over r, its slope over r, shadow over r.
+/// Slopes around one contact at each node of the radial tables: slope of the sink over r, bulge over r, slope of the bulge over r, and shadow over r.
 #[derive(Clone, Debug)]
 pub(super) struct Dent {
     nodes: Box<[[f32; 4]; NODES]>,
@@ -17,7 +17,7 @@ pub(super) struct Dent {
     pub(super) reach: f32,
 }
 
-/// Least visible slope: it changes the light by about 0.1 DN, less than the noise of the smallest frames.
+/// Least visible slope. It changes the light by about 0.1 DN, less than the noise of the smallest frames.
 const LEAST_SLOPE: f64 = 1e-3;
 
 impl Default for Dent {
@@ -66,7 +66,7 @@ impl Dent {
         }
     }
 
-    /// Origin of its shadow.
+    /// Origin of the shadow of this contact.
     pub(super) fn caster(&self) -> Caster {
         Caster {
             x: self.x,
@@ -74,7 +74,7 @@ impl Dent {
         }
     }
 
-    /// Adds its slopes towards the camera at the pixels `x`, `y` to `slopes`.
+    /// Adds the slopes towards the camera at the pixels `x`, `y` to `slopes`.
     #[inline(always)]
     pub(super) fn add_to(&self, x: &[f32; CHUNK], y: f32, slopes: &mut Slopes) {
         let dy = y - self.y;
@@ -97,8 +97,8 @@ impl Dent {
 
 /// Slope of the sink over r at `distance`, blurred by a Gaussian of `sigma`.
 ///
-/// The slope is a vector field r t(r²). Blurring it in the plane is blurring t as a field in four dimensions: three lie across r and add
-/// their variance to r²; along r seven Gauss-Hermite nodes are used.
+/// The slope is a vector field r t(r²). Blurring it in the plane is blurring t as a field in four dimensions. Three of them lie across r and add
+/// their variance to r². Along r, seven Gauss-Hermite nodes are used.
 fn blurred(profile: &Profile, distance: f64, sigma: f64) -> f32 {
     let table = profile.table(Quantity::SinkSlope);
     HERMITE

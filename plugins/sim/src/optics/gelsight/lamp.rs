@@ -6,11 +6,11 @@ use crate::random::Stream;
 /// A bar of light beside the gel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LampSpec {
-    /// Middle of the bar: x, y, and its height over the gel, on the camera's side.
+    /// Centre of the bar: x, y, and its height over the gel, on the side of the camera.
     pub middle_mm: [f64; 3],
-    /// Half of its length along x and along y.
+    /// Half of its length along x and y.
     pub half_length_mm: [f64; 2],
-    /// Red, green and blue that it adds to a gel facing it at one reach.
+    /// Red, green and blue light that it adds to a gel facing it at the reach of the lamps.
     pub colour_dn: [f64; 3],
 }
 
@@ -29,12 +29,12 @@ pub(super) const CHUNK: usize = 32;
 /// Slopes of the coating under a run of pixels of one row, as the camera sees it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slopes {
-    /// Slope towards the camera along x and along y.
+    /// Slope towards the camera along x and y.
     pub(super) x: [f32; CHUNK],
     pub(super) y: [f32; CHUNK],
     /// Depth in the shadow of the contact, per mm of distance from its centre; 0 outside.
     pub(super) shadow: [f32; CHUNK],
-    /// Part of the surface's unit normal along the axis.
+    /// Component of the unit normal of the surface along the sensor's axis.
     pub(super) upright: [f32; CHUNK],
 }
 
@@ -77,8 +77,8 @@ impl Lamp {
 
     /// Adds its light to red, green and blue of the pixels at `x`, `y`.
     ///
-    /// I = ρ (d₀/d) max(0, n·l). Here l is the unit vector to the nearest point of the bar at distance d; n ∝ (−Hx, −Hy, 1). With the
-    /// vector L = d l this is ρ d₀ max(0, n·L) / d², so only the length of n needs a root.
+    /// I = ρ (d₀/d) max(0, n·l). Here d is the distance to the nearest point of the bar, l the unit vector to it, and n ∝ (−Hx, −Hy, 1). With the
+    /// vector L = d l, this is ρ d₀ max(0, n·L) / d², so only the length of n needs a root.
     #[inline(always)]
     pub(super) fn light(
         &self,

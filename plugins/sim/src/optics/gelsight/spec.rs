@@ -12,7 +12,7 @@ pub struct GelsightSpec {
     pub thickness_mm: f64,
     /// Sag of the surface at x = 7 mm and at y = 9 mm (geometry).
     pub sag_mm: [f64; 2],
-    /// The lamps: red left, green right, blue at the bottom, a weak cyan one on top (free).
+    /// Lamps: red on the left, green on the right, blue at the bottom, and a weak cyan one at the top (free).
     pub lamps: Vec<LampSpec>,
     /// Distance at which the colours of the lamps are stated (free).
     pub lamp_reach_mm: f64,
@@ -57,7 +57,7 @@ impl GelsightSpec {
             colour_dn: colour.map(|dn| dn * brightness),
         };
         let surface = &parameters.surface;
-        // Beside the picture, whatever its size.
+        // Beside the picture, for any picture size.
         let [side, end] = [0.5 * surface.width_mm + 4.85, 0.5 * surface.height_mm + 4.7];
         GelsightSpec {
             thickness_mm: layer.thickness_mm,
@@ -99,14 +99,14 @@ impl MarkerGrid {
     }
 }
 
-/// Mean gray of the untouched gel without markers, with the lamps given above (fit).
+/// Mean gray of the untouched gel without markers, for these lamps (fit).
 const NOMINAL_GRAY: f64 = 144.8;
 
 fn whole(count: f64) -> u16 {
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        reason = "a cast of a float saturates, and parameters are checked to lie between 1 and 200"
+        reason = "a float cast saturates, and parameters are checked to be 1 to 200"
     )]
     let count = count.round() as u16;
     count

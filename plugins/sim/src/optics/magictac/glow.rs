@@ -42,7 +42,7 @@ impl Glow {
     }
 }
 
-/// Effect of a scene of light: additional light, and the automatic exposure of the camera.
+/// Effect of a light scene: additional light, and the automatic exposure of the camera.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Outside {
     scene: AmbientLight,

@@ -12,7 +12,7 @@ const TEXEL_MM: f64 = 0.18;
 /// Correlation lengths of the speckle and of the unevenness of the lines, in texels.
 const SPECKLE: f64 = 2.2;
 const UNEVENNESS: f64 = 20.0;
-/// Standard deviation of a line's place, mm.
+/// Standard deviation of the position of a line, mm.
 const LINE_JITTER_MM: f64 = 0.22;
 /// Correlation length of the buckling, in texels: 1.5 mm, two cells of the lattice.
 const BUCKLE: f64 = 8.0;
@@ -21,7 +21,7 @@ const BUCKLE: f64 = 8.0;
 pub(super) fn layers(spec: &MagictacSpec, unit: u32) -> [Texture; 3] {
     let random = Random::new(u64::from(unit));
     let [lines, speckle] = spec.contrast;
-    // A whole number of lines on the torus, so that it has no seam.
+    // A whole number of lines on the torus, so the pattern has no seam.
     let periods = (count(SIDE) * TEXEL_MM / spec.pitch_mm).round().max(1.0);
     [0, 1, 2].map(|layer| {
         let stream = random.stream(Purpose::Texture, layer);
@@ -43,7 +43,7 @@ pub(super) fn layers(spec: &MagictacSpec, unit: u32) -> [Texture; 3] {
     })
 }
 
-/// Buckling pattern of a unit: two values of standard deviation 1 at each place. Each press uses its own offset.
+/// Buckling pattern of a unit: two values with a standard deviation of 1 at each place. Each press uses a different offset.
 pub(super) fn buckling(unit: u32) -> Texture {
     let stream = Random::new(u64::from(unit)).stream(Purpose::Buckling, 0);
     let patterns = [0, 1].map(|layer| smooth_noise(&stream, layer, BUCKLE));

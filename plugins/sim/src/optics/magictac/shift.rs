@@ -1,4 +1,4 @@
-//! Apparent shift of the lattice under a ball, for lookup pixel by pixel.
+//! Apparent shift of the lattice under a ball, as tables for lookup at each pixel.
 
 use crate::displacement::{Load, NODES, Profile, Quantity, locate, node};
 use crate::number::narrow;
@@ -16,8 +16,8 @@ pub(super) struct Shift {
     pub(super) reach: f32,
 }
 
-/// Four rows of lanes: outward over r, along the shear, towards the shear's axis over r², and wetting. Each row has one lane a layer. The
-/// fourth lane of the first row is the slope of the surface over r, so its gradient is computed together with the shifts.
+/// Four rows of lanes: outward over r, along the shear, towards the shear's axis over r², and wetting. Each row has one lane per layer. The fourth
+/// lane of the first row is the slope of the surface over r, so its gradient is computed together with the shifts.
 type Node = [[f32; 4]; 4];
 
 /// Effect at a place: the shift of each layer, and in the fourth lane the gradient of the surface's depth.
@@ -34,7 +34,7 @@ const LEAST_MM: f64 = 0.004;
 /// Outer part of the reach over which the effect fades.
 const FADE: f64 = 0.2;
 
-/// Part of full wetting at `beyond` mm outside the rim.
+/// Fraction of full wetting at `beyond` mm outside the rim.
 fn wet(beyond: f64) -> f64 {
     if beyond > 8.0 {
         return 0.0;
@@ -56,7 +56,7 @@ impl Default for Shift {
 }
 
 impl Shift {
-    /// Computes the displacements of the three layers under `load`; the slope of the surface is that of the first layer.
+    /// Computes the displacements of the three layers under `load`. The slope of the surface is that of the first layer.
     pub(super) fn take(&mut self, load: &Load, profiles: &[Profile; 3], wetting: f64) {
         [self.x, self.y] = load.centre_mm.map(narrow);
         self.shear = load.shear_direction().map(narrow);
@@ -85,7 +85,7 @@ impl Shift {
         self.fade(radius, reach);
     }
 
-    /// Fades all values to 0 at the reach, without a seam.
+    /// Fades all values to 0 at the reach, so no seam is visible.
     fn fade(&mut self, radius: f64, reach: f64) {
         let start = reach * (1.0 - FADE);
         for (position, values) in self.nodes.iter_mut().enumerate() {

@@ -14,13 +14,13 @@ pub struct MagictacSpec {
     pub pitch_mm: f64,
     /// Contrast of the lines and of the speckle between them (free).
     pub contrast: [f64; 2],
-    /// Shift by refraction of the view below the surface, per unit of its slope (free).
+    /// Shift of the view below the surface by refraction, per unit of surface slope (free).
     pub refraction_mm: f64,
     /// Brightening by the slope of the surface (free).
     pub gloss: f64,
     /// Brightening under the ball (free).
     pub wetting: f64,
-    /// Buckling of the lattice: a part of the local displacement, random for each press (free).
+    /// Buckling of the lattice: a fraction of the local displacement, random for each press (free).
     pub buckling: f64,
     /// Strength of the coloured glow and of the uniform light (fit: mean gray 107).
     pub glow_dn: [f64; 2],
@@ -61,5 +61,5 @@ impl MagictacSpec {
     }
 }
 
-/// Mean gray of the untouched block with the glow given above (fit).
+/// Mean gray of the untouched block for this glow (fit).
 const NOMINAL_GRAY: f64 = 114.8;

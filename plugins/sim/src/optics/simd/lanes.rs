@@ -4,8 +4,8 @@
 )]
 //! Four numbers in one register.
 //!
-//! The compiler alone keeps the four numbers of a texel apart. Every operation is that of IEEE 754 on each lane, so vector and array
-//! implementations give the same bits. SSE2 is part of every x86-64.
+//! The compiler alone would keep the four numbers of a texel in separate registers. Every operation is that of IEEE 754 on each lane, so vector and
+//! array implementations give the same bits. Every x86-64 has SSE2.
 
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64 as isa;
@@ -57,7 +57,7 @@ impl Lanes {
         Lanes(unsafe { isa::_mm_sqrt_ps(self.0) })
     }
 
-    /// Low `BITS` bits of each lane, with those of `high` above them.
+    /// Low `BITS` bits of each lane, below those of `high`.
     #[inline(always)]
     pub(in crate::optics) fn joined_with<const BITS: i32>(self, high: Lanes) -> [u32; 4] {
         // SAFETY: every x86-64 has SSE2.
@@ -109,7 +109,7 @@ impl Lanes {
         Lanes(self.0.map(f32::sqrt))
     }
 
-    /// Low `BITS` bits of each lane, with those of `high` above them.
+    /// Low `BITS` bits of each lane, below those of `high`.
     #[inline(always)]
     pub(in crate::optics) fn joined_with<const BITS: i32>(self, high: Lanes) -> [u32; 4] {
         let low_bits = |number: f32| number.to_bits() & ((1 << BITS) - 1);
@@ -124,7 +124,7 @@ impl Lanes {
         Lanes::new([number; 4])
     }
 
-    /// Interpolates from `self` towards `other` by `part` of the way.
+    /// Interpolates from `self` towards `other` by the fraction `part`.
     #[inline(always)]
     pub(in crate::optics) fn towards(self, other: Lanes, part: Lanes) -> Lanes {
         self.plus(part.times(other.minus(self)))

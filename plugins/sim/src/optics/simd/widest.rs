@@ -1,10 +1,10 @@
 #![expect(
     unsafe_code,
-    reason = "a function made for AVX2 is called once the processor is known to have it"
+    reason = "a function compiled for AVX2 is called only after AVX2 was detected"
 )]
-//! The same code compiled twice: for every processor, and for those with AVX2.
+//! The same code compiled twice: for every processor, and for processors with AVX2.
 //!
-//! Vectors of eight and of four compute the same, lane by lane. No multiplication is fused with an addition, so both give the same bytes.
+//! Vectors of eight and of four give the same result in each lane. No multiplication is fused with an addition, so both give the same bytes.
 
 use crate::optics::camera::Camera;
 use crate::optics::luma::Luma;
@@ -14,7 +14,7 @@ use crate::optics::view::View;
 pub(in crate::optics) fn expose(camera: &mut Camera, view: &View, bytes: &mut [u8]) -> Luma {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx2") {
-        // SAFETY: the processor has just been asked for AVX2.
+        // SAFETY: AVX2 was detected just before.
         return unsafe { expose_with_avx2(camera, view, bytes) };
     }
     camera.expose(view, bytes)

@@ -5,13 +5,13 @@ use crate::contact::Contact;
 use crate::elastic::{hertz, shell};
 use crate::number::{count, narrow};
 
-/// Tabulated dimple of a shell: Kelvin's function for 127 markers would take longer than the picture.
+/// Dimple of a shell as a table. Evaluating Kelvin's function for 127 markers would take longer than the picture.
 #[derive(Clone, Debug)]
 pub(super) struct Dimple {
     depths: Vec<f32>,
 }
 
-/// Nodes in a decay length, and decay lengths after which the dimple ends.
+/// Nodes per decay length, and decay lengths after which the dimple ends.
 const NODES_A_LENGTH: f64 = 32.0;
 const LENGTHS: usize = 12;
 
@@ -31,7 +31,7 @@ impl Dimple {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "an arc is not negative, and what lies beyond the table is its end"
+            reason = "an arc is not negative, and the index is clamped to the table"
         )]
         let node = (place as usize).min(self.depths.len() - 2);
         let fraction = (place - count(node)).min(1.0);
@@ -40,13 +40,13 @@ impl Dimple {
     }
 }
 
-/// Displaced position of the marker at `marker`, in mm from the dome's centre.
+/// Displaced position of the marker at `marker`, in mm from the centre of the dome.
 ///
 /// With s the distance from the contact along the surface and w its depth there,
 ///
 /// * w = d [f (−(4/π) kei(s/l)) + (1 − f) h(s/a)], f the share of the skin and h Hertz's profile, along −n;
 /// * the skin follows the drag t by min(1, 1 / (0.35 + s / 1.6 a)) e^(−s / 18 mm) (free);
-/// * the whole dome leans by the lateral force, in proportion to the height.
+/// * the whole dome leans with the lateral force, in proportion to the height.
 pub(super) fn displaced(
     marker: [f64; 3],
     contact: &Contact,
@@ -75,7 +75,7 @@ pub(super) fn displaced(
     })
 }
 
-/// Least apparent contact radius, mm: smaller contacts are hidden by the thickness of the skin.
+/// Least apparent contact radius, mm. The thickness of the skin hides smaller contacts.
 const LEAST_RADIUS_MM: f64 = 0.3;
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

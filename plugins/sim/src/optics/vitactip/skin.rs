@@ -11,10 +11,10 @@ pub(super) fn inside(from_middle: f64, edge: f64) -> f64 {
     1.0 / (1.0 + libm::exp((from_middle - OUTLINE) / edge))
 }
 
-/// Radius of the visible outline: a little outside the rim.
+/// Radius of the visible outline: slightly outside the rim.
 const OUTLINE: f64 = 47.0 / 46.0;
 
-/// Light of the own lamps on skin of brightness 1: uniform, more in the middle, and a ring before the rim.
+/// Light of the dome's own lamps on skin of brightness 1: uniform, brighter in the centre, and a ring inside the rim.
 pub(super) fn glow(from_middle: f64) -> f64 {
     7.0 + 9.0 * bell(from_middle, 30.0 / 46.0) + 5.0 * bell(from_middle - 42.0 / 46.0, 3.0 / 46.0)
 }
@@ -34,7 +34,7 @@ pub(super) fn outside(scene: AmbientLight, x: f64, y: f64) -> f64 {
     }
 }
 
-/// Brightness of dome and surroundings under the own lamps, in DN.
+/// Brightness of dome and surroundings under its own lamps, in DN.
 pub(super) fn base(spec: &VitactipSpec, from_middle: f64, uneven: f64, edge: f64) -> f64 {
     let within = inside(from_middle, edge);
     let skin = spec.skin_dn * glow(from_middle);

@@ -25,7 +25,7 @@ pub struct VitactipSpec {
     pub marker_radius: f64,
     /// Part of the light that a marker absorbs (free).
     pub marker_darkness: f64,
-    /// Standard deviation of their places between units (free).
+    /// Standard deviation of marker places between units (free).
     pub marker_jitter_mm: f64,
     /// Brightness of the skin (fit: mean gray 12).
     pub skin_dn: f64,
@@ -76,13 +76,13 @@ impl VitactipSpec {
     }
 }
 
-/// Mean gray of the untouched dome with the skin given above (fit).
+/// Mean gray of the untouched dome for this skin (fit).
 const NOMINAL_GRAY: f64 = 12.0;
 
 fn rings(columns: f64) -> i32 {
     #[expect(
         clippy::cast_possible_truncation,
-        reason = "a cast of a float saturates, and parameters are checked to lie between 1 and 200"
+        reason = "a float cast saturates, and parameters are checked to be 1 to 200"
     )]
     let rings = columns.round() as i32;
     rings

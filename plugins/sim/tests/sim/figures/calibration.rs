@@ -1,4 +1,4 @@
-//! The paper's calibration protocol on the bench: points drawn evenly, at each four depths, each pressed plainly and with shear.
+//! The paper's calibration protocol on the bench: uniformly drawn points with four depths each, every depth pressed without and with shear.
 
 use taceva_sim::random::{Purpose, Random};
 use taceva_sim::{Bench, Label, Model, Press};
@@ -7,7 +7,7 @@ pub(crate) const POINTS: u64 = 800;
 pub(crate) const SEEDS: [u64; 3] = [1, 2, 3];
 const DEPTHS: u64 = 4;
 
-/// The labels of one run: unit 0, rig noise and draws of `seed`.
+/// Labels of one run: unit 0, with rig noise and draws of `seed`.
 pub(crate) fn labels(model: Model, seed: u64) -> Vec<Label> {
     let bench = Bench::new(model.parameters(), 0, seed);
     let mut labels = Vec::new();
@@ -18,7 +18,7 @@ pub(crate) fn labels(model: Model, seed: u64) -> Vec<Label> {
     labels
 }
 
-/// The presses of one run.
+/// Presses of one run.
 pub(crate) fn presses(model: Model, seed: u64) -> Vec<Press> {
     let parameters = model.parameters();
     let (outline, probing) = (parameters.outline(), parameters.probing);

@@ -1,13 +1,13 @@
 //! Fisher's linear discriminant.
 
-/// Classes with one covariance.
+/// Classes with a common covariance.
 pub(crate) struct Discriminant {
     means: Vec<Vec<f64>>,
-    /// Each mean solved by the covariance, and half its product with the mean.
+    /// Covariance⁻¹ · mean of each class, and half of its product with the mean.
     weights: Vec<(Vec<f64>, f64)>,
 }
 
-/// Added to the variances, as a part of their mean.
+/// Ridge added to the variances, relative to their mean.
 const RIDGE: f64 = 1e-3;
 
 impl Discriminant {
@@ -54,7 +54,7 @@ impl Discriminant {
         Discriminant { means, weights }
     }
 
-    /// The class that a vector most probably is of.
+    /// Most probable class of a vector.
     pub(crate) fn classify(&self, vector: &[f64]) -> usize {
         let score = |class: usize| {
             let (weight, half) = &self.weights[class];
@@ -70,7 +70,7 @@ fn product(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(one, other)| one * other).sum()
 }
 
-/// Gauss's elimination for a matrix that is positive definite.
+/// Gaussian elimination for a positive definite matrix.
 fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
     let size = right.len();
     for pivot in 0..size {

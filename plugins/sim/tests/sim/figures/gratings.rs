@@ -1,5 +1,5 @@
-//! Which gratings can be distinguished in the pictures, by a reader that is made for gratings: a linear discriminant on the logarithm of the
-//! radial spectrum. What a network reads in the paper's scene is for the study to say; this is what the pictures hold.
+//! Gratings that can be distinguished in the pictures by a classifier made for gratings: a linear discriminant on the logarithm of the radial
+//! spectrum. This measures the information in the pictures; the study measures a network in the paper's scene.
 
 use taceva_core::{FrameMut, GratingKind, Nanometre};
 use taceva_sim::optics::{Board, Camera, OpticsSpec, Stimulus, View};
@@ -8,23 +8,23 @@ use taceva_sim::{Bench, Grating, Model};
 use super::discriminant::Discriminant;
 use super::spectrum::{SIDE, radial_spectrum};
 
-/// Pictures a grating from which the reader learns, and those that it is asked about.
+/// Pictures per grating for training, and for testing.
 const LEARNED: u64 = 18;
 const ASKED: u64 = 9;
 /// Spacings in hundredths of a millimetre.
 const SPACINGS: std::ops::RangeInclusive<u32> = 25..=175;
 const STEP: usize = 5;
-/// Side of a board, over whose area its force is spread.
+/// Side of a board, mm. Its force is spread over this area.
 const BOARD_MM: f64 = 10.0;
 
-/// Published success rates of the dome, of spacings classified with an error below these hundredths of a millimetre.
+/// Published success rates of the dome: spacings classified with an error below these hundredths of a millimetre.
 const PUBLISHED: [(GratingKind, [f64; 5]); 2] = [
     (GratingKind::Line, [0.81, 0.88, 0.895, 0.948, 0.973]),
     (GratingKind::Dot, [0.80, 0.90, 0.923, 0.967, 0.983]),
 ];
 const BELOW: [u32; 5] = [5, 10, 15, 25, 45];
 
-/// The part of the pictures whose spacing is classified with an error below each of the limits: below 0.05 mm is exactly.
+/// Fraction of the pictures whose spacing is classified with an error below each limit. Below 0.05 mm means exactly.
 fn success(model: Model, kind: GratingKind) -> [f64; 5] {
     let spacings: Vec<u32> = SPACINGS.step_by(STEP).collect();
     let mut reader = Reader::new(model);
@@ -66,7 +66,7 @@ impl Reader {
         let bench = Bench::new(model.parameters(), 0, 1);
         let spec = OpticsSpec::new(&model.parameters());
         let [width, height] = spec.native.map(f64::from);
-        // The middle square shows all of a board.
+        // The central square shows the whole board.
         let scale = match model {
             Model::ViTacTip => 320.0 / width,
             _ => 150.0 / width,
@@ -115,7 +115,7 @@ impl Reader {
         radial_spectrum(&changed)
     }
 
-    /// The middle square of a picture, colours added up.
+    /// Central square of a picture, summed over colours.
     fn middle(&mut self, view: &View) -> Vec<f64> {
         let info = self.camera.frame_info();
         let mut bytes = vec![0; info.byte_len().expect("a small frame")];
@@ -147,7 +147,8 @@ fn shown(rates: &[f64]) -> String {
 
 #[test]
 fn the_dome_blurs_fine_gratings_as_much_as_published() {
-    // A dot's wave is two waves across, each weaker and finer than a line's: here they are harder to tell than lines, there they are not.
+    // A dot grating is a product of two waves, each weaker and finer than a line's. In this simulation, dots are therefore harder to distinguish than
+    // lines, unlike in the publication.
     for ((kind, published), tolerance) in PUBLISHED.into_iter().zip([0.06, 0.15]) {
         let found = success(Model::ViTacTip, kind);
         println!("vitactip {kind}: {} ({})", shown(&found), shown(&published));
@@ -166,7 +167,7 @@ fn flat_gels_show_nearly_every_grating() {
     ] {
         let found = success(model, kind);
         println!("{model} {kind}: {}", shown(&found));
-        // Published: 0.96 to 0.98 below 0.05 mm.
+        // Published: 0.96 to 0.98 for errors below 0.05 mm.
         assert!(found[0] > 0.85 && found[1] > 0.93, "{model} {kind}");
     }
 }

@@ -1,19 +1,19 @@
-//! Loading and unloading of the dome, against the curve of the project page.
+//! Loading and unloading of the dome, compared with the curve of the project page.
 //!
-//! The page's dome is softer than the one whose sensitivity the paper prints: no single force law gives both. So the page's own law is
-//! put in the place of the sensor's two stiffnesses; what the gel forgets is the sensor's.
+//! The page's dome is softer than the one whose sensitivity the paper prints, so no single force law gives both. The test replaces the sensor's two
+//! stiffnesses by the page's law, and keeps the sensor's relaxation.
 
 use taceva_sim::{Bench, Model, Parameters, Press};
 
-/// Published areas under the loading and the unloading curve, N·mm; the loop between them has 0.1558.
+/// Published areas under the loading and unloading curves, N·mm. The loop between them has 0.1558.
 const PUBLISHED: [f64; 2] = [0.7106, 0.5548];
-/// The travel of the published curve, and where its force transducer has its zero.
+/// Travel of the published curve, and the zero of its force transducer.
 const DEEPEST_MM: f64 = 3.38;
 const ZERO_N: f64 = 0.004;
-/// Points of a curve.
+/// Points per curve.
 const STEPS: u32 = 100;
 
-/// The page's dome: F₀ = 0.0891 N/mm^1.5 · d^(3/2), the same everywhere, pressed without a limit.
+/// Dome of the page: F₀ = 0.0891 N/mm^1.5 · d^(3/2), the same at every place, without a force limit.
 fn dome_of_the_page() -> Parameters {
     let mut parameters = Model::ViTacTip.parameters();
     let taceva_sim::Body::Dome(dome) = &mut parameters.body else {
@@ -25,7 +25,7 @@ fn dome_of_the_page() -> Parameters {
     parameters
 }
 
-/// The areas under the loading and the unloading curve at the apex, over the true depth from touching to `deepest_mm`.
+/// Areas under the loading and unloading curves at the apex, over the true depth from first touch to `deepest_mm`.
 fn areas(mut parameters: Parameters, deepest_mm: f64) -> [f64; 2] {
     parameters.probing.force_max_n = 100.0;
     let bench = Bench::new(parameters, 0, 1);
@@ -47,7 +47,7 @@ fn areas(mut parameters: Parameters, deepest_mm: f64) -> [f64; 2] {
         let points: Vec<(f64, f64)> = (0..=STEPS)
             .map(|point| force(f64::from(point) * step, turned))
             .collect();
-        // Below where contact was found the force falls to nothing in a straight line.
+        // Below the depth of detected contact, the force decreases linearly to zero.
         let (first_mm, first_n) = points[0];
         let found: f64 = 0.5 * first_mm * first_n;
         let cells = points.windows(2);

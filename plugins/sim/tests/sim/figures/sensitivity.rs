@@ -4,9 +4,9 @@ use taceva_sim::{Label, Model};
 
 use super::calibration::{SEEDS, labels};
 
-/// Bins along x and along y.
+/// Bins along x and y.
 const BINS: usize = 15;
-/// The force below which a ratio of travel and force says nothing.
+/// Force below which the ratio of travel and force is ignored.
 const GATE_N: f64 = 0.02;
 /// Published S in mm/N and U.
 pub(crate) const PUBLISHED: [(Model, f64, f64); 4] = [
@@ -15,10 +15,10 @@ pub(crate) const PUBLISHED: [(Model, f64, f64); 4] = [
     (Model::MagicTac, 1.277, 0.875),
     (Model::ViTacTip, 6.753, 0.863),
 ];
-/// How far the bench may be off, as a fraction.
+/// Allowed relative deviation of the bench.
 pub(crate) const TOLERANCE: f64 = 0.05;
 
-/// S and U of one run: Pz/Fz of every label, their mean in each bin, the mean μ of the bins and 1/(1 + σ/μ).
+/// S and U of one run, from Pz/Fz of every label and its mean in each bin: S is the mean μ of the bins, U is 1/(1 + σ/μ).
 pub(crate) fn sensitivity(model: Model, labels: &[Label]) -> (f64, f64) {
     let probing = model.parameters().probing;
     let half = [probing.half_width_mm, probing.half_height_mm];

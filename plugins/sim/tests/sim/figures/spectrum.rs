@@ -1,13 +1,13 @@
-//! How much of each spatial frequency a picture holds.
+//! Power of each spatial frequency in a picture.
 
 use std::f64::consts::TAU;
 
-/// Pixels a side: a power of two.
+/// Pixels per side: a power of two.
 pub(crate) const SIDE: usize = 128;
 /// Rings of the spectrum.
 const RINGS: usize = 40;
 
-/// The logarithm of the power in rings of equal width, of a square picture under a Hann window.
+/// Logarithm of the power in rings of equal width, for a square picture under a Hann window.
 pub(crate) fn radial_spectrum(picture: &[f64]) -> Vec<f64> {
     let mean = picture.iter().sum::<f64>() / picture.len() as f64;
     let window = |place: usize| 0.5 - 0.5 * (TAU * (place as f64 + 0.5) / SIDE as f64).cos();
@@ -57,7 +57,7 @@ fn transposed(square: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Cooley and Tukey's fast Fourier transform, in place; `turns` are sine and cosine of the parts of half a turn back.
+/// Fast Fourier transform of Cooley and Tukey, in place. `turns` are sine and cosine of the fractions of half a turn backwards.
 fn transform(real: &mut [f64], imaginary: &mut [f64], turns: &[(f64, f64)]) {
     let length = real.len();
     let shift = usize::BITS - length.trailing_zeros();

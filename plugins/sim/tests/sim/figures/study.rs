@@ -1,5 +1,5 @@
-//! The figures once more, from the calibration and the load-unload phases of the paper's scene as they are run: with a robot that moves,
-//! a gel that relaxes meanwhile, a search from the air and a supervisor that ends a press at the limit of force.
+//! The same figures from complete runs of the calibration and load-unload phases of the paper's scene. The robot moves, the gel relaxes meanwhile,
+//! contact is searched from the air, and a supervisor ends a press at the force limit.
 
 use taceva_protocol::{BuiltinScene, PhaseKind};
 use taceva_sim::{Label, Model};
@@ -7,7 +7,7 @@ use taceva_sim::{Label, Model};
 use super::sensitivity::{PUBLISHED, TOLERANCE, sensitivity};
 use crate::trial::{Log, Trial};
 
-/// The paper's protocol with one study: unit 0 of `model`. Only the presses of `kind` are made.
+/// Plan of the paper's protocol with one study: unit 0 of `model`. Only the presses of `kind` are made.
 fn records(model: Model, kind: PhaseKind) -> (Trial, Log) {
     let text = BuiltinScene::Paper.text();
     let (protocol, _) = text.split_once("[[study]]").expect("it has studies");
@@ -25,7 +25,7 @@ fn records(model: Model, kind: PhaseKind) -> (Trial, Log) {
     (trial, log)
 }
 
-/// Places and forces by press, in the order in which they were read.
+/// Places and forces by press, in the order of reading.
 fn labels(trial: &Trial, log: &Log) -> Vec<Vec<Label>> {
     let channels = ["Px", "Py", "Pz", "Fx", "Fy", "Fz"].map(|name| {
         let mut channels = trial.plan.channels.iter();
@@ -65,7 +65,7 @@ fn the_calibration_of_the_paper_s_scene_has_the_published_sensitivities() {
     }
 }
 
-/// The mean part of the work that presses lose, of those that were not ended by a limit.
+/// Mean fraction of the work that a press loses, over presses that no limit ended.
 fn loss(trial: &Trial, log: &Log) -> f64 {
     let samples = trial.plan.presses[0].press.samples();
     let losses: Vec<f64> = labels(trial, log)

@@ -1,4 +1,4 @@
-//! Noise, sizes, determinism and refusals.
+//! Noise, sizes, determinism and errors.
 
 use std::thread;
 
@@ -81,7 +81,7 @@ fn two_pictures_of_one_press_share_nothing_but_the_press() {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     for other in [&second, &third] {
         let correlation = dot(&first, other) / (dot(&first, &first) * dot(other, other)).sqrt();
-        // Stretches of one tile overlap now and then, so the spread is wider than that of independent numbers.
+        // Stretches of one tile sometimes overlap, so the spread is wider than for independent numbers.
         assert!(
             correlation.abs() < 5.0 / 36_864.0_f64.sqrt(),
             "{correlation}"

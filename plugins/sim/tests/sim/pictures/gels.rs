@@ -1,4 +1,4 @@
-//! Light, symmetry and movement, sensor by sensor.
+//! Light, symmetry and motion, by sensor.
 
 use taceva_core::random::fnv_1a;
 use taceva_core::{GratingKind, Nanometre};
@@ -9,7 +9,7 @@ use taceva_sim::{Grating, GratingPose, Model};
 
 use super::support::{camera, contact, dn, quiet, take, view};
 
-/// The mean gray of a sensor under a scene, over some units.
+/// Mean gray of a sensor under a light scene, over several units.
 fn mean_gray(model: Model, light: AmbientLight) -> f64 {
     let units = 0..6_u32;
     let spec = OpticsSpec::new(&model.parameters());
@@ -56,7 +56,7 @@ fn mean_grays_are_those_of_the_papers_lighting_figure() {
     }
 }
 
-/// A coated gel without markers, evenly coated, with `lamps`.
+/// An evenly coated gel without markers, with `lamps`.
 fn even(lamps: Vec<LampSpec>) -> OpticsSpec {
     let mut spec = quiet(Model::GelSightWm);
     if let GelSpec::Gelsight(gel) = &mut spec.gel {
@@ -100,7 +100,7 @@ fn a_press_in_the_middle_is_as_symmetric_as_the_lamps() {
 
 #[test]
 fn moving_the_press_moves_the_change() {
-    // Lamps so far away that they shine alike everywhere, on a surface that is flat.
+    // Lamps far enough away to illuminate a flat surface uniformly.
     let mut spec = even(vec![LampSpec {
         middle_mm: [-2e5, 0.0, 1e5],
         half_length_mm: [0.0, 0.0],
@@ -180,13 +180,13 @@ fn the_skin_of_a_dome_changes_under_the_ball_and_not_beside_it() {
             change(*a).total_cmp(&change(*b))
         })
         .expect("pixels");
-    // 3 mm out on the dome is seen some five pixels right of the middle.
+    // A point 3 mm from the axis of the dome appears some five pixels right of the centre.
     let (column, row) = (brightest % 96, brightest / 96);
     assert!(
         (50..56).contains(&column) && (45..51).contains(&row),
         "{column} {row}"
     );
-    // Beyond the markers, between them and the rim, nothing moves.
+    // Nothing moves between the outermost markers and the rim.
     for index in (0..96 * 96).filter(|index| index % 96 > 84) {
         assert!((pressed[index] - untouched[index]).abs() < 0.004);
     }
@@ -197,7 +197,7 @@ fn dragging_a_marked_gel_carries_its_markers_along() {
     let parameters = Model::GelSight.parameters();
     let mut camera = camera(&quiet(Model::GelSight), [286, 372]);
     let mut dark = |shear_mm: [f64; 2]| {
-        // A marker lies in the middle; its darkness is weighed within 1 mm.
+        // A marker lies in the centre. Its position is the weighted mean of darkness within 1 mm.
         let press = contact(&parameters, [0.0, 0.0], 0.9, shear_mm);
         let frame = dn(&take(&mut camera, &view(press)).0);
         let (mut sum, mut weight) = (0.0, 0.0);
@@ -255,7 +255,7 @@ fn a_grating_is_seen_and_finer_ones_fainter() {
     }
 }
 
-/// Pictures are part of what a seed promises: whoever changes one raises the model's version.
+/// Pictures are part of the reproducibility of a seed: a change requires a new model version.
 #[test]
 fn pictures_are_frozen() {
     let found: Vec<(&str, u64)> = Model::ALL

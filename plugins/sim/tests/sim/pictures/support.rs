@@ -5,7 +5,7 @@ use taceva_sim::contact::{Contact, Indentation, Solid};
 use taceva_sim::optics::{Camera, CameraSpec, Luma, OpticsSpec, Stimulus, View};
 use taceva_sim::{Model, Parameters};
 
-/// The look of a sensor, without its camera's noise.
+/// Optics of a sensor without camera noise.
 pub(super) fn quiet(model: Model) -> OpticsSpec {
     OpticsSpec {
         camera: CameraSpec::QUIET,
@@ -13,7 +13,7 @@ pub(super) fn quiet(model: Model) -> OpticsSpec {
     }
 }
 
-/// A ball of 2 mm, pressed `depth_mm` deep at `place_mm` and dragged by `shear_mm`.
+/// Contact of a ball of 2 mm, pressed `depth_mm` deep at `place_mm` and sheared by `shear_mm`.
 pub(super) fn contact(
     parameters: &Parameters,
     place_mm: [f64; 2],
@@ -49,7 +49,7 @@ pub(super) fn take(camera: &mut Camera, view: &View) -> (Frame, Luma) {
     (Frame::new(info, bytes).expect("all its bytes"), luma)
 }
 
-/// The samples of a frame, in DN.
+/// Samples of a frame, in DN.
 pub(super) fn dn(frame: &Frame) -> Vec<f64> {
     frame
         .samples()

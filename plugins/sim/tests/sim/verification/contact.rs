@@ -1,4 +1,4 @@
-//! Friction, memory, the dome and the laws that every contact obeys.
+//! Friction, relaxation, the dome, and laws that every contact obeys.
 
 use taceva_sim::contact::{Friction, Indentation, Relaxation, Solid};
 use taceva_sim::elastic::hertz;
@@ -57,7 +57,7 @@ fn a_linear_solid_on_a_ramp_does_the_work_of_the_closed_form() {
         area += 0.5 * (last + gel.force_n()) / f64::from(steps);
         last = gel.force_n();
     }
-    // The trapezoids themselves are off by 2·10⁻⁸.
+    // The trapezoidal rule itself has an error of 2·10⁻⁸.
     close(area, 0.413_533_528_324, 1e-6);
 }
 
@@ -84,7 +84,7 @@ fn a_hertzian_solid_loses_the_work_of_the_hereditary_integral() {
     close(1.0 - unloading / loading, 0.243_395, 5e-3);
 }
 
-/// A ball at `place_mm`, `depth_mm` below touching, on a gel of even stiffness.
+/// Indentation of a ball at `place_mm`, `depth_mm` below first touch, on a gel of uniform stiffness.
 fn indentation(place_mm: [f64; 2], depth_mm: f64) -> Indentation {
     Indentation {
         place_mm,
@@ -96,7 +96,7 @@ fn indentation(place_mm: [f64; 2], depth_mm: f64) -> Indentation {
     }
 }
 
-/// V15: the work of a closed loop is never gained, and nothing is lost by a gel that forgets nothing.
+/// V15: a closed loop never gains work, and a gel without relaxation loses none.
 #[test]
 fn no_loop_gains_work_and_a_gel_without_memory_loses_none() {
     for model in Model::ALL {
@@ -126,7 +126,7 @@ fn no_loop_gains_work_and_a_gel_without_memory_loses_none() {
     }
 }
 
-/// V15: the force on the sensor is the sum of what acts along normal and tangent.
+/// V15: the force on the sensor is the sum of the forces along normal and tangent.
 #[test]
 fn forces_along_normal_and_tangent_add_up() {
     for model in Model::ALL {
@@ -150,7 +150,7 @@ fn forces_along_normal_and_tangent_add_up() {
     }
 }
 
-/// V15: S(θ)/S(0) = 1/(cos² + μ sin cos) where everything slides, 1/cos² without friction, for depths that turn no normal.
+/// V15: S(θ)/S(0) = 1/(cos² + μ sin cos) if everything slides, and 1/cos² without friction, for depths that do not change the normal.
 #[test]
 fn a_dome_looks_softer_towards_its_rim_by_geometry_alone() {
     let depth_mm = 1e-4;
@@ -161,7 +161,7 @@ fn a_dome_looks_softer_towards_its_rim_by_geometry_alone() {
         let Body::Dome(dome) = &mut parameters.body else {
             panic!("a dome");
         };
-        // A linear law, and a contact so stiff along the surface that it slides at once.
+        // A linear law, and a tangential stiffness so high that the contact slides at once.
         dome.gel_n_per_mm_3_2 = 1e-4;
         dome.tangential_ratio = 1.0;
         let reach = dome.radius_mm + 2.0;
@@ -171,7 +171,7 @@ fn a_dome_looks_softer_towards_its_rim_by_geometry_alone() {
         let cos = (1.0 - sin * sin).sqrt();
         let stick = force(0.0) / force(16.0);
         if let Some(mu) = expected {
-            // d_max = 1.5 μ F/k: a slide of tan θ d is beyond it where tan θ > 1.5 μ.
+            // d_max = 1.5 μ F/k: a slide of d tan θ exceeds it if tan θ > 1.5 μ.
             assert!(sin / cos > 1.5 * mu);
             close(stick, 1.0 / (cos * cos + mu * sin * cos), 1e-4);
         } else {

@@ -1,11 +1,11 @@
-//! Fields of displacement under a contact.
+//! Displacement fields under a contact.
 
 use taceva_sim::displacement::{Field, Load, Profile, Quantity, Tables};
 
 fn unit_press() -> Load {
     Load {
         contact_radius_mm: 1.0,
-        // So deep that the ball's own shape is the table's: the scale at the rim is then 1.
+        // At this depth, the ball has the shape of the table, so the scale at the rim is 1.
         depth_mm: 0.464_237_244_2,
         indenter_radius_mm: 1.0 / (2.0 * (0.464_237_244_2 - 0.185_780_127_6)),
         young_modulus_mpa: 1.0,
@@ -62,7 +62,7 @@ fn a_layer_sinks_and_spreads_as_the_quadrature_says() {
     }
 }
 
-/// V8, the layer without end.
+/// V8 for an infinitely thick layer.
 #[test]
 fn a_very_thick_layer_sinks_as_a_half_space() {
     let load = Load {
@@ -86,7 +86,7 @@ fn a_very_thick_layer_sinks_as_a_half_space() {
     }
 }
 
-/// V8, between the rows and the nodes of the tables: the closed forms of the half-space at radii that no table holds.
+/// V8 between the rows and nodes of the tables: closed forms of the half-space at radii without a row.
 #[test]
 fn places_between_nodes_are_as_good_as_nodes() {
     for radius in [0.173, 0.9, 1.37] {
@@ -110,7 +110,7 @@ fn places_between_nodes_are_as_good_as_nodes() {
     }
 }
 
-/// The slope is the derivative of the height, by x and by y, shear included.
+/// The slope is the derivative of the height with respect to x and y, shear included.
 #[test]
 fn slopes_are_the_gradient_of_the_height() {
     let load = Load {
@@ -199,8 +199,8 @@ fn twice_the_force_moves_the_gel_twice_as_far() {
     }
 }
 
-/// Below the surface of a thick layer under nearly a point load: the Boussinesq field of an incompressible half-space,
-/// u_z = 3F/(4πE) (1/R)(1 + z²/R²) and u_r = 3F/(4πE) z r/R³ with R² = r² + z².
+/// Below the surface of a thick layer under nearly a point load, the field is Boussinesq's for an incompressible half-space: u_z = 3F/(4πE) (1/R)(1 +
+/// z²/R²) and u_r = 3F/(4πE) z r/R³ with R² = r² + z².
 #[test]
 fn deep_below_a_small_contact_the_field_is_that_of_a_point_force() {
     let load = Load {

@@ -40,7 +40,7 @@ fn the_surface_outside_the_contact_is_hertz_s() {
     }
 }
 
-/// V5, against numerical integration of the layer's differential equation at high precision.
+/// V5, compared with numerical integration of the layer's differential equation at high precision.
 #[test]
 fn the_layer_answers_waves_as_its_differential_equation_says() {
     let known = [
@@ -103,7 +103,7 @@ fn the_force_on_a_layer_is_that_of_the_boundary_elements() {
     }
 }
 
-/// V7: the published polynomials agree where they were made for, thin indentations, and are known to part beyond.
+/// V7: the published polynomials agree for thin indentations, for which they were made, and are known to deviate beyond.
 #[test]
 fn published_polynomials_agree_at_small_depths_and_part_at_large_ones() {
     // Dimitriadis et al., Biophysical Journal 82 (2002), bonded, ν = 1/2.

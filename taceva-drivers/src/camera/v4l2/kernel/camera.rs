@@ -119,7 +119,7 @@ impl Camera {
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,
-                reason = "a cast saturates, and the camera answers what it gives"
+                reason = "a cast saturates, and the camera reports the resulting rate"
             )]
             let per_second = (wanted_hz * 1000.0).round() as u32;
             rate.time = [1000, per_second.max(1)];

@@ -17,14 +17,13 @@ pub(crate) struct Mapped {
     length: usize,
 }
 
-// SAFETY: the memory belongs to the value alone, whichever thread has it; nothing of it is bound to a thread.
+// SAFETY: the value owns its memory, and nothing of it is bound to a thread.
 unsafe impl Send for Mapped {}
 
 impl Mapped {
     /// Maps `length` bytes of the kernel's buffer at `offset` of `camera`, read-only.
     pub(crate) fn new(camera: BorrowedFd<'_>, offset: u64, length: usize) -> Result<Mapped, Errno> {
-        // SAFETY: the kernel chooses an address that nothing else has; the offset and the length are those that it gave of a buffer, and it refuses
-        // others.
+        // SAFETY: the kernel chooses an unused address. The offset and the length are those that it gave for a buffer; it rejects others.
         let start = unsafe {
             mmap(
                 std::ptr::null_mut(),
@@ -42,16 +41,15 @@ impl Mapped {
     /// First `used` bytes, or all if there are fewer. The caller has dequeued the buffer, so the kernel does not write to it. Queueing it
     /// again needs the stream, which is borrowed as long as these bytes.
     pub(crate) fn bytes(&self, used: usize) -> &[u8] {
-        // SAFETY: the memory is mapped to be read until `self` is dropped, is at least so long, and every byte of it is a number. The kernel does not
-        // write meanwhile, as the caller sees to.
+        // SAFETY: the mapping is readable until `self` is dropped and at least this long; every byte is a valid `u8`. The caller ensures that the
+        // kernel does not write meanwhile.
         unsafe { std::slice::from_raw_parts(self.start.as_ptr(), used.min(self.length)) }
     }
 }
 
 impl Drop for Mapped {
     fn drop(&mut self) {
-        // SAFETY: what is given back is what was mapped, once, and no slice of it outlives `self`. It fails for an address that is none, which this is
-        // not.
+        // SAFETY: this address and length were mapped once, and no slice outlives `self`. An error is impossible for a mapped address.
         let _ = unsafe { munmap(self.start.as_ptr().cast(), self.length) };
     }
 }

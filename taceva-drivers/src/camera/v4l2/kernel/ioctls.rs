@@ -203,12 +203,12 @@ macro_rules! call {
         $(#[$doc])*
         pub(crate) fn $name(camera: BorrowedFd<'_>, structure: &mut $structure) -> Result<(), Errno> {
             loop {
-                // SAFETY: the opcode holds the size of the structure, and the kernel reads and writes no byte beyond it. The structure has no
-                // padding, holds whole numbers alone, of which every bit pattern is one, and no address that the kernel would follow.
+                // SAFETY: the opcode contains the size of the structure, and the kernel accesses no byte beyond it. The structure has no padding
+                // and no pointers. All its fields are integers, so every bit pattern is valid.
                 let update = unsafe {
                     Updater::<{ opcode::$direction::<$structure>(b'V', $number) }, $structure>::new(structure)
                 };
-                // SAFETY: the opcode is one of V4L2's, whose argument is this structure; any other device answers ENOTTY.
+                // SAFETY: the opcode is one of V4L2, and this structure is its argument; any other device returns ENOTTY.
                 match unsafe { ioctl(camera, update) } {
                     Err(Errno::INTR) => {}
                     done => return done,

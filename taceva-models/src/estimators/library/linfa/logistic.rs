@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use taceva_core::{ErrorKind, ModelError, TrainingSet};
 
 use super::{RELEASE, records};
+use crate::estimators::discriminant::VALUES_MAX;
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset};
 use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::{Classes, Planes};
@@ -19,9 +20,6 @@ use crate::settings::SettingInfo;
 use crate::training::info::ModelInfo;
 
 const NAME: &str = "linfa/logistic";
-
-/// Most classes of a channel.
-const VALUES_MAX: usize = 256;
 
 const STRENGTH: Number = Number {
     info: SettingInfo {

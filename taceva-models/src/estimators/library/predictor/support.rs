@@ -21,7 +21,7 @@ pub(crate) struct Support {
 
 /// Library fit for one target.
 pub(crate) struct Machine {
-    /// Coefficient of each training sample; 0 if it is no support vector of the target.
+    /// Coefficient of each training sample; 0 if it is not a support vector of the target.
     pub(crate) coefficients: Vec<f64>,
     pub(crate) bias: f64,
 }

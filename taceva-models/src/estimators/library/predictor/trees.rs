@@ -120,7 +120,7 @@ fn checked(tree: Tree, features: usize) -> Result<Tree, ModelError> {
     if !tree.is_empty() && tree.iter().enumerate().all(leads_on) {
         Ok(tree)
     } else {
-        Err(damaged("a tree leads nowhere"))
+        Err(damaged("a node of a tree has no leaf below"))
     }
 }
 

@@ -86,7 +86,7 @@ pub(super) static FOREST: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
             "smartcore/random-forest",
-            "smartcore: random forest, a forest a channel",
+            "smartcore: random forest, one per channel",
             SETTINGS,
             |settings| FOREST.estimator(settings),
         ),
@@ -105,7 +105,7 @@ pub(super) static EXTRA_TREES: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
             "smartcore/extra-trees",
-            "smartcore: extremely randomised trees, a forest a channel",
+            "smartcore: extremely randomised trees, one forest per channel",
             SETTINGS,
             |settings| EXTRA_TREES.estimator(settings),
         ),

@@ -76,7 +76,7 @@ impl LeaveOut<'_> {
             if share > 0.0 {
                 (residuals[(row, column)] + unspanned_residuals[(row, column % channels)]) / share
             } else {
-                // Only rounding is left, at a penalty too weak to judge.
+                // Only rounding errors remain: the penalty is too weak to judge.
                 f64::INFINITY
             }
         };

@@ -55,7 +55,7 @@ impl<'a> Growth<'a> {
         self.mend();
     }
 
-    /// Removes matches that contradict their neighbours, and searches once more.
+    /// Removes matches that contradict their neighbours, and searches again.
     fn mend(&mut self) {
         for own in 0..self.spot_of.len() {
             let Some(spot) = self.spot_of[own] else {

@@ -1,4 +1,4 @@
-//! Grids that were drawn, and moved by known amounts.
+//! Drawn grids of markers, moved by known amounts.
 
 use super::*;
 use crate::features::test_pictures::{Gel, grid, noise};
@@ -10,7 +10,7 @@ const CLEAN: Gel = Gel {
     seed: 1,
 };
 
-/// The root mean square distance of each of `found` from the nearest of `truth`, which must be near.
+/// Root mean square distance of each of `found` from the nearest of `truth`, pixels; every distance must be small.
 fn error_px(found: impl Iterator<Item = [f64; 2]>, truth: &[[f64; 2]]) -> f64 {
     let off = found.map(|found| {
         let off = truth.iter().map(|truth| distance(found, *truth));
@@ -105,7 +105,7 @@ fn errors_of_places_grow_in_proportion_to_noise() {
 
 #[test]
 fn a_push_a_twist_and_a_stretch_are_recovered_beyond_the_distance_of_markers() {
-    // At the rim up to 18 pixels, one and a half spacings; in the middle 9.
+    // Displacement up to 18 pixels at the rim, one and a half spacings, and 9 in the middle.
     let moved = |[x, y]: [f64; 2]| {
         let (right, down) = (x - 80.0, y - 60.0);
         [
@@ -132,7 +132,7 @@ fn a_push_a_twist_and_a_stretch_are_recovered_beyond_the_distance_of_markers() {
 
 #[test]
 fn a_shear_that_grows_from_nothing_is_followed_past_the_next_marker() {
-    // Held at the top, and at the bottom moved by one and a half spacings: there each marker is nearest to where another one was.
+    // Fixed at the top, moved by one and a half spacings at the bottom. There each marker is nearest to the old position of another.
     let moved = |[x, y]: [f64; 2]| [x + 18.0 * (y / 110.0).powi(2), y];
     for (polarity, is_hexagonal) in every_grid() {
         let places: Vec<[f64; 2]> = grid(is_hexagonal)
@@ -158,7 +158,7 @@ fn missing_and_merged_markers_are_reported_and_filled_from_their_neighbours() {
     let moved = |[x, y]: [f64; 2]| [x + 2.4 + 0.02 * y, y - 1.2];
     let hidden = [17, 40, 41, 77];
     let mut pressed: Vec<[f64; 2]> = places.iter().map(|place| moved(*place)).collect();
-    // Two that have run into each other half way.
+    // Two markers that met half way.
     let merged = [0, 1].map(|axis| 0.5 * (pressed[25][axis] + pressed[26][axis]));
     pressed[25] = merged;
     pressed[26] = merged;
@@ -214,7 +214,7 @@ fn a_gel_without_markers_is_refused_whatever_else_it_shows() {
     let random = noise(Gel::WIDTH, Gel::HEIGHT, PixelFormat::Rgb8, 7);
     let error = MarkerTracker::new(&random).expect_err("noise");
     assert!(matches!(error, FeatureError::NoMarkers { .. }), "{error}");
-    // Scratches and dust stand anywhere.
+    // Scratches and dust at any position.
     let mut draws = taceva_core::random::SplitMix64::new(8);
     let mut place = || [8 + draws.below(144), 8 + draws.below(104)].map(|at| at as f64);
     let dust: Vec<[f64; 2]> = (0..60).map(|_| place()).collect();
@@ -234,7 +234,7 @@ fn a_picture_that_is_moved_moves_its_markers_with_it() {
         let moved = |[x, y]: [f64; 2]| [x + right, y + down];
         let pressed: Vec<[f64; 2]> = places.iter().map(|place| moved(*place)).collect();
         let (worst, unseen) = track(&tracker, &gel.frame(&pressed), moved);
-        // Whole pixels change nothing but the rounding of a gel that is brighter to the right.
+        // A shift by whole pixels changes only the rounding of a gel that is brighter to the right.
         assert!(worst < 0.03 && unseen == 0, "{worst} px, {unseen} unseen");
     }
 }

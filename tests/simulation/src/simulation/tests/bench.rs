@@ -1,4 +1,4 @@
-//! A simulated rig that a test runs a plan on, and a log in memory.
+//! Simulated rig on which a test runs a plan, with a log in memory.
 
 use taceva_core::{Frame, SinkError};
 
@@ -25,7 +25,7 @@ pub(super) const SOFT: Gel = Gel {
     pose_noise_mm: 0.0,
 };
 
-/// A gel so hard that every press ends at the limit of force.
+/// A gel so hard that every press ends at the force limit.
 pub(super) const HARD: Gel = Gel {
     stiffness_n_mm: 5.0,
     ..SOFT
@@ -63,7 +63,7 @@ pub(super) struct Bench {
     pub(super) plan: Plan,
     pub(super) cancel: Cancel,
     pub(super) events: Vec<Event>,
-    /// Who is asked.
+    /// Person who answers questions.
     pub(super) operator: Option<Box<dyn Operator>>,
 }
 

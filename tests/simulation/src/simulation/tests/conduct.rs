@@ -1,4 +1,4 @@
-//! Signals as they are on a real rig: poses with noise, readings that stay away for a while, a robot that stops by itself.
+//! Signals of a real rig: noisy poses, temporary gaps of readings, and a robot that stops by itself.
 
 use taceva_core::{Fault, Nanometre};
 
@@ -10,7 +10,7 @@ use taceva_protocol::Plan;
 use taceva_protocol::Signals;
 use taceva_protocol::{Event, Left, Mode, StopCause, Trip};
 
-/// A robot that reports its pose with an even spread of ±0.05 mm an axis.
+/// A robot that reports its pose with uniform noise of ±0.05 mm per axis.
 const JITTERED: Gel = Gel {
     pose_noise_mm: 0.05,
     ..SOFT
@@ -29,7 +29,7 @@ calibration = { points = 120, indentations = 4 }
 hysteresis = { points = 100, depth_step_mm = 0.4 }
 "#;
 
-/// 200 presses and no picture, for a robot with that noise.
+/// Plan of 200 presses without pictures, for that robot.
 fn plan() -> Plan {
     let mut plan = planned_scene(SCENE, 1, &JITTERED).expect("a plan");
     assert!(plan.presses.len() >= 200, "{}", plan.presses.len());
@@ -50,7 +50,7 @@ fn a_robot_whose_pose_jitters_makes_two_hundred_presses_without_a_false_halt() {
     let mut log = Memory::default();
     let report = bench
         .run(Mode::Acquire, &mut log)
-        .expect("noise is no fault");
+        .expect("noise is not a fault");
     assert_eq!((report.made, report.limited, report.redone), (200, 0, 0));
     assert_eq!(bench.events.iter().find(is_halt), None);
     assert_eq!(bench.shared.world().oracle.violations, []);
@@ -114,7 +114,7 @@ fn depths_count_from_the_uneven_surface_within_the_uncertainty_that_is_stated() 
     assert_eq!(bench.shared.world().oracle.violations, []);
 }
 
-/// Silence from `from_s` on, for `lasting_s`.
+/// A bench whose transducer is silent from `from_s` on, for `lasting_s`.
 fn silent(from_s: f64, lasting_s: f64) -> Bench {
     let bench = Bench::new(SOFT);
     bench.shared.world().faults = Faults::between(FaultKind::Silence, from_s, from_s + lasting_s);
@@ -154,7 +154,7 @@ fn twenty_presses_that_were_broken_off_end_the_run() {
     for press in &mut bench.plan.presses {
         press.frames = false;
     }
-    // Now and then the transducer is silent for longer than is believed, and hardly ever twice in a press.
+    // The transducer is sometimes silent longer than allowed, but hardly ever twice in a press.
     bench.shared.world().faults = Faults::every(FaultKind::Silence, 40.0, 0.2);
     let mut log = Memory::default();
     let error = bench.run(Mode::Acquire, &mut log).expect_err("too often");

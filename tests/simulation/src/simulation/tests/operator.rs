@@ -1,4 +1,4 @@
-//! What is left to hands: that nothing moves meanwhile, and what becomes of a yes, a no and a stop.
+//! Manual steps: nothing moves during them, and the answers yes, no and stop have their effects.
 
 use std::sync::{Arc, Mutex};
 
@@ -24,7 +24,7 @@ calibration = { points = 3, indentations = 1 }
 
 type Asked = Arc<Mutex<Vec<Question>>>;
 
-/// Answers by a rule, notes what it was asked, and looks whether the robot is halted meanwhile.
+/// Answers by a rule, records the questions, and checks that the robot is halted meanwhile.
 struct ScriptedOperator {
     world: Shared,
     asked: Asked,
@@ -40,7 +40,7 @@ impl Operator for ScriptedOperator {
     }
 }
 
-/// A bench with two specimens and hands that answer so.
+/// A bench with two specimens, and a person who gives these answers.
 fn bench(answer: fn(&Shared, &Question) -> Answer) -> (Bench, Asked) {
     let mut plan = planned_scene(SCENE, 1, &SOFT).expect("a plan");
     let other = Specimen::Sphere {
@@ -96,7 +96,7 @@ fn what_is_skipped_is_left_for_another_run_and_everything_else_is_made() {
     assert_eq!(asked.lock().expect("whole").len(), 2);
 }
 
-/// A bench whose presses need nobody but one in the middle, which needs a light that hands set and that is skipped.
+/// A bench with one press that needs a manually set light; that press is in the middle and is skipped.
 fn with_a_skipped_light(answer: fn(&Shared, &Question) -> Answer) -> (Bench, Asked) {
     let (mut bench, asked) = bench(answer);
     let presses = &mut bench.plan.presses;

@@ -1,4 +1,4 @@
-//! Many seeds without a violation, and planted mistakes that the oracle must find.
+//! Many seeds without a violation, and planted bugs that the oracle must find.
 
 use crate::simulation::fault::{FaultCounts, FaultKind};
 use crate::simulation::oracle::{Checks, HALT_WITHIN_S, Violation};
@@ -34,8 +34,8 @@ fn five_hundred_seeds_pass_without_a_violation_and_strike_with_every_fault() {
     assert!(checks.slowest_halt_s <= HALT_WITHIN_S);
 }
 
-/// Seeds in which the limit of force was passed under a signal that froze: they tell a tip that comes out from one that goes in, and a
-/// force that nobody could see from one that nobody answered.
+/// Seeds in which the force limit was exceeded under a frozen signal. They separate a retreating tip from an approaching one, and an
+/// invisible force from an ignored one.
 #[test]
 fn the_limit_is_passed_under_a_frozen_signal_by_no_more_than_is_stated() {
     for seed in [3074, 4881, 8150, 8592, 9366] {
@@ -57,7 +57,7 @@ fn a_seed_is_the_same_run_every_time() {
     }
 }
 
-/// Violations of the first seeds with a mistake planted.
+/// Violations of the first seeds with a planted bug.
 fn found_with(sabotage: Sabotage) -> Vec<Violation> {
     let reports = (0..60).map(|seed| simulate_with(seed, sabotage));
     reports.flat_map(|report| report.violations).collect()

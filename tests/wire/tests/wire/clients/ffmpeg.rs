@@ -1,4 +1,4 @@
-//! ffmpeg as the server of a stream, and the driver as its client.
+//! ffmpeg as the server of a stream, with the driver as its client.
 
 use std::net::TcpListener;
 use std::process::{Child, Command, Stdio};
@@ -8,7 +8,7 @@ use taceva_core::{Deadline, ErrorKind, Factory, FrameMut, PixelFormat, Rig, Sens
 use taceva_drivers::camera::mjpeg::MjpegFactory;
 use taceva_needs::{Need, skip};
 
-/// ffmpeg that serves one client, and is ended with this.
+/// ffmpeg serving one client, ended on drop.
 struct Served(Child);
 
 impl Drop for Served {
@@ -18,7 +18,7 @@ impl Drop for Served {
     }
 }
 
-/// A stream of a picture that moves, 64×48 at 30 a second; `None` where there is no ffmpeg.
+/// A stream of a moving picture, 64×48 at 30 frames per second; `None` without ffmpeg.
 fn served(port: u16) -> Option<Served> {
     let program = std::env::var_os("TACEVA_FFMPEG").unwrap_or_else(|| "ffmpeg".into());
     let url = format!("http://127.0.0.1:{port}/");
@@ -47,7 +47,7 @@ fn opened(url: &str) -> Box<dyn Sensor> {
     loop {
         match factory.open(&args, &mut Rig::new()) {
             Ok(sensor) => return sensor,
-            // It has not begun to listen.
+            // ffmpeg does not listen yet.
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 assert!(began.elapsed() < Duration::from_secs(20), "{error}");
                 std::thread::sleep(Duration::from_millis(50));
@@ -72,7 +72,7 @@ fn frames_of_ffmpeg_are_read_at_their_rate() {
     let patience = Deadline::after(Duration::from_secs(3));
     sensor.start(patience).expect("it starts");
     let mut stamps: Vec<f64> = Vec::new();
-    // It first sends at once what it made while it waited for a client.
+    // The server first sends the frames that it made while it waited for a client.
     while stamps.len() < 2 || stamps[stamps.len() - 1] - stamps[0] < 2.0 {
         let mut pixels = vec![0; info.byte_len().expect("small")];
         let into = FrameMut::new(info, &mut pixels).expect("the buffer fits");

@@ -1,4 +1,4 @@
-"""What a user of the public client does with a box. Lines that begin with `= ` are read by the test."""
+"""Calls of a user of the public client to a box. Lines that begin with `= ` are read by the test."""
 import sys
 
 from NetFT import Sensor

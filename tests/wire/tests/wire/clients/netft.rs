@@ -1,4 +1,4 @@
-//! `NetFT`, a public client of ATI's boxes, on the emulated one.
+//! `NetFT`, a public client of ATI's boxes, with the emulated one.
 
 use taceva_needs::{Need, skip};
 use taceva_wire::netft::{Emulator, USUAL_PORT};

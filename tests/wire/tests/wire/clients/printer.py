@@ -59,7 +59,7 @@ while True:
     if not more:
         break
     heard += more
-    # A line at a time: of two that it is handed at once, the printer works on the first and keeps the second until something else comes.
+    # One line at a time: of two lines received at once, the printer executes the first and holds the second until more data arrives.
     while b"\n" in heard:
         line, heard = heard.split(b"\n", 1)
         line += b"\n"

@@ -1,4 +1,4 @@
-//! OctoPrint's virtual printer, and the driver of Marlin as its client.
+//! OctoPrint's virtual printer, with the Marlin driver as its client.
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -10,10 +10,10 @@ use taceva_drivers::gcode::marlin::MarlinFactory;
 use taceva_needs::{Need, skip};
 
 const PATIENCE: Deadline = Deadline::after(Duration::from_secs(20));
-/// Where `.ci/install` puts OctoPrint.
+/// Python of OctoPrint, as `.ci/install` installs it.
 const INSTALLED: &str = "../../target/printer/bin/python";
 
-/// A printer that is ended with this.
+/// A printer, ended on drop.
 struct Printer {
     process: Child,
     port: String,
@@ -26,7 +26,7 @@ impl Drop for Printer {
     }
 }
 
-/// The virtual printer; `None` where there is none.
+/// The virtual printer; `None` if it is not installed.
 fn printer() -> Option<Printer> {
     let named = std::env::var_os("TACEVA_PRINTER").map(PathBuf::from);
     let python = named.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join(INSTALLED));
@@ -101,7 +101,7 @@ fn a_halt_at_the_virtual_printer_is_told_from_an_arrival() {
             std::thread::sleep(Duration::from_millis(300));
             handle.halt().expect("it is sent");
         });
-        // Ten seconds, of which it takes a tenth.
+        // A motion of ten seconds, which the virtual printer makes in a tenth of the time.
         robot.move_to(at(0.0, 0.0, 10.0), speed, PATIENCE)
     });
     assert_eq!(moved.expect_err("halted").kind(), ErrorKind::Interrupted);

@@ -1,14 +1,15 @@
-//! An interpreter of Python that has the public clients of devices.
+//! Python interpreter with the public clients of devices.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use taceva_needs::{Need, skip};
 
-/// Where `.ci/install` puts the clients.
+/// Interpreter with the clients, as `.ci/install` installs it.
 const INSTALLED: &str = "../../target/clients/bin/python";
 
-/// The interpreter that `TACEVA_PYTHON` names, or that of `.ci/install`, or the one on the path, if it has `module`; else the skip is noted.
+/// The interpreter named by `TACEVA_PYTHON`, the one of `.ci/install`, or the one on the path, if it has `module`; otherwise the skip is
+/// recorded.
 pub(crate) fn with(module: &str) -> Option<PathBuf> {
     let named = std::env::var_os("TACEVA_PYTHON").map(PathBuf::from);
     let installed = Path::new(env!("CARGO_MANIFEST_DIR")).join(INSTALLED);
@@ -31,7 +32,7 @@ pub(crate) fn with(module: &str) -> Option<PathBuf> {
     None
 }
 
-/// The lines that `script` prints which begin with `= `, without that; the client's own go unread.
+/// Output lines of `script` that begin with `= `, without this prefix; other lines of the client are ignored.
 pub(crate) fn run(python: &Path, script: &str, arguments: &[String]) -> Vec<String> {
     let output = Command::new(python)
         .args(["-c", script])

@@ -1,4 +1,4 @@
-"""What a user of the public client sees of an arm. Lines that begin with `= ` are read by the test."""
+"""Values that a user of the public client reads from an arm. Lines that begin with `= ` are read by the test."""
 import sys
 
 from rtde_receive import RTDEReceiveInterface

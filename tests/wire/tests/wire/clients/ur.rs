@@ -1,4 +1,4 @@
-//! `ur-rtde`, a public client of Universal Robots, on the emulated controller.
+//! `ur-rtde`, a public client of Universal Robots, with the emulated controller.
 
 use taceva_needs::{Need, skip};
 use taceva_wire::ur::{Emulator, USUAL_PORTS};

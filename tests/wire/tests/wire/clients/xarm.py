@@ -1,4 +1,4 @@
-"""What a user of the vendor's client does with an arm. Lines that begin with `= ` are read by the test."""
+"""Calls of a user of the vendor's client to an arm. Lines that begin with `= ` are read by the test."""
 import sys
 import threading
 import time
@@ -9,7 +9,7 @@ host, report = sys.argv[1:]
 
 
 def say(*words):
-    # The client prints too, and ends no line by itself.
+    # The client prints too, without line ends.
     sys.stdout.write("\n= " + " ".join(str(word) for word in words) + "\n")
     sys.stdout.flush()
 

@@ -1,4 +1,4 @@
-//! `xarm-python-sdk`, UFACTORY's own client, on the emulated arm.
+//! `xarm-python-sdk`, UFACTORY's own client, with the emulated arm.
 
 use taceva_needs::{Need, skip};
 use taceva_wire::xarm::{Emulator, Ports};
@@ -37,7 +37,7 @@ fn moves_and_stops(last: u8, firmware: [u32; 3], report: &str) {
         "state 4",
     ];
     assert_eq!(said, expected);
-    // The arm stands where the client stopped it: 5 mm/s for 0.3 s above where it was.
+    // The arm stands at the position of the client's stop: 5 mm/s for 0.3 s above its start.
     let truth = bench.truth();
     assert!(!truth.is_moving);
     let risen_mm = -6.7 - truth.tip_mm[2];

@@ -1,4 +1,4 @@
-//! The file system that a kernel begins with: files one behind the other, each with a head of hexadecimal numbers (`newc`).
+//! Initial file system of a kernel: concatenated files, each with a header of hexadecimal numbers (`newc`).
 
 /// An archive of files.
 #[derive(Debug, Default)]
@@ -11,17 +11,17 @@ const FOLDER: u32 = 0o040_755;
 const PROGRAM: u32 = 0o100_755;
 
 impl Archive {
-    /// Adds a folder, whose own folder was added before.
+    /// Adds a folder, after its parent folder.
     pub(crate) fn folder(&mut self, path: &str) {
         self.entry(path, FOLDER, &[]);
     }
 
-    /// Adds a file that may be run, whose folder was added before.
+    /// Adds an executable file, after its folder.
     pub(crate) fn file(&mut self, path: &str, bytes: &[u8]) {
         self.entry(path, PROGRAM, bytes);
     }
 
-    /// The whole archive.
+    /// Returns the complete archive.
     pub(crate) fn finish(mut self) -> Vec<u8> {
         self.entry("TRAILER!!!", 0, &[]);
         self.bytes
@@ -31,7 +31,7 @@ impl Archive {
         self.count += 1;
         let length = u32::try_from(bytes.len()).expect("a file of a small system");
         let name = u32::try_from(path.len() + 1).expect("a short path");
-        // Number, mode, owner, group, links, time, length, four numbers of devices, length of the name, sum.
+        // Number, mode, owner, group, links, time, length, four device numbers, name length, checksum.
         let head = [self.count, mode, 0, 0, 1, 0, length, 0, 0, 0, 0, name, 0];
         self.bytes.extend(b"070701");
         for number in head {

@@ -42,7 +42,7 @@ fn opened(arguments: &str) -> Result<Box<dyn ForceTransducer>, DriverError> {
     factory.open(&args, &mut Rig::new())
 }
 
-/// Tries until `attempt` gives something: the kernel makes device files a moment after a device came.
+/// Retries until `attempt` succeeds: the kernel creates device files shortly after a device appears.
 fn soon<T>(what: &str, mut attempt: impl FnMut() -> Option<T>) -> T {
     let began = Instant::now();
     loop {
@@ -57,7 +57,7 @@ fn soon<T>(what: &str, mut attempt: impl FnMut() -> Option<T>) -> T {
     }
 }
 
-/// A scale that sends the same report all the time, as scales do.
+/// A scale that repeats the same report, as scales do.
 struct Sending {
     is_over: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
@@ -94,7 +94,7 @@ fn a_scale_passes_its_suite(factory: &ScaleFactory) {
     assert_eq!(found.title, "Emulated scale");
     assert_eq!(found.arguments, "usb=0922:8003;serial=EMU-1");
     let mut trial = Trial::with_arguments(found.arguments);
-    // A processor whose every instruction is computed.
+    // The emulated processor is slow.
     (trial.deadline, trial.at_once) = (PATIENCE, Duration::from_secs(5));
     let report = conformance::force(factory, &trial);
     assert!(report.passed(), "{report}");

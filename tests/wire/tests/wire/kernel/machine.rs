@@ -1,4 +1,4 @@
-//! A virtual machine that boots a kernel of Debian and runs this program in it.
+//! Virtual machine that boots a Debian kernel and runs this program in it.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -12,15 +12,15 @@ use taceva_needs::{Need, skip};
 use super::archive::Archive;
 use super::modules;
 
-/// Where `.ci/install` puts a kernel: what Debian's package of one holds, unpacked.
+/// Folder in which `.ci/install` unpacks Debian's kernel package.
 const INSTALLED: &str = "../../target/kernel";
 const QEMU: &str = "qemu-system-x86_64";
 const BUSYBOX: &str = "/bin/busybox";
-/// What gives the machine the files of this one.
+/// Modules that give the machine access to the files of this one.
 const FILES: [&str; 3] = ["virtio_pci", "9pnet_virtio", "9p"];
-/// How long a machine may take, which computes every instruction of its processor.
+/// Longest run time of a machine with an emulated processor.
 const PATIENCE: Duration = Duration::from_secs(400);
-/// What the machine says last.
+/// Start of the machine's last line.
 const ENDED: &str = "the test ended with ";
 
 struct Kernel {
@@ -29,7 +29,7 @@ struct Kernel {
 }
 
 impl Kernel {
-    /// The kernel in the folder that `TACEVA_KERNEL` names, or in that of `.ci/install`.
+    /// The kernel in the folder named by `TACEVA_KERNEL`, or in that of `.ci/install`.
     fn find() -> Option<Kernel> {
         let named = std::env::var_os("TACEVA_KERNEL").map(PathBuf::from);
         let folder = named.unwrap_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join(INSTALLED));
@@ -50,10 +50,10 @@ impl Kernel {
     }
 }
 
-/// Runs the ignored test `name` of this program in a machine with the modules `wanted`; notes a skip where no machine can be had.
+/// Runs the ignored test `name` of this program in a machine with the modules `wanted`; records a skip if no machine is available.
 ///
 /// # Panics
-/// If the test fails there.
+/// If the test fails in the machine.
 pub(crate) fn carry_out(name: &str, wanted: &[&str]) {
     let Some(kernel) = Kernel::find() else {
         return skip(
@@ -82,11 +82,11 @@ pub(crate) fn carry_out(name: &str, wanted: &[&str]) {
     let whole = said.join("\n");
     let ended = said.iter().rev().find_map(|line| line.strip_prefix(ENDED));
     assert_eq!(ended, Some("0"), "in the machine:\n{whole}");
-    // A name that no test has would end well too.
+    // An unknown test name would succeed too.
     assert!(whole.contains("1 passed"), "in the machine:\n{whole}");
 }
 
-/// The files that the kernel begins with: what loads modules, mounts the files of this machine and runs the test in them.
+/// Initial files of the kernel: they load modules, mount the files of this machine and run the test.
 fn initial(kernel: &Kernel, busybox: &[u8], name: &str, wanted: &[&str]) -> Vec<u8> {
     let wanted = [&FILES[..], wanted].concat();
     let modules = modules::in_order(&kernel.modules, &wanted);
@@ -126,7 +126,7 @@ $b poweroff -f
     archive.finish()
 }
 
-/// Boots, and returns the lines that the machine said until it switched itself off.
+/// Boots, and returns the output lines of the machine until it switches off.
 fn boot(kernel: &Kernel, archive: &Path) -> Vec<String> {
     let files = "local,path=/,mount_tag=host,security_model=none,readonly=on,multidevs=remap";
     let mut machine = Command::new(QEMU)
@@ -180,7 +180,7 @@ fn boot(kernel: &Kernel, archive: &Path) -> Vec<String> {
             }
         }
     }
-    // It is over, or taking too long.
+    // The machine has ended, or takes too long.
     let _ = machine.kill();
     let _ = machine.wait();
     reader.join().expect("no panic");

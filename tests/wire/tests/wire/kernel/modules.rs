@@ -1,10 +1,10 @@
-//! The modules of a kernel, and in which order they are loaded.
+//! Modules of a kernel, and their loading order.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The files of every module below `folder`, by the name of the module.
+/// Files of all modules below `folder`, by module name.
 fn files(folder: &Path) -> BTreeMap<String, PathBuf> {
     let mut found = BTreeMap::new();
     let mut waiting = vec![folder.to_owned()];
@@ -22,8 +22,8 @@ fn files(folder: &Path) -> BTreeMap<String, PathBuf> {
     found
 }
 
-/// The modules named `wanted` below `folder` and those that they need, each behind those that it needs itself: name and bytes. One that is no
-/// file is built into the kernel.
+/// Modules `wanted` below `folder` and their dependencies, each after its own dependencies: name and bytes. A module without a file is
+/// built into the kernel.
 pub(crate) fn in_order(folder: &Path, wanted: &[&str]) -> Vec<(String, Vec<u8>)> {
     let files = files(folder);
     let mut ordered = Vec::new();
@@ -47,7 +47,7 @@ fn add(files: &BTreeMap<String, PathBuf>, name: &str, ordered: &mut Vec<(String,
     ordered.push((name.to_owned(), bytes));
 }
 
-/// What a module says that it needs: `depends=a,b` between zeros.
+/// Dependencies of a module: `depends=a,b` between zero bytes.
 fn needed_by(module: &[u8]) -> Vec<String> {
     const LABEL: &[u8] = b"\0depends=";
     let Some(at) = module.windows(LABEL.len()).position(|bytes| bytes == LABEL) else {

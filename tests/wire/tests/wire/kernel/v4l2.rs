@@ -12,7 +12,7 @@ use taceva_drivers::camera::v4l2::kernel::{Camera, ControlKind};
 use super::machine::carry_out;
 
 const PATIENCE: Deadline = Deadline::after(Duration::from_secs(60));
-/// What `vivid` gives of the sizes that sensors have.
+/// Arguments of the emulated camera, at the sensor size that `vivid` supports.
 const ARGUMENTS: &str = "device=/dev/video0;pixels=yuyv";
 const SIZE: FrameInfo = FrameInfo {
     width: 640,
@@ -74,7 +74,7 @@ fn what_it_does_not_give_is_refused_with_what_it_does() {
         let absent = refused(&format!("{ARGUMENTS};{setting}"));
         assert_eq!(absent.kind(), ErrorKind::Unsupported, "{absent}");
     }
-    // The second file of the device takes pictures.
+    // The second device file is a video output.
     let output = refused("device=/dev/video1;pixels=yuyv");
     assert_eq!(output.kind(), ErrorKind::InvalidArgument, "{output}");
     let absent = refused("device=/dev/video99");
@@ -82,12 +82,12 @@ fn what_it_does_not_give_is_refused_with_what_it_does() {
 }
 
 fn its_bars_have_the_colours_of_the_standard() {
-    // Nothing of it is changed but what must not be: its texts stay in the picture, at its left.
+    // Nothing is changed except the fixed controls: the texts stay at the left of the picture.
     let mut sensor = opened(ARGUMENTS).expect("a camera");
     assert_eq!(sensor.frame_info(), SIZE);
     sensor.start(PATIENCE).expect("it begins");
     let frame = captured(sensor.as_mut()).expect("a picture");
-    // White, yellow, cyan, green, magenta, red, blue and black of three quarters, from the left.
+    // White, yellow, cyan, green, magenta, red, blue and black at three quarters, from the left.
     let quarters =
         |[red, green, blue]: [bool; 3]| [red, green, blue].map(|on| if on { 191_i32 } else { 0 });
     let bars = [
@@ -122,7 +122,7 @@ fn its_gain_is_fixed_and_read_back() {
     sensor.start(PATIENCE).expect("it begins");
     captured(sensor.as_mut()).expect("a picture");
     sensor.stop().expect("it ends");
-    // Somebody turns it meanwhile.
+    // Another program changes gain and automatic gain meanwhile.
     let mut camera = Camera::open("/dev/video0").expect("a camera");
     let find = |camera: &Camera, name: &str| {
         let controls = camera.controls().expect("a list");

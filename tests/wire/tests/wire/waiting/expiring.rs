@@ -1,4 +1,4 @@
-//! Motion that ends by itself where its host falls silent, of every robot that has it.
+//! Expiring motions of every robot that supports them, which end by themselves if the host is silent.
 
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -9,9 +9,9 @@ use taceva_wire::{Device, FaultKind, WallBench};
 use crate::waiting::setup::Setup;
 use crate::waiting::support::{PATIENCE, inject, lower, speed};
 
-/// What the machine may take beyond, on which other tests run: an arm that goes on for as long as it is looked at goes on for longer.
+/// Allowance for a machine that runs other tests: an arm observed as moving for longer fails.
 const SLACK: Duration = Duration::from_millis(200);
-/// How the host that is going to die is told which arm it moves, and how.
+/// Environment variable with the arm of the host that is killed; the next one states its kind of motion.
 const ARM: &str = "TACEVA_WIRE_DYING_HOST_ARM";
 const IS_EXPIRING: &str = "TACEVA_WIRE_DYING_HOST_EXPIRES";
 
@@ -25,7 +25,7 @@ fn wait_for_motion(bench: &WallBench) {
     }
 }
 
-/// Moves the arm that this process is told of, until somebody kills it; nothing where it is told of none.
+/// Moves the arm named in the environment until the process is killed; does nothing if none is named.
 pub(crate) fn die_moving(factory: &dyn Factory<dyn Robot>) {
     let Ok(arguments) = std::env::var(ARM) else {
         return;
@@ -43,7 +43,7 @@ pub(crate) fn die_moving(factory: &dyn Factory<dyn Robot>) {
 }
 
 impl<E> Setup<E> {
-    /// An expiring motion ends where it was sent, and lines follow it.
+    /// An expiring motion ends at its target, and straight lines can follow.
     pub(crate) fn ends_where_it_was_sent(&self) {
         let mut arm = self.open();
         let (home, _) = arm.pose(PATIENCE).expect("a pose");
@@ -60,7 +60,7 @@ impl<E> Setup<E> {
         let truth = self.bench.truth();
         assert!((truth.way_mm - 10.0).abs() < 0.01, "straight: {truth:?}");
         arm.move_to(home, speed(50.0), PATIENCE).expect("a line");
-        // A short way is a line, and one of no length too.
+        // A short path is a straight line; so is one of zero length.
         for _ in 0..2 {
             let expiring = arm.expiring_motion().expect("it has it");
             expiring
@@ -69,7 +69,7 @@ impl<E> Setup<E> {
         }
     }
 
-    /// A halt stops an expiring motion and stays, and motions follow once it is ended.
+    /// A halt stops an expiring motion and latches; motions are accepted once the halt is cleared.
     pub(crate) fn is_halted_while_it_expires(&self) {
         let mut arm = self.open();
         let (home, _) = arm.pose(PATIENCE).expect("a pose");
@@ -86,7 +86,7 @@ impl<E> Setup<E> {
             let halted_mm = halting.join().expect("halted");
             std::thread::sleep(Duration::from_millis(300));
             let way_mm = self.bench.truth().way_mm - halted_mm;
-            // One that did not hear it goes on by 1.5 mm.
+            // Without the halt the arm would move on by 1.5 mm.
             assert!(way_mm < 0.5, "it went on by {way_mm} mm");
         });
         let refused = arm.move_to(home, speed(5.0), PATIENCE);
@@ -96,7 +96,7 @@ impl<E> Setup<E> {
             .expect("it takes positions again");
     }
 
-    /// A link that falls silent lets the arm stand, though no stop is confirmed.
+    /// A silent link stops the arm, even without a confirmed stop.
     pub(crate) fn stands_where_its_link_falls_silent(&self) {
         let mut arm = self.open();
         let (home, _) = arm.pose(PATIENCE).expect("a pose");
@@ -117,13 +117,13 @@ impl<E> Setup<E> {
         });
     }
 
-    /// An arm whose host is killed while it moves, in the test `host`, stands within its expiry, and one on a line goes on.
+    /// An arm stops within its expiry if its host is killed in the test `host`; on a straight line it moves on.
     pub(crate) fn stands_where_its_host_dies(&self, host: &str) {
         let expiring = self.goes_on_without_host(host, true);
         assert!(expiring <= EXPIRES + SLACK, "{expiring:?}");
         let mut arm = self.open();
         let (at, _) = arm.pose(PATIENCE).expect("a pose");
-        // Who comes after a host that died ends what that left: an xArm takes velocities until then.
+        // The next host clears the state that a dead host left: an xArm accepts velocities until then.
         arm.clear_halt(PATIENCE).expect("nothing is wrong with it");
         arm.move_to(lower(at, -5.0), speed(50.0), PATIENCE)
             .expect("up again");
@@ -132,7 +132,7 @@ impl<E> Setup<E> {
         assert!(line > Duration::from_millis(500), "{line:?}");
     }
 
-    /// For how long the arm goes on within 0.6 s after its host was killed.
+    /// Time for which the arm moves on within 0.6 s after its host was killed.
     fn goes_on_without_host(&self, host: &str, is_expiring: bool) -> Duration {
         let mut dying = Command::new(std::env::current_exe().expect("a test knows where it is"));
         dying

@@ -1,4 +1,4 @@
-//! What a driver says on some of its connections, held up on the way.
+//! Gate that delays the messages of a driver on some of its connections.
 
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
@@ -11,16 +11,16 @@ use taceva_wire::WallBench;
 
 use crate::waiting::support::{PATIENCE, lower, speed};
 
-/// Stands between a driver and the port of an arm: what the driver says on some of its connections waits while it is shut.
+/// Proxy between a driver and the port of an arm: while it is shut, messages of the driver on some connections wait.
 pub(crate) struct Gate {
     is_shut: Mutex<bool>,
     opened: Condvar,
-    /// Connections that were made.
+    /// Number of connections so far.
     count: AtomicUsize,
 }
 
 impl Gate {
-    /// A gate that stands open before `address`, and the port where it is; it `holds` connections by their numbers, of which the first is 0.
+    /// An open gate before `address`, and its port; it `holds` connections by number, from 0.
     pub(crate) fn before(address: SocketAddr, holds: fn(usize) -> bool) -> (Arc<Gate>, u16) {
         let gate = Arc::new(Gate {
             is_shut: Mutex::new(false),
@@ -55,7 +55,7 @@ impl Gate {
         drop(waited.expect("whole"));
     }
 
-    /// Waits until the driver has made so many connections.
+    /// Waits until the driver has made `count` connections.
     pub(crate) fn wait_for(&self, count: usize) {
         while self.count.load(Ordering::SeqCst) < count {
             std::thread::sleep(Duration::from_millis(2));
@@ -63,7 +63,7 @@ impl Gate {
     }
 }
 
-/// Halts `arm` on its way down while `gate` is shut: when it was shut.
+/// Halts `arm` during its descent while `gate` is shut. Returns the time at which it was shut.
 pub(crate) fn halted_while_shut(gate: &Gate, bench: &WallBench, arm: &mut dyn Robot) -> Instant {
     let (home, _) = arm.pose(PATIENCE).expect("a pose");
     let handle = arm.halt_handle();
@@ -84,7 +84,7 @@ pub(crate) fn halted_while_shut(gate: &Gate, bench: &WallBench, arm: &mut dyn Ro
     shut
 }
 
-/// Hands on what `from` says, each part once `may` returns, until it says no more.
+/// Forwards the data of `from`, each part once `may` returns, until its end.
 fn pass(mut from: TcpStream, mut to: TcpStream, may: impl Fn()) {
     let mut bytes = [0; 1024];
     while let Ok(count @ 1..) = from.read(&mut bytes) {
@@ -93,6 +93,6 @@ fn pass(mut from: TcpStream, mut to: TcpStream, may: impl Fn()) {
             return;
         }
     }
-    // The other side may be gone already.
+    // The other side may have closed already.
     let _ = to.shutdown(std::net::Shutdown::Write);
 }

@@ -1,4 +1,4 @@
-//! What is asked of every machine of G-code.
+//! Tests of every G-code machine.
 
 use taceva_core::ErrorKind;
 use taceva_wire::{Arm, Device, FaultKind};
@@ -7,7 +7,7 @@ use crate::waiting::setup::Setup;
 use crate::waiting::support::{PATIENCE, inject, lower, moved, speed};
 
 impl<E: Arm> Setup<E> {
-    /// A press reaches the gel, and a turn is refused: there are three axes.
+    /// A press reaches the gel, and a rotation is rejected: there are three axes.
     pub(crate) fn presses_and_does_not_turn(&self) {
         let mut machine = self.open();
         let (home, _) = machine.pose(PATIENCE).expect("a pose");
@@ -23,18 +23,18 @@ impl<E: Arm> Setup<E> {
         assert_eq!(refused.expect_err("a turn").kind(), ErrorKind::OutOfRange);
     }
 
-    /// One that falls silent on its way for so many ms is held.
+    /// A machine that is silent for `lasts_ms` during a motion is held.
     pub(crate) fn is_held_once_silent_for(&self, lasts_ms: u64) {
         let (error, _) = moved(&self.bench, &mut *self.open(), || {
             inject(&self.bench, Device::Robot, FaultKind::Silent, lasts_ms);
         });
         assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
         let truth = self.bench.truth();
-        // The way ends 5 mm above the gel.
+        // The path ends 5 mm above the gel.
         assert!(!truth.is_moving && truth.tip_mm[2] < -5.5, "{truth:?}");
     }
 
-    /// A line that another program has, or another part of this one, is refused as busy, and is free again once that is gone.
+    /// A line in use by another program, or by another part of this one, is rejected as busy, and is free again afterwards.
     pub(crate) fn is_busy_while_another_has_it(&self) {
         let first = self.open();
         let second = self.try_open().map(drop).expect_err("it is taken");
@@ -43,7 +43,7 @@ impl<E: Arm> Setup<E> {
         self.open();
     }
 
-    /// What is no serial line is refused, each for what it is.
+    /// A path that is not a serial line is rejected with the matching error.
     pub(crate) fn refuses_what_is_no_line(&self) {
         let file = tempfile::NamedTempFile::new().expect("a file");
         let path = file.path().display();

@@ -1,4 +1,4 @@
-//! `gcode/grbl` against the emulated machine, through a pseudo-terminal.
+//! `gcode/grbl` with the emulated machine, through a pseudo-terminal.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! Links that bring what they carry in pieces, in heaps, with numbers left out, or among bytes of others.
+//! Links that split or merge messages, skip numbers, or insert foreign bytes.
 
 use std::net::Ipv4Addr;
 use std::time::{Duration, Instant};
@@ -13,17 +13,17 @@ use taceva_wire::{Arm, BenchOptions, Device, FaultKind, WallBench, netft, sri, u
 use crate::waiting::setup::Setup;
 use crate::waiting::support::{MOMENT, PATIENCE, inject, lower, speed};
 
-/// What a driver may say of a link that brings what it must not.
+/// Allowed errors of a driver on a faulty link.
 const TYPED: [ErrorKind; 4] = [
     ErrorKind::Protocol,
     ErrorKind::Timeout,
     ErrorKind::Disconnected,
     ErrorKind::DeviceFault,
 ];
-/// How long a link is bad.
+/// Duration of a link fault, ms.
 const BAD_MS: u64 = 300;
 
-/// Calls `act` with a started transducer of each kind over its bench, whose emulators live as long as that takes.
+/// Calls `act` with a started transducer of each kind over its bench, while the emulators run.
 fn each_transducer(mut act: impl FnMut(&WallBench, &mut dyn ForceTransducer)) {
     let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
     let sri = sri::Emulator::start(&bench, Ipv4Addr::LOCALHOST, 0).expect("a box");
@@ -101,7 +101,7 @@ fn bytes_of_others_and_absurd_lengths_are_typed_errors_and_readings_follow_them(
 }
 
 impl<E: Arm> Setup<E> {
-    /// A motion arrives however the reports of it are split and merged.
+    /// A motion arrives although its reports are split and merged.
     fn arrives_in_pieces_and_heaps(&self) {
         let mut arm = self.open();
         let (home, _) = arm.pose(PATIENCE).expect("a pose");
@@ -116,7 +116,7 @@ impl<E: Arm> Setup<E> {
         }
     }
 
-    /// Bytes of others on the way end in an arrival or a typed error, and the arm stands.
+    /// Foreign bytes during a motion end in an arrival or a typed error, and the arm stands.
     fn stands_among_bytes_of_others(&self) {
         for kind in [FaultKind::Foreign, FaultKind::Hostile] {
             let mut arm = self.open();
@@ -134,7 +134,7 @@ impl<E: Arm> Setup<E> {
             std::thread::sleep(Duration::from_millis(BAD_MS));
             assert!(!self.bench.truth().is_moving, "{kind}");
             drop(arm);
-            // Whoever opens it anew finds it well.
+            // A reopened arm works.
             let mut arm = self.open();
             arm.clear_halt(PATIENCE).expect("nothing is wrong with it");
             arm.move_to(home, speed(50.0), PATIENCE).expect("up again");

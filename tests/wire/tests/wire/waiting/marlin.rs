@@ -1,4 +1,4 @@
-//! `gcode/marlin` against the emulated printer, through a pseudo-terminal.
+//! `gcode/marlin` with the emulated printer, through a pseudo-terminal.
 
 use std::time::Duration;
 
@@ -54,7 +54,7 @@ fn an_error_that_the_firmware_said_at_rest_is_met_by_the_next_motion() {
     let mut printer = setup.open();
     let (home, _) = printer.pose(PATIENCE).expect("a pose");
     setup.emulator.suffer(ArmFault::Collision);
-    // It is said once, and nobody listens.
+    // The printer reports the fault once, while nobody reads.
     std::thread::sleep(Duration::from_millis(100));
     let moved = printer.move_to(lower(home, 1.0), speed(5.0), PATIENCE);
     let moved = moved.expect_err("killed");

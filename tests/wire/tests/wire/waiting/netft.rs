@@ -1,4 +1,4 @@
-//! `ati/netft` against the emulated box, through sockets.
+//! `ati/netft` with the emulated box, through sockets.
 
 use std::net::{Ipv4Addr, UdpSocket};
 use std::time::{Duration, Instant};
@@ -93,7 +93,7 @@ fn an_error_of_the_box_is_a_fault_of_that_reading_alone() {
 #[test]
 fn datagrams_of_others_and_torn_ones_are_no_readings() {
     let setup = setup();
-    // A box that is asked to start, and then sends what is no record; the emulated one gives the page.
+    // A box that accepts a start and then sends invalid records; the emulated one serves the page.
     let false_box = UdpSocket::bind("127.0.0.1:0").expect("a port");
     let port = false_box.local_addr().expect("bound").port();
     let page = setup.emulator.page_address().port();
@@ -137,7 +137,7 @@ fn a_box_that_goes_away_is_disconnected_or_silent() {
     let patience = Deadline::after(Duration::from_millis(100));
     let gone = (0..1_000).find_map(|_| transducer.read(patience).err());
     let kind = gone.expect("gone").kind();
-    // Whether a system says that nobody listens any more is its own affair.
+    // Systems differ in reporting a closed port.
     assert!([ErrorKind::Disconnected, ErrorKind::Timeout].contains(&kind));
 }
 

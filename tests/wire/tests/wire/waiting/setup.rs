@@ -1,4 +1,4 @@
-//! An emulated robot over a quiet gel with the driver that reaches it, and what is asked of every one.
+//! An emulated robot over a quiet gel with its driver, and tests of every robot.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -9,7 +9,7 @@ use taceva_wire::{Arm, BenchOptions, WallBench, WireError};
 
 use crate::waiting::support::{PATIENCE, lower, speed};
 
-/// A robot that is emulated by an `E`.
+/// A robot emulated by an `E`.
 pub(crate) struct Setup<E> {
     pub(crate) bench: WallBench,
     pub(crate) emulator: E,
@@ -18,7 +18,7 @@ pub(crate) struct Setup<E> {
 }
 
 impl<E> Setup<E> {
-    /// Starts a robot that the driver of `factory` reaches with what `arguments` says of it.
+    /// Starts a robot for the driver of `factory`; `arguments` returns its driver arguments.
     pub(crate) fn with_arguments(
         factory: impl Factory<dyn Robot> + 'static,
         start: impl FnOnce(&WallBench) -> Result<E, WireError>,
@@ -34,35 +34,35 @@ impl<E> Setup<E> {
         }
     }
 
-    /// What the driver is told of this robot.
+    /// Driver arguments of this robot.
     pub(crate) fn arguments(&self) -> &str {
         &self.arguments
     }
 
-    /// What the driver opens with `arguments`.
+    /// Opens the driver with `arguments`.
     pub(crate) fn opened(&self, arguments: &str) -> Result<Box<dyn Robot>, DriverError> {
         let args = self.factory.descriptor().args(arguments).expect("good");
         self.factory.open(&args, &mut Rig::new())
     }
 
-    /// What the driver opens of this robot.
+    /// Opens the driver of this robot; may fail.
     pub(crate) fn try_open(&self) -> Result<Box<dyn Robot>, DriverError> {
         self.opened(&self.arguments)
     }
 
-    /// The robot, as the driver reaches it.
+    /// Opens the driver of this robot.
     pub(crate) fn open(&self) -> Box<dyn Robot> {
         self.try_open().expect("a robot")
     }
 
-    /// It keeps what every robot promises.
+    /// The driver passes the suite of all robots.
     pub(crate) fn passes_the_suite(&self) {
         let trial = Trial::with_arguments(self.arguments.clone());
         let report = conformance::robot(&*self.factory, &trial);
         assert!(report.passed(), "{report}");
     }
 
-    /// A halt from another thread stops it within `most`; it stays until the halt is cleared, and has lost no place then.
+    /// A halt from another thread stops it within `most`. It stays until the halt is cleared, and keeps its position.
     pub(crate) fn is_halted_within(&self, most: Duration) {
         let mut robot = self.open();
         let (home, _) = robot.pose(PATIENCE).expect("a pose");
@@ -95,7 +95,7 @@ impl<E> Setup<E> {
         assert!(apart_mm.abs() < 0.02, "{apart_mm}");
     }
 
-    /// Another thread sees it move: the robot, and what it was seen by.
+    /// Another thread observes its motion: returns the robot and the watch.
     pub(crate) fn is_seen_to_move(&self) -> (Box<dyn Robot>, Arc<dyn RobotWatch>) {
         let mut robot = self.open();
         let watch = robot.watch_handle().expect("a robot that reports");
@@ -113,14 +113,14 @@ impl<E> Setup<E> {
         assert!(seen.is_sorted_by(|one, other| one.0 < other.0), "{seen:?}");
         let between =
             |(_, z): &&(f64, f64)| *z < home.position.z.0 - 1.0 && *z > home.position.z.0 - 9.0;
-        // Half a second of motion, a hundred reports a second; a busy machine skips some.
+        // Half a second of motion at a hundred reports per second; a busy machine skips some.
         assert!(seen.iter().filter(between).count() >= 5, "{seen:?}");
         (robot, watch)
     }
 }
 
 impl<E: Arm> Setup<E> {
-    /// Starts a robot that the driver of `factory` reaches as its emulator says.
+    /// Starts a robot for the driver of `factory`, with the arguments of its emulator.
     pub(crate) fn new(
         factory: impl Factory<dyn Robot> + 'static,
         start: impl FnOnce(&WallBench) -> Result<E, WireError>,

@@ -1,4 +1,4 @@
-//! `sri/m8128` against the emulated box, through sockets.
+//! `sri/m8128` with the emulated box, through sockets.
 
 use std::io::{Read, Write};
 use std::net::{Ipv4Addr, TcpListener};
@@ -105,12 +105,12 @@ fn a_press_is_felt_in_the_axes_of_the_transducer_and_zero_is_taken_off() {
     robot
         .move_to(pressed, speed(100.0), MOMENT)
         .expect("it arrives");
-    // The first is the newest that came, which may be of the last moment of the motion; its stamp says so.
+    // The first reading is the newest one, perhaps of the last moment of the motion; its stamp shows it.
     transducer.read(MOMENT).expect("a reading");
     transducer.read(MOMENT).expect("a reading");
     let (wrench, _) = transducer.read(MOMENT).expect("a reading");
     let truth = setup.bench.truth();
-    // The transducer is mounted as the base frame lies: what presses into the gel points down.
+    // The axes of the transducer are those of the base frame: a pressing force points down.
     assert!(wrench.force[2].0 < -0.1, "{wrench:?}");
     assert!(
         (wrench.force[2].0 + truth.force_n[2]).abs() < 0.002,
@@ -151,7 +151,7 @@ fn what_a_link_held_back_is_not_taken_for_what_is_true_now() {
     let (_, after) = transducer.read(MOMENT).expect("the newest of those held");
     let (_, next) = transducer.read(MOMENT).expect("the next");
     assert!(began.elapsed() > Duration::from_millis(90));
-    // Twenty came at once, and one of them is given.
+    // Twenty readings arrived at once, and one of them is returned.
     assert!(next.valid_s - after.valid_s < 0.1 && next.valid_s > after.valid_s);
 }
 

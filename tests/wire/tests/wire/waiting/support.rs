@@ -1,13 +1,13 @@
-//! What tests of all devices share: how long they wait, motions, faults of links.
+//! Helpers of all device tests: timeouts, motions and link faults.
 
 use std::time::{Duration, Instant};
 
 use taceva_core::{Deadline, DriverError, Millimetre, Pose, Robot, Speed};
 use taceva_wire::{Device, Fault, FaultKind, WallBench};
 
-/// For a motion.
+/// Timeout of a motion.
 pub(crate) const PATIENCE: Deadline = Deadline::after(Duration::from_secs(10));
-/// For a reading.
+/// Timeout of a reading.
 pub(crate) const MOMENT: Deadline = Deadline::after(Duration::from_secs(2));
 
 pub(crate) fn speed(mm_per_s: f64) -> Speed {
@@ -21,7 +21,7 @@ pub(crate) fn lower(pose: Pose, mm: f64) -> Pose {
     lower
 }
 
-/// Puts a fault on the link of `device`.
+/// Injects a fault into the link of `device`.
 pub(crate) fn inject(bench: &WallBench, device: Device, kind: FaultKind, lasts_ms: u64) {
     bench.inject(Fault {
         device,
@@ -30,7 +30,7 @@ pub(crate) fn inject(bench: &WallBench, device: Device, kind: FaultKind, lasts_m
     });
 }
 
-/// What a motion of 15 mm at 2 mm/s gives if `happens` once it goes on, and how long after that it gave it.
+/// Result of a motion of 15 mm at 2 mm/s during which `happens` is called, and the time from that call to the result.
 pub(crate) fn moved(
     bench: &WallBench,
     arm: &mut dyn Robot,

@@ -1,4 +1,4 @@
-//! `ur/rtde` against the emulated controller, through sockets.
+//! `ur/rtde` with the emulated controller, through sockets.
 
 use std::net::Ipv4Addr;
 use std::time::Duration;
@@ -61,7 +61,7 @@ fn a_halt_stops_the_arm_at_once_and_no_program_begins_after_it() {
     }
 }
 
-/// A stop that is not answered counts as lost after so long: a machine that stood still for that long shows nothing.
+/// Time after which an unanswered stop counts as lost: a machine that paused for that long proves nothing.
 const LOST_AFTER: Duration = Duration::from_secs(2);
 const TRIES: u32 = 5;
 
@@ -73,10 +73,10 @@ fn a_stop_that_is_late_is_waited_for_so_that_it_ends_no_motion_after_the_halt() 
     );
 }
 
-/// Holds up a stop on its connection; whether that was shorter than what counts as lost.
+/// Delays a stop on its connection. True if the delay was shorter than that.
 fn a_late_stop_is_waited_for() -> bool {
     let setup = setup();
-    // The second connection for script is that for stops.
+    // The second script connection is the one for stops.
     let address = setup.emulator.script_address();
     let (gate, port) = Gate::before(address, |number| number == 1);
     let direct = format!("script_port={}", address.port());
@@ -87,7 +87,7 @@ fn a_late_stop_is_waited_for() -> bool {
     let mut arm = setup.opened(&gated).expect("a robot");
     let (home, _) = arm.pose(PATIENCE).expect("a pose");
     let shut = halted_while_shut(&gate, &setup.bench, &mut *arm);
-    // The stop behind the motion, on its own connection, has stopped it.
+    // The stop after the motion, on the same connection, has stopped it.
     assert!(!setup.bench.truth().is_moving);
     arm.clear_halt(PATIENCE).expect("nothing else is wrong");
     let way_mm = setup.bench.truth().way_mm;
@@ -212,7 +212,7 @@ fn states_that_fall_silent_let_an_expiring_motion_stand() {
     setup().stands_where_its_link_falls_silent();
 }
 
-/// Moves the arm that it is told of, until somebody kills it; a test of nothing where it is told of none.
+/// Moves the arm named in the environment until the process is killed; does nothing if none is named.
 #[test]
 fn the_host_that_dies() {
     die_moving(&UrFactory::new().expect("a factory"));

@@ -1,4 +1,4 @@
-//! `ufactory/xarm` against the emulated control box.
+//! `ufactory/xarm` with the emulated control box.
 
 mod contract;
 mod expiring;

@@ -1,4 +1,4 @@
-"""Data frames in the fixed form of pandas (pandas 3.1.1, tables 3.11): `python make.py` in this folder."""
+"""Data frames in the fixed format of pandas (pandas 3.1.1, tables 3.11): `python make.py` in this folder."""
 
 import numpy as np
 import pandas as pd

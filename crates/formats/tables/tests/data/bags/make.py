@@ -1,4 +1,4 @@
-"""Bags as `rosbags` 0.11.9 writes them, and what lies in them. Run: python3 make.py (needs rosbags==0.11.9, numpy)."""
+"""Bags written by `rosbags` 0.11.9, and their contents. Run: python3 make.py (needs rosbags==0.11.9, numpy)."""
 import json, shutil, sqlite3, tempfile
 from pathlib import Path
 
@@ -76,7 +76,7 @@ connection = sqlite3.connect(HERE / "iron.db3")
 connection.execute("PRAGMA page_size = 512")
 connection.execute("VACUUM INTO ?", (str(HERE / "small_pages.db3"),))
 connection.close()
-# Schema 3, as rosbag2 of ROS 2 Humble writes it: no definitions of messages.
+# Schema 3 of rosbag2 in ROS 2 Humble, without definitions of messages.
 (HERE / "humble.db3").unlink(missing_ok=True)
 connection = sqlite3.connect(HERE / "humble.db3")
 connection.executescript("""

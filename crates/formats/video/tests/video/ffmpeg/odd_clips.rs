@@ -1,4 +1,4 @@
-//! Clips that ffmpeg makes for a test: depths, sizes that change, parts cut out, rates that vary, lists of other files.
+//! Tests with clips from ffmpeg: depths, changing sizes, removed parts, variable rates, lists of other files.
 
 use super::*;
 
@@ -9,7 +9,7 @@ fn ten_bits_stay_ten_bits() {
     };
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("deep.mkv");
-    // Luma rises by one step a column from 64 on.
+    // From column 64 on luma rises by one step a column.
     let source = "color=black:size=512x16:rate=10:duration=0.3,format=yuv420p10le,geq=lum='64+X':cb=512:cr=512";
     make(
         &decoders,
@@ -45,7 +45,7 @@ fn a_clip_that_changes_its_size_is_refused() {
     };
     let folder = tempfile::tempdir().expect("a folder");
     let mut whole = Vec::new();
-    // As many bytes a frame: lengths alone would not tell them apart.
+    // Equal numbers of bytes per frame: lengths alone do not show the difference.
     for size in ["64x48", "48x64"] {
         let file = folder.path().join("part.mjpeg");
         let source = format!("testsrc=size={size}:rate=25:duration=0.2");
@@ -114,7 +114,7 @@ fn a_part_that_was_cut_out_presents_what_it_says() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("part.mp4");
     let whole = path("mp4-h264-high-b", "clip.mp4");
-    // From the middle of a group of pictures on: the edit list hides what stands before.
+    // Starts in the middle of a group of pictures. The edit list hides the part before.
     let whole = whole.to_str().expect("text");
     make(&decoders, &["-ss", "0.2", "-i", whole, "-c", "copy"], &file);
     let by_us = open(&file, &Decoders::default());
@@ -212,7 +212,7 @@ fn a_stream_that_begins_to_need_more_than_the_decoder_has_goes_on_by_ffmpeg() {
         digests(&clip, &all, Colours::Luma),
         digests(&peer, &all, Colours::Luma)
     );
-    // Without ffmpeg the first part is shown, and then the reason is.
+    // Without ffmpeg the first part is shown, and then the reason.
     let mut shown = 0;
     let alone = open(&file, &Decoders::default());
     let ended = alone.visit(&all, Colours::Luma, &mut |_, _| {
@@ -234,7 +234,7 @@ fn frames_of_a_varying_rate_are_each_shown_once() {
     };
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("varying.mkv");
-    // Of thirty frames a second these ten, at the times that they have.
+    // These ten of thirty frames a second, at their own times.
     let chosen = "select='lt(n,4)+eq(n,9)+eq(n,10)+eq(n,21)+gt(n,40)'";
     make(
         &decoders,
@@ -263,7 +263,7 @@ fn frames_of_a_varying_rate_are_each_shown_once() {
         Ok::<(), std::convert::Infallible>(())
     })
     .expect("visited");
-    // The source counts in its pictures, so that no two are alike.
+    // The source counts in its pictures, so that no two are equal.
     assert_eq!(seen.len(), 10);
     assert!(seen.windows(2).all(|pair| pair[0] != pair[1]));
     let mut alone = Vec::new();

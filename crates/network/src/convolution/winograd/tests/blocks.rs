@@ -49,7 +49,7 @@ fn summed(case: &Case, machine: Machine, numbers: &Numbers, channels: usize) -> 
     ]
 }
 
-/// Values like those after a ReLU: half of the pixels are zero, none is negative.
+/// Values like those after ReLU: half of the pixels are zero, none is negative.
 fn rectified(mut numbers: Numbers) -> Numbers {
     let pixels = numbers.pictures.iter_mut();
     pixels.for_each(|value| *value = value.max(0.0));
@@ -60,7 +60,7 @@ fn rectified(mut numbers: Numbers) -> Numbers {
 fn errors_by_block(case: &Case, numbers: &Numbers) -> [[f64; 2]; BLOCKS.len()] {
     let [outputs, twice, _] = case.definition(numbers);
     let gradients: Vec<f64> = twice.iter().map(|value| value / 2.0).collect();
-    // The fastest: those with fused multiplication have the same bits.
+    // The fastest machine is enough: all sets with fused multiply-add give the same bits.
     let (_, machine) = machines()[0];
     BLOCKS.map(|channels| {
         let [found, found_gradients] = summed(case, machine, numbers, channels);
@@ -81,7 +81,7 @@ fn channels_are_summed_by_as_many_as_are_most_exact_and_not_all_in_one_row() {
             let errors = errors.map(|errors| errors[pass]);
             let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
             let what = format!("{channels} channels, {what}: {errors:?}");
-            // Random draws explain a tenth.
+            // Random draws explain a difference of a tenth.
             assert!(errors[chosen] <= 1.1 * least, "{what}");
             assert!(errors[BLOCKS.len() - 1] >= 1.4 * errors[chosen], "{what}");
         }

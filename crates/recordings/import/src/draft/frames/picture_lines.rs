@@ -1,7 +1,41 @@
 //! Frame lines for pictures in cells, arrays and clips of a table.
 
-use super::{Beside, FrameLines};
+use super::{Beside, FrameLines, of_sides, of_views};
+use crate::draft::tables::SeenTable;
+use crate::draft::views::features;
 use crate::foreign::{PictureColumn, PictureKind};
+
+/// Frame lines of the pictures in `main` itself, one entry for each view.
+pub(super) fn in_table(main: &SeenTable<'_>) -> Vec<FrameLines> {
+    let Some((first, others)) = main.pictures.split_first() else {
+        return Vec::new();
+    };
+    let names: Vec<&str> = main.pictures.iter().map(|own| own.name.as_str()).collect();
+    let lines = |at: usize| in_array(&main.pictures[at], None, &[]);
+    let mut views = of_views(&names, lines);
+    // Cameras of LeRobot have names of their own. A depth map is no further view.
+    if views.is_empty() && main.is_lerobot() {
+        let is_depth = |at: &usize| matches!(main.pictures[*at].kind, PictureKind::Depth(_));
+        let cameras = (0..names.len()).filter(|at| !is_depth(at));
+        views = of_sides(features(cameras.map(|at| (at, names[at]))), lines);
+    }
+    let is_of = |name: &str| {
+        let written = format!("{name:?}");
+        let mut lines = views.iter().flat_map(|view| &view.lines);
+        lines.any(|line| line.contains(&written))
+    };
+    let others_of_row: Vec<&str> = names.iter().copied().filter(|name| !is_of(name)).collect();
+    match views.first_mut() {
+        None => vec![in_array(first, None, others)],
+        Some(first) => {
+            if !others_of_row.is_empty() {
+                let others = format!("# Other pictures of a row: {}", others_of_row.join(", "));
+                first.lines.insert(0, others);
+            }
+            views
+        }
+    }
+}
 
 /// Frame lines of `picture`, with a comment on the `others` in the same table.
 pub(super) fn in_array(

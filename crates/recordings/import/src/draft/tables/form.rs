@@ -9,10 +9,19 @@ use taceva_arrays::ArrayFormat;
 use crate::csv_table::number;
 use crate::csv_table::text_form::TextForm;
 use crate::draft::survey::FileGroup;
-use crate::foreign::{ForeignTable, TableForm, cell_list};
+use crate::foreign::{BeforeCut, ForeignTable, TableForm, cell_list};
 
 /// Key in a map for a table whose header is numbers.
 pub(super) const NUMBERED_HEADER: &str = "header = true";
+
+/// Key of a recording that was cut, which stays open, with a comment on it.
+pub(super) fn cut_key(before: BeforeCut) -> (&'static str, String) {
+    let BeforeCut { messages, end } = before;
+    let comment = format!(
+        "# The recording was cut or not closed. `cut = \"keep\"` reads its {messages} complete messages before byte {end}."
+    );
+    ("cut = \"?\", ", comment)
+}
 
 /// Form of a table, with the keys that a map needs besides its path.
 pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, String)> {

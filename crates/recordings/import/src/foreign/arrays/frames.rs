@@ -8,10 +8,11 @@ use taceva_arrays::{ArrayFile, ArrayFormat};
 
 use super::attributes::{absent_chunks, problem};
 use super::form::{Form, READ_BYTES, form_of};
+use crate::error::ImportError;
 use crate::foreign::pictures::{Pictures, Visit};
 use crate::frame_names::{ArrayFrames, FrameNames};
+use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{guarded, listed};
-use taceva_dataset::{ChannelOrder, DatasetError};
 
 /// Frames of one array, or of several arrays in sequence.
 #[derive(Debug)]
@@ -37,7 +38,7 @@ impl ArrayPictures {
         path: &Path,
         names: &FrameNames,
         frames: &ArrayFrames,
-    ) -> Result<ArrayPictures, DatasetError> {
+    ) -> Result<ArrayPictures, ImportError> {
         let opened = guarded(|| {
             let format = ArrayFormat::of(path).unwrap_or(ArrayFormat::Npy);
             let file = ArrayFile::open(path, format).map_err(problem)?;
@@ -56,7 +57,7 @@ impl ArrayPictures {
         });
         opened
             .and_then(|opened| opened)
-            .map_err(|problem| DatasetError::image(path, problem))
+            .map_err(|problem| ImportError::image(path, problem))
     }
 
     pub(super) fn new(
@@ -101,7 +102,7 @@ impl ArrayPictures {
         array: &FrameArray,
         run: Range<u64>,
         each: Visit<'_>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let at_once = (READ_BYTES / array.row_bytes.max(1)).max(1);
         let mut next = run.start;
         while next < run.end {
@@ -109,12 +110,12 @@ impl ArrayPictures {
             let read = guarded(|| self.file.read(&array.name, next..end).map_err(problem));
             let read = read
                 .and_then(|read| read)
-                .map_err(|problem| DatasetError::image(self.path(), problem))?;
+                .map_err(|problem| ImportError::image(self.path(), problem))?;
             for row in next..end {
                 let at = as_size(row - next);
                 let number = array.first + row;
                 let picture = array.form.picture(&read.values, at).map_err(|problem| {
-                    DatasetError::image(self.path(), format!("frame {number}: {problem}"))
+                    ImportError::image(self.path(), format!("frame {number}: {problem}"))
                 })?;
                 each(number, picture)?;
             }
@@ -134,10 +135,10 @@ impl Pictures for ArrayPictures {
         last.map_or(0, |array| array.first + array.rows)
     }
 
-    fn absent_chunks(&self) -> Result<Vec<(String, u64)>, DatasetError> {
+    fn absent_chunks(&self) -> Result<Vec<(String, u64)>, ImportError> {
         let names = self.arrays.iter().map(|array| array.name.as_str());
         let counted = guarded(|| absent_chunks(&self.file, names)).and_then(|counted| counted);
-        counted.map_err(|problem| DatasetError::image(&self.path, problem))
+        counted.map_err(|problem| ImportError::image(&self.path, problem))
     }
 
     fn visit(
@@ -145,7 +146,7 @@ impl Pictures for ArrayPictures {
         sorted: &[u64],
         _order: ChannelOrder,
         each: Visit<'_>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         for array in &self.arrays {
             let begin = sorted.partition_point(|index| *index < array.first);
             let end = sorted.partition_point(|index| *index < array.first + array.rows);

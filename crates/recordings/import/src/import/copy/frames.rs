@@ -7,6 +7,7 @@ use std::sync::Arc;
 use taceva_core::{FrameInfo, Progress};
 
 use super::picture::Copied;
+use crate::error::ImportError;
 use crate::foreign::{Picture, Pictures};
 use crate::import::frame_plan::{FrameSource, PlannedFrames, within};
 use taceva_dataset::internal::{ImageKind, layout, ordered_map, staging::StagedFolder};
@@ -36,7 +37,7 @@ pub(in crate::import) fn copy_frames(
     table: &mut Table,
     jobs: NonZeroUsize,
     progress: &dyn Progress,
-) -> Result<CopiedFrames, DatasetError> {
+) -> Result<CopiedFrames, ImportError> {
     let mut copied = CopiedFrames::default();
     for frames in planned {
         let (info, folders) = copy_view(staged, frames, first, table, jobs, progress)?;
@@ -64,7 +65,7 @@ fn copy_view(
     table: &mut Table,
     jobs: NonZeroUsize,
     progress: &dyn Progress,
-) -> Result<(Option<FramesInfo>, Vec<String>), DatasetError> {
+) -> Result<(Option<FramesInfo>, Vec<String>), ImportError> {
     let count = frames.of_rows.len();
     let view = frames.view.as_deref();
     let mut folders = vec![layout::FRAMES.to_owned()];
@@ -137,7 +138,7 @@ struct Copying<'a> {
 }
 
 impl Copying<'_> {
-    fn all(&mut self) -> Result<(), DatasetError> {
+    fn all(&mut self) -> Result<(), ImportError> {
         let rows = self.frames.of_rows.iter().enumerate();
         let files: Vec<(usize, &Path)> = rows
             .filter_map(|(row, planned)| match &planned.from {
@@ -169,7 +170,7 @@ impl Copying<'_> {
         &mut self,
         pictures: &dyn Pictures,
         rows: &[(u64, usize)],
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let mut wanted: Vec<u64> = rows.iter().map(|(index, _)| *index).collect();
         wanted.dedup();
         let mut held: Vec<(usize, Arc<Picture>)> = Vec::new();
@@ -197,7 +198,7 @@ impl Copying<'_> {
         })
     }
 
-    fn write(&mut self, path: &Path, held: Vec<(usize, Arc<Picture>)>) -> Result<(), DatasetError> {
+    fn write(&mut self, path: &Path, held: Vec<(usize, Arc<Picture>)>) -> Result<(), ImportError> {
         let (staged, order, number) = (self.staged, self.frames.order, self.number);
         let view = self.frames.view.as_deref();
         ordered_map(
@@ -213,13 +214,9 @@ impl Copying<'_> {
         )
     }
 
-    fn take(
-        &mut self,
-        row: usize,
-        copied: Result<Copied, DatasetError>,
-    ) -> Result<(), DatasetError> {
+    fn take(&mut self, row: usize, copied: Result<Copied, ImportError>) -> Result<(), ImportError> {
         if self.progress.is_cancelled() {
-            return Err(DatasetError::Cancelled);
+            return Err(DatasetError::Cancelled.into());
         }
         let named_at = || self.frames.of_rows[row].named_at.clone();
         let copied = copied.map_err(|error| error.named_at(named_at()))?;
@@ -240,17 +237,16 @@ fn copy_reference(
     path: &Path,
     frames: &PlannedFrames,
     expected: FrameInfo,
-) -> Result<ReferenceInfo, DatasetError> {
+) -> Result<ReferenceInfo, ImportError> {
     let view = frames.view.as_deref();
     let copied = Copied::of_file(staged, path, frames.order, |extension| {
         layout::in_view(view, &layout::reference_path(extension))
     })?;
     if copied.info != expected {
-        return Err(DatasetError::Image {
-            place: None,
-            path: path.to_owned(),
-            problem: format!("{}, expected {expected} as the other frames", copied.info),
-        });
+        return Err(ImportError::image(
+            path,
+            format!("{}, expected {expected} as the other frames", copied.info),
+        ));
     }
     Ok(ReferenceInfo::new(copied.entry.path, copied.entry.digest))
 }
@@ -260,20 +256,20 @@ fn check_alike(
     row: usize,
     expected: (ImageKind, FrameInfo),
     found: (ImageKind, FrameInfo),
-) -> Result<(), DatasetError> {
+) -> Result<(), ImportError> {
     if expected == found {
         return Ok(());
     }
     let planned = &frames.of_rows[row];
-    Err(DatasetError::Image {
-        place: Some(Box::new(planned.named_at.clone())),
-        path: planned.from.path().to_owned(),
-        problem: format!(
+    Err(ImportError::image(
+        planned.from.path(),
+        format!(
             "{} {}, expected {} {} as the first frame",
             found.0.extension(),
             found.1,
             expected.0.extension(),
             expected.1
         ),
-    })
+    )
+    .named_at(planned.named_at.clone()))
 }

@@ -4,12 +4,13 @@ use std::path::Path;
 
 use taceva_core::{Frame, FrameInfo};
 
+use crate::error::ImportError;
 use crate::foreign::Picture;
 use taceva_dataset::internal::{
     ImageKind, check_to_the_end, decode, encode_png, limits, read_capped, staging::StagedFolder,
     write_durable,
 };
-use taceva_dataset::{ChannelOrder, DatasetError, Digest, FrameEntry};
+use taceva_dataset::{ChannelOrder, Digest, FrameEntry};
 
 /// Verified and written frame.
 pub(super) struct Copied {
@@ -27,7 +28,7 @@ impl Copied {
         bytes: &[u8],
         kind: ImageKind,
         frame: &Frame,
-    ) -> Result<Copied, DatasetError> {
+    ) -> Result<Copied, ImportError> {
         write_durable(&staged.path().join(&relative), bytes)?;
         Ok(Copied {
             kind,
@@ -43,10 +44,10 @@ impl Copied {
         path: &Path,
         order: ChannelOrder,
         place: impl FnOnce(&str) -> String,
-    ) -> Result<Copied, DatasetError> {
+    ) -> Result<Copied, ImportError> {
         let bytes = read_capped(path, limits::IMAGE_BYTES)?;
         let (kind, frame) =
-            whole(&bytes, order).map_err(|problem| DatasetError::image(path, problem))?;
+            whole(&bytes, order).map_err(|problem| ImportError::image(path, problem))?;
         let extension = path
             .extension()
             .and_then(|extension| extension.to_str())
@@ -62,11 +63,11 @@ impl Copied {
         picture: &Picture,
         order: ChannelOrder,
         place: impl FnOnce(&str) -> String,
-    ) -> Result<Copied, DatasetError> {
+    ) -> Result<Copied, ImportError> {
         match picture {
             Picture::Encoded(bytes) => {
                 let (kind, frame) =
-                    whole(bytes, order).map_err(|problem| DatasetError::image(path, problem))?;
+                    whole(bytes, order).map_err(|problem| ImportError::image(path, problem))?;
                 let relative = place(kind.extension());
                 Copied::write(staged, relative, bytes, kind, &frame)
             }
@@ -78,10 +79,10 @@ impl Copied {
                         order.name(),
                         frame.info()
                     );
-                    return Err(DatasetError::image(path, problem));
+                    return Err(ImportError::image(path, problem));
                 }
                 let bytes =
-                    encode_png(frame).map_err(|problem| DatasetError::image(path, problem))?;
+                    encode_png(frame).map_err(|problem| ImportError::image(path, problem))?;
                 let relative = place(ImageKind::Png.extension());
                 Copied::write(staged, relative, &bytes, ImageKind::Png, frame)
             }

@@ -5,7 +5,9 @@ use std::fs::File;
 use std::path::Path;
 
 use taceva_dataset::internal::{PartsDigest, SignalsReader, layout, shown};
-use taceva_dataset::{Dataset, DatasetError, Digest, FrameEntry, SignalsInfo, Table, ViewFrames};
+use taceva_dataset::{Dataset, Digest, FrameEntry, SignalsInfo, Table, ViewFrames};
+
+use crate::error::ImportError;
 
 /// Number of different repeated pictures that cannot be chance: no camera takes a picture twice.
 const SAME_PICTURES: usize = 3;
@@ -18,8 +20,8 @@ pub(super) fn refuse_twice(
     table: &Table,
     signals: Option<&SignalsInfo>,
     folder: &Path,
-) -> Result<(), DatasetError> {
-    let refused = |problem: String| DatasetError::request(before.path(), problem);
+) -> Result<(), ImportError> {
+    let refused = |problem: String| ImportError::request(before.path(), problem);
     let old = before.table().rows();
     let known = table.samples()[..old].iter().enumerate();
     let known: HashMap<&str, usize> = known.map(|(row, name)| (name.as_str(), row)).collect();
@@ -36,7 +38,7 @@ pub(super) fn refuse_twice(
     let reader = signals.map(|info| open(folder, info, table.rows()));
     let reader = reader.transpose()?;
     let labels = table.row_digests();
-    let content = |row: usize| -> Result<Digest, DatasetError> {
+    let content = |row: usize| -> Result<Digest, ImportError> {
         let mut digest = PartsDigest::default();
         digest.fixed(labels[row].as_bytes());
         if let Some(reader) = &reader {
@@ -88,8 +90,8 @@ fn refuse_same_pictures(
     table: &Table,
     frames: &[Option<FrameEntry>],
     old: usize,
-    refused: impl Fn(String) -> DatasetError,
-) -> Result<(), DatasetError> {
+    refused: impl Fn(String) -> ImportError,
+) -> Result<(), ImportError> {
     let frames = || frames.iter().enumerate();
     let known = frames().take(old);
     let known: HashMap<Digest, usize> = known
@@ -126,8 +128,8 @@ fn origin(table: &Table, row: usize, old: usize) -> String {
     }
 }
 
-fn open(folder: &Path, info: &SignalsInfo, rows: usize) -> Result<SignalsReader, DatasetError> {
+fn open(folder: &Path, info: &SignalsInfo, rows: usize) -> Result<SignalsReader, ImportError> {
     let path = folder.join(layout::SIGNALS);
-    let file = File::open(&path).map_err(DatasetError::io("open", &path))?;
-    SignalsReader::open(&path, file, info, rows as u64)
+    let file = File::open(&path).map_err(ImportError::io("open", &path))?;
+    Ok(SignalsReader::open(&path, file, info, rows as u64)?)
 }

@@ -10,6 +10,7 @@ use taceva_dataset::internal::{
 use taceva_dataset::{Dataset, DatasetError, Extension, Header, SignalsInfo, SourcesInfo, Table};
 
 use super::Addition;
+use crate::error::ImportError;
 use crate::import::copy::CopiedFrames;
 use crate::import::plan::ImportPlan;
 use crate::import::signals::PlannedSignals;
@@ -18,7 +19,7 @@ use crate::import::signals::PlannedSignals;
 pub(super) fn share_files(
     before: &Dataset,
     staged: &StagedFolder,
-) -> Result<BTreeSet<String>, DatasetError> {
+) -> Result<BTreeSet<String>, ImportError> {
     let frames = before.table().frames().iter().flatten();
     let views = before.table().views().iter();
     let views = views.flat_map(|view| view.frames().iter().flatten());
@@ -37,9 +38,9 @@ pub(super) fn share_files(
         let (from, to) = (before.path().join(relative), staged.path().join(relative));
         if fs::hard_link(&from, &to).is_err() {
             // On file systems without hard links.
-            fs::copy(&from, &to).map_err(DatasetError::io("copy", &from))?;
+            fs::copy(&from, &to).map_err(ImportError::io("copy", &from))?;
             let copied = File::open(&to).and_then(|file| file.sync_all());
-            copied.map_err(DatasetError::io("write", &to))?;
+            copied.map_err(ImportError::io("write", &to))?;
         }
     }
     Ok(folders)
@@ -51,7 +52,7 @@ pub(super) fn write_signals(
     new: &PlannedSignals,
     staged: &StagedFolder,
     progress: &dyn Progress,
-) -> Result<SignalsInfo, DatasetError> {
+) -> Result<SignalsInfo, ImportError> {
     let rows = before.table().rows();
     let own = before.header().signals.iter();
     let own = own.flat_map(|signals| signals.spec.rest.iter().copied());
@@ -61,17 +62,19 @@ pub(super) fn write_signals(
     let mut writer = SignalsWriter::create(&staged.path().join(layout::SIGNALS), &spec)?;
     for row in 0..rows {
         if progress.is_cancelled() {
-            return Err(DatasetError::Cancelled);
+            return Err(DatasetError::Cancelled.into());
         }
         let signals = before.signals(row)?;
-        let signals = signals.ok_or_else(|| DatasetError::Damaged {
-            path: before.path().join(layout::SIGNALS),
-            problem: format!("no signals of row {row}"),
+        let signals = signals.ok_or_else(|| {
+            DatasetError::damaged(
+                &before.path().join(layout::SIGNALS),
+                format!("no signals of row {row}"),
+            )
         })?;
         writer.push(signals.values())?;
     }
     new.write_to(&mut writer, progress)?;
-    writer.finish()
+    Ok(writer.finish()?)
 }
 
 /// Files of the successor that are written before its header.
@@ -88,7 +91,7 @@ pub(super) fn write_header(
     written: Written,
     plan: &ImportPlan,
     added: &Addition,
-) -> Result<Header, DatasetError> {
+) -> Result<Header, ImportError> {
     let Written {
         frames,
         signals,
@@ -126,7 +129,7 @@ pub(super) fn write_header(
         added.from.clone(),
     ));
     let facts = header.recording_facts();
-    write_table_and_header(
+    Ok(write_table_and_header(
         &staged.path().join(layout::SAMPLES),
         &staged.path().join(layout::HEADER),
         &facts,
@@ -144,5 +147,5 @@ pub(super) fn write_header(
             history: header.seal.history.clone(),
             ..Beside::default()
         },
-    )
+    )?)
 }

@@ -36,6 +36,7 @@ pub(super) struct WrittenForm {
     #[serde(default)]
     units_row: bool,
     rows: Option<String>,
+    cut: Option<String>,
     #[serde(default)]
     whole: bool,
     rate: Option<f64>,
@@ -86,6 +87,12 @@ impl Format {
     }
 }
 
+/// Messages of the only topic of a whole recording.
+const MESSAGES: TableForm = TableForm::Messages {
+    topic: None,
+    is_to_cut: false,
+};
+
 /// Form of the table at `path`, from `format` or the filename extension.
 fn form_of(path: &str, format: Option<Format>) -> TableForm {
     let ending = path
@@ -108,8 +115,8 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
         (Some(Format::Arrow), _) | (None, Some("arrow" | "feather")) => TableForm::Arrow,
         (Some(Format::Lerobot), _) => TableForm::LeRobot,
         (Some(Format::Webdataset), _) | (None, Some("tar")) => TableForm::WebDataset,
-        (Some(Format::Mcap), _) => TableForm::Messages { topic: None },
-        (None, Some(ending)) if is_recording(ending) => TableForm::Messages { topic: None },
+        (Some(Format::Mcap), _) => MESSAGES,
+        (None, Some(ending)) if is_recording(ending) => MESSAGES,
         (Some(Format::Jsonl), _) | (None, Some("jsonl" | "ndjson")) => TableForm::JsonLines,
         _ => TableForm::Delimited(TextForm::new(true)),
     }
@@ -194,6 +201,7 @@ impl Check<'_> {
                 ));
             }
         };
+        let is_to_cut = self.is_to_cut(described, &form, offset)?;
         if matches!(described.format, Some(Format::Clip))
             || described.rate.is_some()
             || described.start_s.is_some()
@@ -213,6 +221,7 @@ impl Check<'_> {
             (TableForm::Json { .. }, None, rows) => TableForm::Json { rows: rows.clone() },
             (TableForm::Messages { .. }, None, rows) => TableForm::Messages {
                 topic: rows.clone(),
+                is_to_cut,
             },
             (
                 TableForm::Arrays {
@@ -235,6 +244,32 @@ impl Check<'_> {
             }
         };
         Ok((file, form))
+    }
+
+    /// True if the messages before the cut of a recording are to be read.
+    fn is_to_cut(
+        &self,
+        described: &WrittenForm,
+        form: &TableForm,
+        offset: usize,
+    ) -> Result<bool, DatasetError> {
+        let Some(cut) = described.cut.as_deref() else {
+            return Ok(false);
+        };
+        match (form, cut) {
+            (TableForm::Messages { .. }, "keep") => Ok(true),
+            (TableForm::Messages { .. }, "refuse") => Ok(false),
+            (TableForm::Messages { .. }, other) => Err(self.at(
+                offset,
+                &format!(
+                    "`cut = {other:?}`, expected \"keep\", which reads the complete messages before the cut of a recording, or \"refuse\""
+                ),
+            )),
+            _ => Err(self.at(
+                offset,
+                "`cut` is for recordings of messages alone (.mcap, .db3, .bag)",
+            )),
+        }
     }
 
     /// Checks the form of a clip as a table.

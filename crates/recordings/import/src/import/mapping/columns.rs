@@ -1,19 +1,20 @@
 //! Summary of a map's labels for the header of the dataset.
 
 use super::short;
+use crate::error::ImportError;
 use crate::import::map::{GravityMap, ImportMap, SignalsFrom, ZeroMap};
 use crate::import::resolve::matrix_rows;
 use crate::source_folder::SourceFolder;
-use taceva_dataset::{DatasetError, MappedColumn};
+use taceva_dataset::MappedColumn;
 
 /// Sources of the channels, the time and the taxel values of `map`.
 ///
 /// # Errors
-/// [`DatasetError`] if the file of a matrix cannot be read.
+/// [`ImportError`] if the file of a matrix cannot be read.
 pub(super) fn columns(
     map: &ImportMap,
     folder: &SourceFolder,
-) -> Result<Vec<MappedColumn>, DatasetError> {
+) -> Result<Vec<MappedColumn>, ImportError> {
     let mut columns = Vec::new();
     for matrix in &map.matrices {
         let rows = matrix_rows(matrix, folder)?;

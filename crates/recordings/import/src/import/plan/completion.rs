@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use super::ImportPlan;
 use super::reading::Reading;
+use crate::error::ImportError;
 use crate::import::frame_plan::PlannedFrames;
 use crate::import::map::{FrameMap, FrameNames};
 use crate::import::mapping::mapping;
@@ -14,14 +15,13 @@ use crate::import::resolve::JoinMatches;
 use crate::import::source::unnamed_images;
 use crate::import::summary::FrameSummary;
 use taceva_dataset::internal::shown;
-use taceva_dataset::{DatasetError, Place};
 
 /// Limit of listed images that no row names.
 const LISTED_IMAGES: usize = 20;
 
 impl Reading<'_> {
     /// Error for an import without rows, with the reasons.
-    pub(super) fn no_row(&self) -> DatasetError {
+    pub(super) fn no_row(&self) -> ImportError {
         let summary = &self.summary;
         let dropped = summary.dropped.iter();
         let dropped: Vec<String> = dropped
@@ -34,19 +34,17 @@ impl Reading<'_> {
                 dropped.join(", ")
             ),
         };
-        DatasetError::Table {
-            place: Place::file(
-                summary
-                    .tables
-                    .first()
-                    .map_or(self.folder.path(), PathBuf::as_path),
-            ),
+        ImportError::table(
+            summary
+                .tables
+                .first()
+                .map_or(self.folder.path(), PathBuf::as_path),
             problem,
-        }
+        )
     }
 
     /// Plan from all that was read.
-    pub(super) fn into_plan(mut self) -> Result<ImportPlan, DatasetError> {
+    pub(super) fn into_plan(mut self) -> Result<ImportPlan, ImportError> {
         if let Some(unequal) = self.unequal.take() {
             return Err(unequal);
         }
@@ -81,7 +79,7 @@ impl Reading<'_> {
     }
 
     /// Frames of each view.
-    fn planned_frames(&mut self) -> Result<Vec<PlannedFrames>, DatasetError> {
+    fn planned_frames(&mut self) -> Result<Vec<PlannedFrames>, ImportError> {
         let mut planned = Vec::new();
         for view in std::mem::take(&mut self.views) {
             let map = view.map;

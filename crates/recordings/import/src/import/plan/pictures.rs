@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use super::name_order::counted_otherwise;
 use super::reading::Reading;
+use crate::error::{ImportError, Place};
 use crate::foreign::{ArrayPictures, ClipPictures, Pictures, SeveralPictures, TableForm};
 use crate::import::map::{FrameNames, OWN_ROW};
 use crate::import::rows::MappedTable;
 use crate::import::source::matching_files;
 use taceva_dataset::internal::shown;
-use taceva_dataset::{DatasetError, Place};
 
 impl Reading<'_> {
     /// Checks that no two tables use the pictures in `file` by row number without a column that selects them. Each table would begin with
@@ -20,7 +20,7 @@ impl Reading<'_> {
         view: usize,
         file: &str,
         rows: &MappedTable<'_>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let own = &mut self.views[view];
         let (key, index) = match &own.map.names {
             FrameNames::Array(array) => ("array", &array.index),
@@ -43,16 +43,15 @@ impl Reading<'_> {
             TableForm::Files => format!("{} files, each of them a row,", self.count),
             _ => format!("{} tables", self.count),
         };
-        Err(DatasetError::Path {
-            place: None,
-            written: file.to_owned(),
-            problem: format!(
+        Err(ImportError::path(
+            file,
+            format!(
                 "the pictures of `{key}` already belong to the rows of {}, and each of the {each} would start again at the first picture: \
                  set `index = \"COLUMN\"` to a column that numbers the pictures of all of them, or put `{{path.NAME}}` in `{key}` to name \
                  a file for each",
                 shown(&self.folder.inside(first, ""))
             ),
-        })
+        ))
     }
 
     /// Records an error if pictures and rows differ in number and the map names no index. It is raised after all tables are read, since an
@@ -77,15 +76,13 @@ impl Reading<'_> {
         {
             return;
         }
-        self.unequal = Some(DatasetError::Image {
-            place: Some(Box::new(Place::file(&self.current))),
-            path: pictures.path().to_owned(),
-            problem: format!(
-                "{count} pictures for {rows} rows, and no `index`: name the column with the number of the picture, or write \
-                 `index = \"row\"` if the first {} match in order; the order of the axes may be wrong, too (`layout`)",
-                count.min(rows)
-            ),
-        });
+        let problem = format!(
+            "{count} pictures for {rows} rows, and no `index`: name the column with the number of the picture, or write \
+                `index = \"row\"` if the first {} match in order; the order of the axes may be wrong, too (`layout`)",
+            count.min(rows)
+        );
+        let unequal = ImportError::image(pictures.path(), problem);
+        self.unequal = Some(unequal.named_at(Place::file(&self.current)));
     }
 
     /// Checks that no two tables name the picture at `path` by row number.
@@ -94,7 +91,7 @@ impl Reading<'_> {
         view: usize,
         path: &Path,
         rows: &MappedTable<'_>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let own = &mut self.views[view];
         let is_by_row =
             matches!(&own.map.names, FrameNames::Pattern(pattern) if pattern.contains("{row}"));
@@ -103,16 +100,15 @@ impl Reading<'_> {
         }
         let inside = self.folder.inside(path, "");
         match own.counted.get(&inside) {
-            Some(first) if *first != self.current => Err(DatasetError::Path {
-                place: None,
-                problem: format!(
+            Some(first) if *first != self.current => Err(ImportError::path(
+                &inside,
+                format!(
                     "already the picture of a row of {}: `{{row}}` in `pattern` starts at 0 in each of the {} tables; \
                      replace it by a column that numbers the pictures of all of them, or put `{{path.NAME}}` before it",
                     shown(&self.folder.inside(first, "")),
                     self.count
                 ),
-                written: inside,
-            }),
+            )),
             Some(_) => Ok(()),
             None => {
                 own.counted.insert(inside, self.current.clone());
@@ -126,23 +122,22 @@ impl Reading<'_> {
         &mut self,
         view: usize,
         relative: &str,
-    ) -> Result<Arc<dyn Pictures>, DatasetError> {
+    ) -> Result<Arc<dyn Pictures>, ImportError> {
         let path = self.folder.path().join(relative);
         if let Some(known) = self.views[view].opened.get(&path) {
             return Ok(Arc::clone(known));
         }
         let found = matching_files(self.folder, relative)?;
         if let Some([first, second]) = counted_otherwise(&found) {
-            return Err(DatasetError::Path {
-                place: None,
-                written: relative.to_owned(),
-                problem: format!(
+            return Err(ImportError::path(
+                relative,
+                format!(
                     "numbers pictures through these files in the order of their names, and {} sorts before {}: the order is ambiguous; \
                      give their numbers the same count of digits, or name a file for each table by `{{path.NAME}}`",
                     shown(&self.folder.inside(first, "")),
                     shown(&self.folder.inside(second, ""))
                 ),
-            });
+            ));
         }
         let found = found.into_iter();
         let files = found.map(|file| self.open(view, &file, relative));
@@ -160,7 +155,7 @@ impl Reading<'_> {
         view: usize,
         path: &Path,
         relative: &str,
-    ) -> Result<Arc<dyn Pictures>, DatasetError> {
+    ) -> Result<Arc<dyn Pictures>, ImportError> {
         let own = &self.views[view];
         Ok(match &own.map.names {
             names @ FrameNames::Array(array) => Arc::new(ArrayPictures::open(path, names, array)?),
@@ -169,11 +164,7 @@ impl Reading<'_> {
                 Arc::new(ClipPictures::open(path, self.decoders, depth)?)
             }
             _ => {
-                return Err(DatasetError::Path {
-                    place: None,
-                    written: relative.to_owned(),
-                    problem: "neither an array nor a clip".to_owned(),
-                });
+                return Err(ImportError::path(relative, "neither an array nor a clip"));
             }
         })
     }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use taceva_video::Decoders;
 
 use super::view::ViewReading;
+use crate::error::ImportError;
 use crate::foreign::TableForm;
 use crate::import::frame_cells::FrameName;
 use crate::import::map::{GravityMap, ImportMap};
@@ -14,7 +15,7 @@ use crate::import::rows::{MappedTable, SIGNAL_PLACEHOLDERS};
 use crate::import::signals::FoundSignals;
 use crate::import::summary::{ImportSummary, ZeroSummary};
 use crate::source_folder::SourceFolder;
-use taceva_dataset::{DatasetError, Table};
+use taceva_dataset::Table;
 
 /// State of reading the rows of all tables.
 pub(super) struct Reading<'a> {
@@ -30,7 +31,7 @@ pub(super) struct Reading<'a> {
     pub(super) views: Vec<ViewReading<'a>>,
     pub(super) signals: Option<FoundSignals<'a>>,
     /// Error that pictures and rows differ in number without an index.
-    pub(super) unequal: Option<DatasetError>,
+    pub(super) unequal: Option<ImportError>,
     pub(super) joins: Vec<JoinMatches>,
     /// Coordinate frames of the labels of all tables.
     pub(super) coordinate_frames: CoordinateFrames,
@@ -73,8 +74,8 @@ impl<'a> Reading<'a> {
         }
     }
 
-    pub(super) fn read(&mut self, path: &Path) -> Result<(), DatasetError> {
-        let mut rows = MappedTable::open(self.map, self.folder, path)?;
+    pub(super) fn read(&mut self, path: &Path) -> Result<(), ImportError> {
+        let mut rows = MappedTable::open(self.map, self.folder, path, self.decoders)?;
         path.clone_into(&mut self.current);
         let rows_folder = rows.folder();
         for (own, of_table) in self.views.iter_mut().zip(&mut rows.views) {
@@ -145,7 +146,7 @@ impl<'a> Reading<'a> {
         }
     }
 
-    fn read_row(&mut self, rows: &MappedTable<'_>, row: usize) -> Result<(), DatasetError> {
+    fn read_row(&mut self, rows: &MappedTable<'_>, row: usize) -> Result<(), ImportError> {
         let number = self.summary.rows_read;
         self.summary.rows_read += 1;
         let mut reasons = rows.drop_reasons(row);

@@ -4,10 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::reading::Reading;
+use crate::error::ImportError;
 use crate::import::frame_cells::FrameName;
 use crate::import::frame_plan::{FrameSource, PlannedFrame};
 use crate::import::rows::MappedTable;
-use taceva_dataset::{DatasetError, Row, RowFrame};
+use taceva_dataset::{Row, RowFrame};
 
 impl Reading<'_> {
     /// Finds the frame of a row in the view at position `view`, and the frame without contact.
@@ -17,7 +18,7 @@ impl Reading<'_> {
         view: usize,
         row: usize,
         labels: &mut Row,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let (name, named_at) = rows.frame_name(view, row)?;
         let base = self.views[view].beside(rows.named_by.frame(view, row));
         let from = self
@@ -51,7 +52,7 @@ impl Reading<'_> {
         view: usize,
         base: &Path,
         name: FrameName,
-    ) -> Result<FrameSource, DatasetError> {
+    ) -> Result<FrameSource, ImportError> {
         let (pictures, index) = match (name, &rows.views[view].pictures) {
             (FrameName::File(name), _) => {
                 let path = self.folder.file(base, &name)?;
@@ -73,11 +74,10 @@ impl Reading<'_> {
                 (Arc::clone(pictures), index)
             }
             (FrameName::Within(None, index), None) => {
-                return Err(DatasetError::Path {
-                    place: None,
-                    written: index.to_string(),
-                    problem: "a position without an array".to_owned(),
-                });
+                return Err(ImportError::path(
+                    &index.to_string(),
+                    "a position without an array",
+                ));
             }
         };
         pictures.check_index(index)?;

@@ -1,15 +1,11 @@
 //! Reads one cell of a table of any form.
 
 use super::columns::indexed;
+use crate::error::ImportError;
 use crate::foreign::{ForeignTable, cell_list};
-use taceva_dataset::DatasetError;
 
 /// Cell of a row in the column `name`, or one element of a list in the cell: `ft[2]`.
-pub(super) fn cell_of(
-    table: &ForeignTable,
-    row: usize,
-    name: &str,
-) -> Result<String, DatasetError> {
+pub(super) fn cell_of(table: &ForeignTable, row: usize, name: &str) -> Result<String, ImportError> {
     if table.has(name) {
         return Ok(cell_list::plain(&table.cell(row, name)?).to_owned());
     }
@@ -26,5 +22,5 @@ pub(super) fn cell_of(
             ForeignTable::Columns(_) | ForeignTable::Json(_) if found.is_null() => String::new(),
             _ => found.text.into_owned(),
         })
-        .map_err(|problem| DatasetError::table(table.place(row, base), problem))
+        .map_err(|problem| ImportError::table(table.place(row, base), problem))
 }

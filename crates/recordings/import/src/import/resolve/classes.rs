@@ -2,10 +2,10 @@
 
 use super::Sources;
 use super::columns::base_of;
+use crate::error::{ImportError, Place, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::ClassMap;
 use taceva_dataset::internal::shown;
-use taceva_dataset::{DatasetError, Place};
 
 /// Interpretation of the cells of a class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,8 +21,8 @@ pub(in crate::import) enum ClassCells {
 /// Interpretation of the cells of each class, in map order.
 ///
 /// # Errors
-/// [`DatasetError::Table`] if a name is also the position of another name and the file does not resolve it.
-pub(super) fn of(sources: &Sources<'_>) -> Result<Vec<ClassCells>, DatasetError> {
+/// [`ImportError::Table`] if a name is also the position of another name and the file does not resolve it.
+pub(super) fn of(sources: &Sources<'_>) -> Result<Vec<ClassCells>, ImportError> {
     let classes = sources.map.classes.iter();
     classes
         .map(|(key, class)| sources.class_cells(key, class))
@@ -30,7 +30,7 @@ pub(super) fn of(sources: &Sources<'_>) -> Result<Vec<ClassCells>, DatasetError>
 }
 
 impl Sources<'_> {
-    fn class_cells(&self, key: &str, class: &ClassMap) -> Result<ClassCells, DatasetError> {
+    fn class_cells(&self, key: &str, class: &ClassMap) -> Result<ClassCells, ImportError> {
         let Some((name, position)) = class.ambiguous() else {
             return Ok(ClassCells::Either);
         };
@@ -43,17 +43,15 @@ impl Sources<'_> {
             return Ok(ClassCells::Positions);
         }
         let other = class.names.get(position).map_or("", String::as_str);
-        Err(DatasetError::Table {
-            place: Place::file(self.main.path()).in_column(&class.from),
-            problem: format!(
-                "[classes] {key}: `names` has \"{}\", which is also the position of \"{}\", so a cell `{position}` is ambiguous. If cells \
+        Err(table_error!(
+            Place::file(self.main.path()).in_column(&class.from),
+            "[classes] {key}: `names` has \"{}\", which is also the position of \"{}\", so a cell `{position}` is ambiguous. If cells \
                  are positions, use names that are no positions, such as \"class {}\"; if cells are names, use `[attributes]`, which \
                  needs no `names`",
-                shown(name),
-                shown(other),
-                shown(name)
-            ),
-        })
+            shown(name),
+            shown(other),
+            shown(name)
+        ))
     }
 
     /// True if the file states that a column holds integers.

@@ -9,10 +9,10 @@ use super::Sources;
 use super::cell::cell_of;
 use super::columns::base_of;
 use crate::csv_table::number;
+use crate::error::{ImportError, Place, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::{FrameNames, ImportMap};
 use taceva_dataset::internal::shown;
-use taceva_dataset::{DatasetError, Place};
 
 /// Ends of the name of a column that names a coordinate frame: `header.frame_id`, `/header/frame_id`, `wrench_reference_frame`.
 const ENDINGS: [&str; 6] = [
@@ -55,7 +55,7 @@ struct FrameColumn {
 
 impl CoordinateFrames {
     /// Checks that another main table has the same frames as the previous ones.
-    pub(in crate::import) fn add(&mut self, other: CoordinateFrames) -> Result<(), DatasetError> {
+    pub(in crate::import) fn add(&mut self, other: CoordinateFrames) -> Result<(), ImportError> {
         for (column, stated) in other.stated {
             let name = stated.name.clone();
             self.take(column, &name, || stated)?;
@@ -69,7 +69,7 @@ impl CoordinateFrames {
         column: FrameColumn,
         name: &str,
         stated: impl FnOnce() -> StatedFrame,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         match self.stated.get(&column) {
             Some(known) if known.name != name => Err(changed(&column, known, &stated())),
             Some(_) => Ok(()),
@@ -81,7 +81,7 @@ impl CoordinateFrames {
     }
 }
 
-fn changed(column: &FrameColumn, known: &StatedFrame, found: &StatedFrame) -> DatasetError {
+fn changed(column: &FrameColumn, known: &StatedFrame, found: &StatedFrame) -> ImportError {
     let at = found.time_s.map(|time_s| format!(", at {time_s} s"));
     let (first, second) = (shown(&known.name), shown(&found.name));
     let (name, whose) = match &column.join {
@@ -94,16 +94,14 @@ fn changed(column: &FrameColumn, known: &StatedFrame, found: &StatedFrame) -> Da
         }
         None => (column.name.clone(), "below `table` of the map".to_owned()),
     };
-    DatasetError::Table {
-        place: found.place.clone(),
-        problem: format!(
-            "`{}` has 2 frames: `{second}` here{}, `{first}` before ({}). A channel needs one frame: write `frame_id = {first:?}` {whose} \
+    table_error!(
+        found.place.clone(),
+        "`{}` has 2 frames: `{second}` here{}, `{first}` before ({}). A channel needs one frame: write `frame_id = {first:?}` {whose} \
              to read only the rows of that frame and count the others",
-            shown(&name),
-            at.unwrap_or_default(),
-            known.place
-        ),
-    }
+        shown(&name),
+        at.unwrap_or_default(),
+        known.place
+    )
 }
 
 /// Names of the columns of `table` that may name frames.
@@ -197,7 +195,7 @@ fn is_name(map: &ImportMap, column: &str) -> bool {
 }
 
 /// Columns of `table` that name the frames of `labels`, without counters and picture names.
-fn naming(table: &ForeignTable, labels: &[&str]) -> Result<Vec<String>, DatasetError> {
+fn naming(table: &ForeignTable, labels: &[&str]) -> Result<Vec<String>, ImportError> {
     let mut found = Vec::new();
     if labels.is_empty() {
         return Ok(found);
@@ -235,13 +233,13 @@ pub(super) fn rows_in(
     table: &ForeignTable,
     labels: &[&str],
     frame: &str,
-) -> Result<BTreeSet<usize>, DatasetError> {
+) -> Result<BTreeSet<usize>, ImportError> {
     let columns = naming(table, labels)?;
     let refuse = |problem: String| {
-        Err(DatasetError::Table {
-            place: Place::file(table.path()),
-            problem: format!("`frame_id = {frame:?}`: {problem}"),
-        })
+        Err(table_error!(
+            table.path(),
+            "`frame_id = {frame:?}`: {problem}"
+        ))
     };
     if columns.is_empty() {
         return refuse(
@@ -276,7 +274,7 @@ impl Sources<'_> {
     }
 
     /// Frame of every label column. It must be constant over all rows with a number.
-    pub(super) fn coordinate_frames(&self) -> Result<CoordinateFrames, DatasetError> {
+    pub(super) fn coordinate_frames(&self) -> Result<CoordinateFrames, ImportError> {
         let mut frames = CoordinateFrames::default();
         let labels = self.labels(None);
         if let Some(frame) = self.map.frame_id.as_deref() {
@@ -359,7 +357,7 @@ impl Given<'_> {
         frames: &mut CoordinateFrames,
         labels: &[&str],
         time_s: impl FnOnce() -> Option<f64>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let prefix = prefix(self.column);
         let is_there = |label: &&&str| {
             let is_column = self.table.has(label) || self.table.has(base_of(label));

@@ -15,6 +15,7 @@ use super::columns::{base_of, mentioned};
 use super::coordinate_frame;
 use super::unit_statement::{self, Reading};
 use crate::csv_table::number;
+use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::{JoinBy, JoinMap, Lag, TimeJoin, Unmatched};
 use crate::source_folder::SourceFolder;
@@ -23,7 +24,6 @@ use interpolation::{Gap, Interpolation};
 use matches::TableUses;
 use matching::{At, about, comparable, seconds};
 use taceva_dataset::internal::shown;
-use taceva_dataset::{DatasetError, Place};
 
 pub(in crate::import) use matches::JoinMatches;
 
@@ -52,7 +52,7 @@ impl<'a> Joined<'a> {
         sources: &Sources<'_>,
         folder: &SourceFolder,
         map: &'a JoinMap,
-    ) -> Result<Joined<'a>, DatasetError> {
+    ) -> Result<Joined<'a>, ImportError> {
         let mut joined = Joined {
             map,
             tables: Vec::new(),
@@ -67,7 +67,7 @@ impl<'a> Joined<'a> {
                 Some(table) => *table,
                 None => {
                     let path = folder.file(folder.path(), &file)?;
-                    let table = ForeignTable::read(&path, &map.form)?;
+                    let table = ForeignTable::read_by(&path, &map.form, sources.decoders)?;
                     let labels = sources.labels(Some(&map.name));
                     let of_frames = match labels.is_empty() {
                         true => Vec::new(),
@@ -84,14 +84,12 @@ impl<'a> Joined<'a> {
             };
             let at = joined.find(sources, table, row)?;
             if at == At::Nowhere && map.unmatched == Unmatched::Refuse {
-                return Err(DatasetError::Table {
-                    place: sources.main.place(row, ""),
-                    problem: format!(
-                        "no row of {} matches it (join `{}`); write `unmatched = \"drop\"` to leave out and count such rows",
-                        shown(&joined.tables[table].table.path().to_string_lossy()),
-                        map.name
-                    ),
-                });
+                return Err(table_error!(
+                    sources.main.place(row, ""),
+                    "no row of {} matches it (join `{}`); write `unmatched = \"drop\"` to leave out and count such rows",
+                    shown(&joined.tables[table].table.path().to_string_lossy()),
+                    map.name
+                ));
             }
             joined.matches.push(Match { table, at });
         }
@@ -100,6 +98,11 @@ impl<'a> Joined<'a> {
 
     pub(super) fn name(&self) -> &str {
         &self.map.name
+    }
+
+    /// Tables from which rows are taken.
+    pub(super) fn tables(&self) -> impl Iterator<Item = &ForeignTable> {
+        self.tables.iter().map(|candidates| &candidates.table)
     }
 
     pub(super) fn is_matched(&self, row: usize) -> bool {
@@ -134,7 +137,7 @@ impl<'a> Joined<'a> {
     }
 
     /// Cell of the row matched with `row` in `column`; empty without a match.
-    pub(super) fn cell(&self, row: usize, column: &str) -> Result<String, DatasetError> {
+    pub(super) fn cell(&self, row: usize, column: &str) -> Result<String, ImportError> {
         let Match { table, at } = self.matches[row];
         let table = &self.tables[table].table;
         match at {
@@ -177,7 +180,7 @@ impl<'a> Joined<'a> {
     }
 
     /// Checks that the map agrees with the files about `column`.
-    pub(super) fn check(&self, column: &str, reading: Reading<'_>) -> Result<(), DatasetError> {
+    pub(super) fn check(&self, column: &str, reading: Reading<'_>) -> Result<(), ImportError> {
         let mut tables = self.tables.iter();
         tables.try_for_each(|candidates| unit_statement::check(&candidates.table, column, reading))
     }
@@ -188,7 +191,7 @@ impl<'a> Joined<'a> {
         folder: &SourceFolder,
         names: &[String],
         into: &mut BTreeMap<String, u64>,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let own = own_columns(names, &self.map.name);
         let mut tables = self.tables.iter();
         tables.try_for_each(|candidates| candidates.table.count_absent_chunks(folder, &own, into))
@@ -237,46 +240,39 @@ impl<'a> Joined<'a> {
     }
 
     /// Delay of the joined table's clock at `row`, ms; positive if it shows a later time.
-    fn lag_ms(&self, sources: &Sources<'_>, row: usize, lag: &Lag) -> Result<f64, DatasetError> {
+    fn lag_ms(&self, sources: &Sources<'_>, row: usize, lag: &Lag) -> Result<f64, ImportError> {
         match lag {
             Lag::Fixed(lag) => Ok(*lag),
             Lag::Files(lags) => {
                 let joined = sources.filled(row, &self.map.file)?;
                 let found = lags.get(&sources.relative).or_else(|| lags.get(&joined));
-                found.copied().ok_or_else(|| DatasetError::Table {
-                    place: Place::file(sources.main.path()),
-                    problem: format!(
+                found.copied().ok_or_else(|| {
+                    table_error!(
+                        sources.main.path(),
                         "`lag_ms` of join `{0}` names neither this table nor the joined one: add `\"{1}\" = …` or `\"{2}\" = …`, in ms",
                         self.map.name,
                         shown(&sources.relative),
                         shown(&joined)
-                    ),
+                    )
                 })
             }
             Lag::Column(column) => {
                 let cell = sources.cell(row, column)?;
                 let place = || sources.main.place(row, column);
-                let number = number::number(&cell).map_err(|problem| DatasetError::Table {
-                    place: place(),
-                    problem: format!("`{}`: {problem}", shown(&cell)),
-                })?;
-                number.ok_or_else(|| DatasetError::Table {
-                    place: place(),
-                    problem: format!(
+                let number = number::number(&cell)
+                    .map_err(|problem| table_error!(place(), "`{}`: {problem}", shown(&cell)))?;
+                number.ok_or_else(|| {
+                    table_error!(
+                        place(),
                         "empty, expected the lag of join `{}` in ms: `lag_ms` names this column",
                         self.map.name
-                    ),
+                    )
                 })
             }
         }
     }
 
-    fn find(
-        &mut self,
-        sources: &Sources<'_>,
-        table: usize,
-        row: usize,
-    ) -> Result<At, DatasetError> {
+    fn find(&mut self, sources: &Sources<'_>, table: usize, row: usize) -> Result<At, ImportError> {
         let candidates = &self.tables[table];
         match &self.map.by {
             JoinBy::Row => Ok(match candidates.rows.binary_search(&row) {
@@ -285,32 +281,28 @@ impl<'a> Joined<'a> {
             }),
             JoinBy::All => match candidates.rows[..] {
                 [only] => Ok(At::Row(only)),
-                _ => Err(DatasetError::Table {
-                    place: Place::file(candidates.table.path()),
-                    problem: format!(
-                        "{} rows, where `on = \"all\"` of join `{}` expects one",
-                        candidates.rows.len(),
-                        self.map.name
-                    ),
-                }),
+                _ => Err(table_error!(
+                    candidates.table.path(),
+                    "{} rows, where `on = \"all\"` of join `{}` expects one",
+                    candidates.rows.len(),
+                    self.map.name
+                )),
             },
             JoinBy::Columns(columns) => {
-                let key: Result<Vec<String>, DatasetError> = columns
+                let key: Result<Vec<String>, ImportError> = columns
                     .iter()
                     .map(|(own, _)| Ok(comparable(&sources.cell(row, own)?)))
                     .collect();
                 match candidates.by_key.get(&key?).map(Vec::as_slice) {
                     None => Ok(At::Nowhere),
                     Some([only]) => Ok(At::Row(*only)),
-                    Some([first, second, ..]) => Err(DatasetError::Table {
-                        place: sources.main.place(row, &columns[0].0),
-                        problem: format!(
-                            "two rows of join `{}` match it: {} and {}",
-                            self.map.name,
-                            candidates.table.place(*first, ""),
-                            candidates.table.place(*second, "")
-                        ),
-                    }),
+                    Some([first, second, ..]) => Err(table_error!(
+                        sources.main.place(row, &columns[0].0),
+                        "two rows of join `{}` match it: {} and {}",
+                        self.map.name,
+                        candidates.table.place(*first, ""),
+                        candidates.table.place(*second, "")
+                    )),
                     Some([]) => Ok(At::Nowhere),
                 }
             }
@@ -323,13 +315,11 @@ impl<'a> Joined<'a> {
             }
             JoinBy::Time(join) => {
                 let Some(time) = &sources.map.time else {
-                    return Err(DatasetError::Table {
-                        place: Place::file(sources.main.path()),
-                        problem: format!(
-                            "join `{}` is by time, and [time] names no column of the main table",
-                            self.map.name
-                        ),
-                    });
+                    return Err(table_error!(
+                        sources.main.path(),
+                        "join `{}` is by time, and [time] names no column of the main table",
+                        self.map.name
+                    ));
                 };
                 let cell = sources.cell_in_seconds(row, &time.column)?;
                 let place = || sources.main.place(row, &time.column);

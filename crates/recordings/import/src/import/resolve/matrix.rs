@@ -2,16 +2,16 @@
 
 use super::table::ResolvedTable;
 use crate::csv_table::CsvTable;
+use crate::error::ImportError;
 use crate::import::map::{MatrixMap, MatrixRows};
 use crate::source_folder::SourceFolder;
-use taceva_dataset::{DatasetError, Place};
 
 /// Adds the result columns of `map` to `table`. A product is empty if one of its factors is.
 pub(super) fn apply(
     map: &MatrixMap,
     folder: &SourceFolder,
     table: &mut ResolvedTable,
-) -> Result<(), DatasetError> {
+) -> Result<(), ImportError> {
     let rows = matrix_rows(map, folder)?;
     let columns: Vec<usize> = map
         .from
@@ -20,7 +20,7 @@ pub(super) fn apply(
         .collect();
     let mut products = vec![Vec::with_capacity(table.rows()); map.gives.len()];
     for row in 0..table.rows() {
-        let numbers: Result<Option<Vec<f64>>, DatasetError> = columns
+        let numbers: Result<Option<Vec<f64>>, ImportError> = columns
             .iter()
             .map(|column| table.number(row, *column))
             .collect();
@@ -43,7 +43,7 @@ pub(super) fn apply(
 pub(in crate::import) fn matrix_rows(
     map: &MatrixMap,
     folder: &SourceFolder,
-) -> Result<Vec<Vec<f64>>, DatasetError> {
+) -> Result<Vec<Vec<f64>>, ImportError> {
     match &map.by {
         MatrixRows::Written(rows) => Ok(rows.clone()),
         MatrixRows::File(file) => of_file(map, folder, file),
@@ -62,7 +62,7 @@ fn of_file(
     map: &MatrixMap,
     folder: &SourceFolder,
     file: &str,
-) -> Result<Vec<Vec<f64>>, DatasetError> {
+) -> Result<Vec<Vec<f64>>, ImportError> {
     let path = folder.file(folder.path(), file)?;
     let table = CsvTable::read_headerless(&path)?;
     let number = |row, column| {
@@ -70,12 +70,12 @@ fn of_file(
         number.ok_or_else(|| table.refuse(row, column, "empty, expected a number of the matrix"))
     };
     let columns = table.names().len();
-    let rows: Result<Vec<Vec<f64>>, DatasetError> = (0..table.rows())
+    let rows: Result<Vec<Vec<f64>>, ImportError> = (0..table.rows())
         .map(|row| (0..columns).map(|column| number(row, column)).collect())
         .collect();
     let rows = rows?;
     match map.problem(&rows) {
         None => Ok(rows),
-        Some(problem) => Err(DatasetError::table(Place::file(&path), problem)),
+        Some(problem) => Err(ImportError::table(&path, problem)),
     }
 }

@@ -1,8 +1,8 @@
 //! Unwraps rotations, so that consecutive rows are close.
 
 use super::table::ResolvedTable;
+use crate::error::ImportError;
 use crate::import::map::RotationMap;
-use taceva_dataset::DatasetError;
 
 /// Least distance gained by equivalent numbers before they are used, in the unit of the cells.
 const LEAST_GAIN: f64 = 1e-9;
@@ -10,8 +10,8 @@ const LEAST_GAIN: f64 = 1e-9;
 /// Replaces each rotation by the equivalent nearest to the previous row. Robots alternate between v and -v near half a turn.
 ///
 /// # Errors
-/// [`DatasetError::Table`] naming the row for a quaternion whose norm is not 1.
-pub(super) fn apply(map: &RotationMap, table: &mut ResolvedTable) -> Result<(), DatasetError> {
+/// [`ImportError::Table`] naming the row for a quaternion whose norm is not 1.
+pub(super) fn apply(map: &RotationMap, table: &mut ResolvedTable) -> Result<(), ImportError> {
     let columns: Vec<usize> = map
         .columns
         .iter()
@@ -22,7 +22,7 @@ pub(super) fn apply(map: &RotationMap, table: &mut ResolvedTable) -> Result<(), 
         if table.unmatched(row).is_some() {
             continue;
         }
-        let cells: Result<Option<Vec<f64>>, DatasetError> = columns
+        let cells: Result<Option<Vec<f64>>, ImportError> = columns
             .iter()
             .map(|column| table.number(row, *column))
             .collect();
@@ -30,10 +30,10 @@ pub(super) fn apply(map: &RotationMap, table: &mut ResolvedTable) -> Result<(), 
             continue;
         };
         if map.orientation(&cells).is_none() {
-            return Err(DatasetError::Table {
-                place: table.place(row, columns[0]),
-                problem: RotationMap::no_rotation(&cells),
-            });
+            return Err(ImportError::table(
+                table.place(row, columns[0]),
+                RotationMap::no_rotation(&cells),
+            ));
         }
         let twin = before.as_ref().zip(map.twin(&cells));
         let nearer = twin.filter(|(before, twin)| {

@@ -2,15 +2,15 @@
 
 use super::Sources;
 use crate::csv_table::number;
+use crate::error::{ImportError, table_error};
 use crate::import::map::SignalsMap;
-use taceva_dataset::DatasetError;
 
 /// Values of every row, grouped by taxel, in the unit they are kept in. A cell without a number gives NaN, which is an error if the row is
 /// kept.
 pub(super) fn numbers(
     sources: &Sources<'_>,
     map: &SignalsMap,
-) -> Result<ColumnSignals, DatasetError> {
+) -> Result<ColumnSignals, ImportError> {
     let (rows, length) = (sources.main.rows(), map.spec.info.len());
     let mut numbers = Vec::new();
     let mut are_placeholders = vec![false; rows];
@@ -65,8 +65,8 @@ pub(in crate::import) struct ColumnSignals {
 }
 
 impl Sources<'_> {
-    fn wrong_signals(&self, row: usize, name: &str, problem: &str) -> DatasetError {
-        DatasetError::table(self.main.place(row, name), format!("[signals]: {problem}"))
+    fn wrong_signals(&self, row: usize, name: &str, problem: &str) -> ImportError {
+        table_error!(self.main.place(row, name), "[signals]: {problem}")
     }
 }
 

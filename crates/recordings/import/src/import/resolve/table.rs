@@ -6,8 +6,8 @@ use taceva_core::SourceUnit;
 
 use super::Sources;
 use crate::csv_table::number;
+use crate::error::{ImportError, Place, table_error};
 use taceva_dataset::internal::shown;
-use taceva_dataset::{DatasetError, Place};
 
 /// Cells of the columns that a map names.
 pub(in crate::import) struct ResolvedTable {
@@ -64,11 +64,9 @@ impl ResolvedTable {
     }
 
     /// Position of the column called `name`.
-    pub(in crate::import) fn position(&self, name: &str) -> Result<usize, DatasetError> {
-        self.find(name).ok_or_else(|| DatasetError::Table {
-            place: Place::file(&self.path),
-            problem: format!("no column `{}`", shown(name)),
-        })
+    pub(in crate::import) fn position(&self, name: &str) -> Result<usize, ImportError> {
+        self.find(name)
+            .ok_or_else(|| table_error!(&self.path, "no column `{}`", shown(name)))
     }
 
     pub(in crate::import) fn cell(&self, row: usize, column: usize) -> &str {
@@ -80,7 +78,7 @@ impl ResolvedTable {
         row: usize,
         column: usize,
         unit: &SourceUnit,
-    ) -> Result<Option<f64>, DatasetError> {
+    ) -> Result<Option<f64>, ImportError> {
         let number = number::number_in_unit(self.cell(row, column), unit);
         number.map_err(|problem| self.refuse(row, column, &problem))
     }
@@ -100,7 +98,7 @@ impl ResolvedTable {
         &self,
         row: usize,
         column: usize,
-    ) -> Result<Option<f64>, DatasetError> {
+    ) -> Result<Option<f64>, ImportError> {
         let cell = &self.cells[column][row];
         number::number(cell).map_err(|problem| self.refuse(row, column, &problem))
     }
@@ -122,10 +120,11 @@ impl ResolvedTable {
         place
     }
 
-    fn refuse(&self, row: usize, column: usize, problem: &str) -> DatasetError {
-        DatasetError::Table {
-            place: self.place(row, column),
-            problem: format!("`{}`: {problem}", shown(&self.cells[column][row])),
-        }
+    fn refuse(&self, row: usize, column: usize, problem: &str) -> ImportError {
+        table_error!(
+            self.place(row, column),
+            "`{}`: {problem}",
+            shown(&self.cells[column][row])
+        )
     }
 }

@@ -3,31 +3,29 @@
 use taceva_core::SourceUnit;
 
 use super::columns::base_of;
+use crate::error::{ImportError, Place, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::TimeMap;
 use crate::import::warning::ImportWarning;
 use crate::instant::TextInstant;
 use taceva_dataset::internal::shown;
-use taceva_dataset::{DatasetError, Place};
 
 /// Checks that the map states seconds for the column `name` if the file marks it as times.
 pub(super) fn check(
     table: &ForeignTable,
     name: &str,
     unit: &SourceUnit,
-) -> Result<(), DatasetError> {
+) -> Result<(), ImportError> {
     let Some(counted) = table.time_unit(base_of(name)) else {
         return Ok(());
     };
     match unit.symbol() {
         "s" => Ok(()),
-        stated => Err(DatasetError::Table {
-            place: Place::file(table.path()).in_column(name),
-            problem: format!(
-                "the file states that these are times in {counted}, which are converted to seconds; the map says `unit = \"{stated}\"`: \
+        stated => Err(table_error!(
+            Place::file(table.path()).in_column(name),
+            "the file states that these are times in {counted}, which are converted to seconds; the map says `unit = \"{stated}\"`: \
                  write `unit = \"s\"`"
-            ),
-        }),
+        )),
     }
 }
 

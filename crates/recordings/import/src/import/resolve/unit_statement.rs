@@ -5,9 +5,9 @@ use taceva_core::SourceUnit;
 use super::Sources;
 use super::columns::base_of;
 use super::times;
+use crate::error::{ImportError, Place};
 use crate::foreign::{ForeignTable, Stated};
 use crate::unit_suffix::UnitSuffix;
-use taceva_dataset::{DatasetError, Place};
 
 /// Interpretation of a column by a map.
 #[derive(Clone, Copy)]
@@ -32,7 +32,7 @@ pub(super) fn check(
     table: &ForeignTable,
     name: &str,
     reading: Reading<'_>,
-) -> Result<(), DatasetError> {
+) -> Result<(), ImportError> {
     times::check(table, name, reading.unit)?;
     let base = match table.has(name) {
         true => name,
@@ -48,10 +48,10 @@ pub(super) fn check(
     let names = table.names_with_units(name, base);
     match found.or_else(|| problem_of_names(names.iter().map(String::as_str), reading.unit)) {
         None => Ok(()),
-        Some(problem) => Err(DatasetError::Table {
-            place: Place::file(table.path()).in_column(name),
+        Some(problem) => Err(ImportError::table(
+            Place::file(table.path()).in_column(name),
             problem,
-        }),
+        )),
     }
 }
 
@@ -118,7 +118,7 @@ fn problem(stated: &Stated, unit: &SourceUnit, of: Of) -> Option<String> {
 
 impl Sources<'_> {
     /// Checks that the units of the map agree with the files.
-    pub(super) fn check_units(&self) -> Result<(), DatasetError> {
+    pub(super) fn check_units(&self) -> Result<(), ImportError> {
         let columns = self.map.columns.iter();
         let columns = columns.map(|column| {
             let is_moved = column.is_moved();
@@ -142,7 +142,7 @@ impl Sources<'_> {
     }
 
     /// Checks a number in a path against its name and the following letters: `Fz{fz:number}mN`.
-    fn check_part(&self, part: &str, reading: Reading<'_>) -> Result<(), DatasetError> {
+    fn check_part(&self, part: &str, reading: Reading<'_>) -> Result<(), ImportError> {
         let pattern = self.map.path.as_ref();
         let behind = pattern.and_then(|pattern| pattern.letters_behind(part));
         let with_letters = format!("{part} {}", behind.unwrap_or_default());
@@ -150,10 +150,10 @@ impl Sources<'_> {
         let problem = problem_of_names([with_letters.as_str(), part], reading.unit);
         match problem.filter(|_| !is_moved) {
             None => Ok(()),
-            Some(problem) => Err(DatasetError::Table {
-                place: Place::file(self.main.path()).in_column(format!("path.{part}")),
+            Some(problem) => Err(ImportError::table(
+                Place::file(self.main.path()).in_column(format!("path.{part}")),
                 problem,
-            }),
+            )),
         }
     }
 }

@@ -3,13 +3,13 @@
 use taceva_core::{GratingKind, Limit, Nanometre, Phase, is_scorable};
 
 use super::MappedTable;
+use crate::error::ImportError;
 use crate::import::map::{ClassMap, ColumnMap};
 use crate::import::resolve::ClassCells;
-use taceva_dataset::DatasetError;
 
 impl MappedTable<'_> {
     /// Labels of a row before the zero is subtracted.
-    pub(super) fn measured(&self, row: usize) -> Result<Vec<Option<f64>>, DatasetError> {
+    pub(super) fn measured(&self, row: usize) -> Result<Vec<Option<f64>>, ImportError> {
         let mut labels = self.converted(row)?;
         if let Some(gravity) = &self.map.gravity {
             self.take_weight(row, gravity, &mut labels)?;
@@ -24,7 +24,7 @@ impl MappedTable<'_> {
     }
 
     /// Numbers of a row in the units they are kept in, with the table's signs.
-    fn converted(&self, row: usize) -> Result<Vec<Option<f64>>, DatasetError> {
+    fn converted(&self, row: usize) -> Result<Vec<Option<f64>>, ImportError> {
         self.truth
             .iter()
             .zip(&self.map.columns)
@@ -41,7 +41,7 @@ impl MappedTable<'_> {
         row: usize,
         column: usize,
         map: &ColumnMap,
-    ) -> Result<Option<f64>, DatasetError> {
+    ) -> Result<Option<f64>, ImportError> {
         let Some(number) = self.table.number(row, column)? else {
             return Ok(None);
         };
@@ -53,40 +53,40 @@ impl MappedTable<'_> {
         }
     }
 
-    pub(super) fn time(&self, row: usize) -> Result<Option<f64>, DatasetError> {
+    pub(super) fn time(&self, row: usize) -> Result<Option<f64>, ImportError> {
         match (self.time, &self.map.time) {
             (Some(column), Some(map)) => self.table.number_in_unit(row, column, &map.unit),
             _ => Ok(None),
         }
     }
 
-    pub(super) fn phase(&self, row: usize) -> Result<Option<Phase>, DatasetError> {
+    pub(super) fn phase(&self, row: usize) -> Result<Option<Phase>, ImportError> {
         self.value(row, self.phase, Phase::from_name, || {
             "expected `load` or `unload`".to_owned()
         })
     }
 
-    pub(super) fn limited_by(&self, row: usize) -> Result<Option<Limit>, DatasetError> {
+    pub(super) fn limited_by(&self, row: usize) -> Result<Option<Limit>, ImportError> {
         self.value(row, self.limited_by, Limit::from_name, || {
             let known = Limit::ALL.map(Limit::name).join("`, `");
             format!("expected one of `{known}`")
         })
     }
 
-    pub(super) fn zero_u_mm(&self, row: usize) -> Result<Option<f64>, DatasetError> {
+    pub(super) fn zero_u_mm(&self, row: usize) -> Result<Option<f64>, ImportError> {
         match self.zero_u_mm {
             Some(column) => self.table.number(row, column),
             None => Ok(None),
         }
     }
 
-    pub(super) fn kind(&self, row: usize) -> Result<Option<GratingKind>, DatasetError> {
+    pub(super) fn kind(&self, row: usize) -> Result<Option<GratingKind>, ImportError> {
         self.value(row, self.kind, GratingKind::from_name, || {
             "expected `line` or `dot`".to_owned()
         })
     }
 
-    pub(super) fn spacing(&self, row: usize) -> Result<Option<Nanometre>, DatasetError> {
+    pub(super) fn spacing(&self, row: usize) -> Result<Option<Nanometre>, ImportError> {
         let positive = |text: &str| {
             let spacing = text.parse::<Nanometre>().ok();
             spacing.filter(|spacing| *spacing > Nanometre(0))
@@ -103,7 +103,7 @@ impl MappedTable<'_> {
         column: Option<usize>,
         from: impl Fn(&str) -> Option<T>,
         expected: impl Fn() -> String,
-    ) -> Result<Option<T>, DatasetError> {
+    ) -> Result<Option<T>, ImportError> {
         let Some(column) = column else {
             return Ok(None);
         };
@@ -116,7 +116,7 @@ impl MappedTable<'_> {
     }
 
     /// Attributes of a row, followed by its classes.
-    pub(super) fn texts(&self, row: usize) -> Result<Vec<Option<String>>, DatasetError> {
+    pub(super) fn texts(&self, row: usize) -> Result<Vec<Option<String>>, ImportError> {
         let text = |column: &usize| {
             let cell = self.table.cell(row, *column);
             (!cell.is_empty()).then(|| cell.to_owned())
@@ -140,7 +140,7 @@ impl MappedTable<'_> {
         cell: &str,
         class: &ClassMap,
         cells: ClassCells,
-    ) -> Result<String, DatasetError> {
+    ) -> Result<String, ImportError> {
         let by_position = || class.names.get(class.position(cell)?);
         let by_name = || class.names.iter().find(|name| *name == cell);
         let (found, what) = match cells {

@@ -4,12 +4,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::MappedTable;
+use crate::error::{ImportError, Place};
 use crate::foreign::{DepthPixels, ForeignTable, Pictures, TableForm};
 use crate::import::frame_cells::{FrameCells, FrameName, filled};
 use crate::import::map::{FrameMap, FrameNames, ImportMap};
 use crate::import::resolve::ResolvedTable;
 use taceva_dataset::internal::shown;
-use taceva_dataset::{DatasetError, Place};
 
 /// Pictures of one view, as the rows of a table name them.
 pub(in crate::import) struct MappedView {
@@ -31,7 +31,7 @@ impl MappedView {
         main: &ForeignTable,
         table: &ResolvedTable,
         path: &Path,
-    ) -> Result<MappedView, DatasetError> {
+    ) -> Result<MappedView, ImportError> {
         let names = &frame.names;
         let cells = match (&map.form, names) {
             (TableForm::LeRobot, FrameNames::Video(video)) => {
@@ -49,7 +49,7 @@ impl MappedView {
                         shown(&video.file)
                     )),
                 };
-                depth.map_err(|problem| DatasetError::table(Place::file(path), problem))?
+                depth.map_err(|problem| ImportError::table(path, problem))?
             }
             _ => None,
         };
@@ -73,7 +73,7 @@ impl MappedTable<'_> {
         &self,
         view: usize,
         row: usize,
-    ) -> Result<(FrameName, Place), DatasetError> {
+    ) -> Result<(FrameName, Place), ImportError> {
         let (name, column) = match &self.views[view].cells {
             FrameCells::Column(column) => (
                 FrameName::File(self.table.cell(row, *column).to_owned()),

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::MappedTable;
+use crate::error::ImportError;
 use crate::import::map::{GravityMap, RotationMap, ZeroMap, ZeroRows};
 use crate::import::warning::ImportWarning;
-use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 
 /// Standard gravity, m/s².
@@ -36,7 +36,7 @@ type Block = Vec<(usize, bool)>;
 
 impl MappedTable<'_> {
     /// Labels of a row as stored in the dataset.
-    pub(super) fn truth(&self, row: usize) -> Result<Vec<Option<f64>>, DatasetError> {
+    pub(super) fn truth(&self, row: usize) -> Result<Vec<Option<f64>>, ImportError> {
         let mut labels = self.measured(row)?;
         if let Some((map, zeros)) = self.map.zero.as_ref().zip(self.zeros.as_ref()) {
             let means = &zeros.means[zeros.blocks[row]];
@@ -50,8 +50,8 @@ impl MappedTable<'_> {
     /// Computes the zeros of `map`.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] for a block with too few zero rows, or whose cells are no numbers.
-    pub(super) fn find_zeros(&mut self, map: &ZeroMap) -> Result<(), DatasetError> {
+    /// [`ImportError::Table`] for a block with too few zero rows, or whose cells are no numbers.
+    pub(super) fn find_zeros(&mut self, map: &ZeroMap) -> Result<(), ImportError> {
         let column = match &map.rows {
             ZeroRows::First(_) => None,
             ZeroRows::Beside { column, .. } => Some(self.table.position(column)?),
@@ -110,9 +110,9 @@ impl MappedTable<'_> {
         map: &ZeroMap,
         name: &str,
         block: &[(usize, bool)],
-    ) -> Result<Vec<f64>, DatasetError> {
+    ) -> Result<Vec<f64>, ImportError> {
         let place = self.place(block[0].0);
-        let refused = |problem: String| DatasetError::table(place.clone(), problem);
+        let refused = |problem: String| ImportError::table(place.clone(), problem);
         let whose = match name {
             "" => "this table".to_owned(),
             name => format!("block `{}`", shown(name)),
@@ -133,7 +133,7 @@ impl MappedTable<'_> {
             }
             _ => {}
         }
-        let all: Result<Vec<Vec<Option<f64>>>, DatasetError> =
+        let all: Result<Vec<Vec<Option<f64>>>, ImportError> =
             block.iter().map(|(row, _)| self.measured(*row)).collect();
         let all = all?;
         let mut means = Vec::new();
@@ -166,7 +166,7 @@ impl MappedTable<'_> {
         row: usize,
         map: &GravityMap,
         labels: &mut [Option<f64>],
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let mut cells = Vec::new();
         for name in &map.orientation.columns {
             let column = self.table.position(name)?;
@@ -179,9 +179,10 @@ impl MappedTable<'_> {
             };
             cells.push(number);
         }
-        let orientation = map.orientation.orientation(&cells).ok_or_else(|| {
-            DatasetError::table(self.place(row), RotationMap::no_rotation(&cells))
-        })?;
+        let orientation = map
+            .orientation
+            .orientation(&cells)
+            .ok_or_else(|| ImportError::table(self.place(row), RotationMap::no_rotation(&cells)))?;
         let weight = orientation.into_body([0.0, 0.0, -map.mass * FREE_FALL]);
         let [x, y, z] = map.centre;
         let [a, b, c] = weight;

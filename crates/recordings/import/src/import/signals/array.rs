@@ -6,12 +6,13 @@ use std::path::{Path, PathBuf};
 use taceva_arrays::{ArrayFile, ArrayFormat};
 use taceva_core::Progress;
 
+use crate::error::{ImportError, table_error};
 use crate::foreign::stated;
 use crate::import::map::SignalsMap;
 use crate::import::resolve::{place_first, problem_of_names, problem_of_signals};
 use crate::source_folder::SourceFolder;
+use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{SignalsWriter, guarded};
-use taceva_dataset::{DatasetError, Place};
 
 /// Numbers per read: 8 MiB as `f64`.
 const READ_VALUES: u64 = 1 << 20;
@@ -32,8 +33,8 @@ impl ArraySignals {
         path: &Path,
         name: Option<&str>,
         map: &SignalsMap,
-    ) -> Result<ArraySignals, DatasetError> {
-        let wrong = |problem| wrong(path, problem);
+    ) -> Result<ArraySignals, ImportError> {
+        let wrong = |problem: String| ImportError::table(path, problem);
         let format = ArrayFormat::of(path).ok_or_else(|| {
             wrong(
                 "not a file of arrays by its name: expected .npy, .npz, .h5, .hdf5, .zarr, .mat or .pkl"
@@ -95,23 +96,25 @@ impl ArraySignals {
         })
     }
 
-    pub(super) fn check_row(&self, row: u64) -> Result<(), DatasetError> {
+    pub(super) fn check_row(&self, row: u64) -> Result<(), ImportError> {
         match row < self.rows {
             true => Ok(()),
-            false => Err(wrong(
+            false => Err(table_error!(
                 &self.path,
-                format!("{} rows of signals, and the table has more", self.rows),
+                "{} rows of signals, and the table has more",
+                self.rows
             )),
         }
     }
 
     /// Checks that the array has `rows` rows, as the table.
-    pub(super) fn check_rows(&self, rows: u64) -> Result<(), DatasetError> {
+    pub(super) fn check_rows(&self, rows: u64) -> Result<(), ImportError> {
         match rows == self.rows {
             true => Ok(()),
-            false => Err(wrong(
+            false => Err(table_error!(
                 &self.path,
-                format!("{} rows of signals for {rows} rows of the table", self.rows),
+                "{} rows of signals for {rows} rows of the table",
+                self.rows
             )),
         }
     }
@@ -121,8 +124,8 @@ impl ArraySignals {
         &self,
         folder: &SourceFolder,
         into: &mut BTreeMap<String, u64>,
-    ) -> Result<(), DatasetError> {
-        let wrong = |problem| wrong(&self.path, problem);
+    ) -> Result<(), ImportError> {
+        let wrong = |problem: String| ImportError::table(&self.path, problem);
         let counted = guarded(|| self.file.absent_chunks(&self.name)).map_err(wrong)?;
         let count = counted.map_err(|error| wrong(error.to_string()))?;
         if count > 0 {
@@ -132,7 +135,7 @@ impl ArraySignals {
     }
 
     /// Rows with a number that means "nothing measured".
-    pub(super) fn placeholders(&self, map: &SignalsMap) -> Result<BTreeSet<u64>, DatasetError> {
+    pub(super) fn placeholders(&self, map: &SignalsMap) -> Result<BTreeSet<u64>, ImportError> {
         let step = (READ_VALUES / self.length).max(1);
         let length = usize::try_from(self.length).unwrap_or(usize::MAX);
         let mut found = BTreeSet::new();
@@ -155,11 +158,11 @@ impl ArraySignals {
         rows: &[u64],
         writer: &mut SignalsWriter,
         progress: &dyn Progress,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let step = (READ_VALUES / self.length).max(1);
         for chunk in rows.chunk_by(|left, right| left / step == right / step) {
             if progress.is_cancelled() {
-                return Err(DatasetError::Cancelled);
+                return Err(DatasetError::Cancelled.into());
             }
             let (Some(first), Some(last)) = (chunk.first(), chunk.last()) else {
                 continue;
@@ -169,15 +172,13 @@ impl ArraySignals {
                 let at = usize::try_from((row - first) * self.length).unwrap_or(usize::MAX);
                 let length = usize::try_from(self.length).unwrap_or(0);
                 let own = values.get(at..).and_then(|own| own.get(..length));
-                let own = own.ok_or_else(|| wrong(&self.path, format!("row {row} is missing")))?;
+                let own = own.ok_or_else(|| table_error!(&self.path, "row {row} is missing"))?;
                 let kept: Vec<f32> = own.iter().map(|value| kept(*value, map)).collect();
                 if let Some(position) = kept.iter().position(|value| !value.is_finite()) {
-                    return Err(wrong(
+                    return Err(table_error!(
                         &self.path,
-                        format!(
-                            "row {row}: number {position} of its signals is {}, expected a finite number",
-                            own[position]
-                        ),
+                        "row {row}: number {position} of its signals is {}, expected a finite number",
+                        own[position]
                     ));
                 }
                 let ordered: Vec<f32> = place_first(map, &kept).collect();
@@ -187,8 +188,8 @@ impl ArraySignals {
         Ok(())
     }
 
-    fn read(&self, rows: std::ops::Range<u64>) -> Result<Vec<f64>, DatasetError> {
-        let wrong = |problem| wrong(&self.path, problem);
+    fn read(&self, rows: std::ops::Range<u64>) -> Result<Vec<f64>, ImportError> {
+        let wrong = |problem: String| ImportError::table(&self.path, problem);
         let read = guarded(|| self.file.read(&self.name, rows)).map_err(wrong)?;
         let read = read.map_err(|error| wrong(error.to_string()))?;
         let numbers = read.values.to_f64();
@@ -208,8 +209,4 @@ impl ArraySignals {
 )]
 fn kept(value: f64, map: &SignalsMap) -> f32 {
     map.unit.convert(value) as f32
-}
-
-fn wrong(path: &Path, problem: String) -> DatasetError {
-    DatasetError::table(Place::file(path), problem)
 }

@@ -1,4 +1,4 @@
-//! Who is let in, and who is refused before anything is read.
+//! Accepted clients, and clients rejected before their request is read.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -49,7 +49,7 @@ fn a_wrong_token_is_401_and_nothing_stops() {
             assert_eq!(status(&answer), "401", "{first} with {line:?}");
         }
     }
-    // In the address it is none: addresses are kept in histories and logs.
+    // A token in the URL is invalid: browser histories and logs keep URLs.
     let first = format!("POST /stop?token={}", opened.token());
     assert_eq!(status(&opened.asked(&first, &host, "")), "401");
     assert_eq!(opened.stops.load(Ordering::SeqCst), 0);
@@ -128,7 +128,7 @@ fn header_lines_without_an_end_are_cut_off_by_length_and_by_time() {
     endless.write_all(b"GET / HTTP/1.1\r\n").expect("sent");
     let mut is_refused = false;
     for _ in 0..2000 {
-        // The server closes while this still writes.
+        // The server closes the connection during the write.
         if endless
             .write_all(b"X-Line: and so on, and so on\r\n")
             .is_err()
@@ -149,7 +149,7 @@ fn header_lines_without_an_end_are_cut_off_by_length_and_by_time() {
     slow.read_to_string(&mut answer).expect("answered");
     assert_eq!(status(&answer), "408");
     assert!(began.elapsed() < Duration::from_secs(15));
-    // Others are served meanwhile and after it.
+    // Other clients are served meanwhile and afterwards.
     assert_eq!(
         status(&opened.asked("POST /stop", &opened.own(), "")),
         "204"
@@ -177,12 +177,12 @@ fn a_fifth_stream_is_503_and_the_button_is_answered_beside_it() {
 #[expect(clippy::print_stderr, reason = "the times are the result")]
 fn sixty_four_slow_connections_never_keep_the_stop_button_from_answering() {
     const PRESSES: u32 = 100;
-    /// A person who presses it does not wait longer.
+    /// Longest wait of a person who presses the button.
     const IN_TIME: Duration = Duration::from_millis(100);
     let opened = Opened::new();
     let slow = |number: usize| {
         let mut stream = opened.connected();
-        // Some say nothing, some half a request.
+        // Some clients send nothing, some half a request.
         let said: &[u8] = [&b""[..], b"POST /stop HTTP/1.1\r\nHost: "][number % 2];
         stream.write_all(said).expect("sent");
         stream
@@ -203,7 +203,7 @@ fn sixty_four_slow_connections_never_keep_the_stop_button_from_answering() {
         took[took.len() - 1]
     );
     assert_eq!(opened.stops.load(Ordering::SeqCst), PRESSES);
-    // The oldest one was closed for a newer one, without a word.
+    // The oldest connection was closed for a newer one, without a response.
     let mut answer = Vec::new();
     let closed = beside[0].read_to_end(&mut answer);
     assert!(

@@ -1,4 +1,4 @@
-//! What is shown and asked, and that nobody is waited for.
+//! Display and questions, without waiting for clients.
 
 use std::time::{Duration, Instant};
 
@@ -63,7 +63,7 @@ fn who_comes_late_sees_the_last_frame() {
 #[test]
 fn a_slow_browser_and_one_that_vanished_delay_nobody() {
     let opened = Opened::new();
-    // One that takes nothing at all, and one that is gone.
+    // A client that reads nothing, and a closed client.
     let slow = opened.stream("/frames");
     drop(opened.stream("/frames"));
     let noisy = {
@@ -87,7 +87,7 @@ fn a_slow_browser_and_one_that_vanished_delay_nobody() {
         longest = longest.max(at.elapsed());
         std::thread::sleep(Duration::from_millis(10));
     }
-    // A copy of a frame, and what a busy machine adds to it.
+    // Time for a copy of a frame, with a margin for a busy machine.
     assert!(longest < Duration::from_millis(500), "{longest:?}");
     let answer = opened.asked("POST /stop", &opened.own(), "");
     assert_eq!(status(&answer), "204");
@@ -111,7 +111,7 @@ fn the_page_answers_whoever_asks_and_stop_answers_for_it() {
             "204"
         );
         until(&mut events, "put unit 2 in place");
-        // Pressed twice: the second is none to the question after it.
+        // Pressed twice: the second press does not answer the next question.
         assert_eq!(
             status(&opened.asked("POST /answer", &opened.own(), body)),
             "409"
@@ -166,7 +166,7 @@ fn a_prediction_stands_in_the_head_of_its_picture_and_is_sent_once_however_many_
         sent.recv_timeout(Duration::from_millis(300)).is_err(),
         "once"
     );
-    // A picture of which nothing was predicted says nothing.
+    // A picture without predictions has no prediction header.
     std::thread::sleep(Duration::from_millis(100));
     opened.live.frame(&frame(91, 16));
     let head = until(&mut looking[0], "image/jpeg");

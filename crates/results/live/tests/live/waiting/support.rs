@@ -1,4 +1,4 @@
-//! A page that is open, and how tests ask it.
+//! An open page, and requests to it.
 
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 use taceva_live::{Live, Page};
 
-/// A page, and how often somebody pressed stop.
+/// A page, and the number of stop presses.
 pub(crate) struct Opened {
     pub(crate) live: Live,
     pub(crate) page: Page,
@@ -49,7 +49,7 @@ impl Opened {
         stream
     }
 
-    /// The answer to a request with these header lines; the token is among them if `lines` says so.
+    /// Response to a request with these header lines, which include the token if needed.
     pub(crate) fn asked(&self, first: &str, lines: &str, body: &str) -> String {
         let mut stream = self.connected();
         let request = format!(
@@ -62,13 +62,13 @@ impl Opened {
         answer
     }
 
-    /// The header lines of the page itself.
+    /// Header lines of the page itself.
     pub(crate) fn own(&self) -> String {
         let (address, token) = (self.address(), self.token());
         format!("Host: {address}\r\nOrigin: http://{address}\r\nX-Taceva-Token: {token}\r\n")
     }
 
-    /// A stream, read until its head has come.
+    /// A stream, read up to the end of its header.
     pub(crate) fn stream(&self, path: &str) -> TcpStream {
         let mut stream = self.connected();
         let request = format!("GET {path} HTTP/1.1\r\n{}\r\n", self.own());
@@ -85,12 +85,12 @@ impl Opened {
     }
 }
 
-/// The status of an answer, such as `204`.
+/// Status code of a response, such as `204`.
 pub(crate) fn status(answer: &str) -> &str {
     answer.get(9..12).unwrap_or_default()
 }
 
-/// A square of one shade.
+/// A square frame of one shade.
 pub(crate) fn frame(level: u8, width: u32) -> Frame {
     let info = FrameInfo {
         width,
@@ -101,7 +101,7 @@ pub(crate) fn frame(level: u8, width: u32) -> Frame {
     Frame::new(info, pixels).expect("whole")
 }
 
-/// Reads until `words` came.
+/// Reads until `words` arrive.
 pub(crate) fn until(stream: &mut TcpStream, words: &str) -> String {
     let began = Instant::now();
     let mut read = Vec::new();

@@ -25,7 +25,7 @@ const BROKEN: &str = "metric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nleast = 
 const MISSING: &str = "metric = \"mae\"\nchannel = \"Fx\"\nunit = \"N\"\nleast = 0.25";
 
 /// Findings for `limits`.
-fn held(study: &Study, limits: &[&str]) -> Vec<Finding> {
+fn held(study: &Study, limits: &[&str]) -> Vec<LimitCheck> {
     let text: String = limits
         .iter()
         .map(|limit| format!("[[limit]]\n{limit}\n"))
@@ -33,7 +33,7 @@ fn held(study: &Study, limits: &[&str]) -> Vec<Finding> {
     accept(study, &LimitsFile::read(&text).expect("limits"))
 }
 
-fn sheet<'a>(study: &'a Study, findings: &'a [Finding]) -> Acceptance<'a> {
+fn sheet<'a>(study: &'a Study, findings: &'a [LimitCheck]) -> Acceptance<'a> {
     Acceptance {
         name: "batch 3",
         study,

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use taceva_core::Unit;
+use taceva_metrics::plane_axes;
 
 use super::super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
-use super::{AXES, PLANES};
 use crate::figure::{Figure, axis_label, directed};
 use crate::results::Study;
+use crate::variables::VARIABLES;
 use taceva_results::Samples;
 
 /// Sums over the samples of a scene.
@@ -20,7 +21,7 @@ struct Sums {
 
 pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     let mut sheets = Vec::new();
-    for plane in PLANES {
+    for plane in VARIABLES {
         let lines = studies.iter().zip(0..).filter_map(|(study, at)| {
             let levels = levels(study.samples.as_ref()?, plane);
             (levels.len() > 1).then_some(Line { study: at, levels })
@@ -56,10 +57,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
 
 /// The scenes of light, from the darkest to the brightest.
 fn levels(samples: &Samples, plane: &str) -> Vec<Level> {
-    let channels: Vec<&str> = match AXES.iter().find(|(name, _)| *name == plane) {
-        Some((_, axes)) => axes.to_vec(),
-        None => vec![plane],
-    };
+    let channels = plane_axes(plane).map_or(vec![plane], |axes| axes.to_vec());
     let mut scenes: BTreeMap<&str, Sums> = BTreeMap::new();
     for row in samples.of_protocol("light-sweep") {
         let (Some(scene), Some(grey)) =

@@ -1,13 +1,13 @@
 //! Figure 5: errors over normalised radius and depth, a panel a plane.
 
 use taceva_core::Unit;
-use taceva_metrics::Curve;
+use taceva_metrics::{Curve, plane_axes};
 
 use super::super::overlay::{Line, Sheet, Ways, Words, draw as overlay};
 use super::super::spatial::rolling;
-use super::{AXES, PLANES};
 use crate::figure::{Figure, axis_label, directed, extent};
 use crate::results::Study;
+use crate::variables::VARIABLES;
 use taceva_results::Value;
 
 /// The band to both sides of the rolling mean, in standard deviations of its bins.
@@ -19,7 +19,7 @@ pub(super) fn draw(studies: &[Study], over: &str, room: Option<f64>) -> Option<F
         _ => "radius over its greatest",
     };
     let mut sheets = Vec::new();
-    for plane in PLANES {
+    for plane in VARIABLES {
         let mut lines = Vec::new();
         let mut unit = Unit::One;
         for (study, at) in studies.iter().zip(0..) {
@@ -79,7 +79,7 @@ fn curve(study: &Study, plane: &str, over: &str) -> Option<(Curve, Unit)> {
     if let Some(own) = of(plane) {
         return Some(own);
     }
-    let (_, [x, y]) = AXES.iter().find(|(name, _)| *name == plane)?;
+    let [x, y] = plane_axes(plane)?;
     let ((first, unit), (second, _)) = (of(x)?, of(y)?);
     if first.x.len() != second.x.len() {
         return None;

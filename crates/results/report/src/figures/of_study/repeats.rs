@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::PLANES;
 use crate::figure::{
     Anchor, Area, Axes, Figure, Grid, Ink, Label, Panel, Points, Scale, Stroke, extent, short,
 };
 use crate::number::numeral;
 use crate::results::Study;
+use crate::variables::VARIABLES;
 use taceva_results::{Samples, Value};
 
 /// The curve of a plane: depth, mm, and spread.
@@ -32,7 +32,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     };
     let grid = Grid::new(found.len(), 2, first, [122.0, 82.0]).within(room, 62.0);
     let mut canvas = grid.canvas([62.0, 42.0]);
-    let legend = PLANES.iter().enumerate();
+    let legend = VARIABLES.iter().enumerate();
     let legend: Vec<(usize, String)> = legend
         .map(|(at, plane)| (at, format!("σ {plane}")))
         .collect();
@@ -83,7 +83,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
                     points.at.push(panel.at(*depth, *value));
                     points.words.push(format!(
                         "σ {} at {} mm: {}",
-                        PLANES[*plane],
+                        VARIABLES[*plane],
                         numeral(*depth),
                         numeral(*value)
                     ));
@@ -120,7 +120,7 @@ fn curves(study: &Study) -> Vec<Curve> {
         let levels: Vec<(f64, Option<f64>)> = levels.collect();
         (!levels.is_empty()).then_some((at, levels))
     };
-    PLANES.iter().enumerate().filter_map(of_plane).collect()
+    VARIABLES.iter().enumerate().filter_map(of_plane).collect()
 }
 
 /// The mean true depth of each step, mm, by the bits of its number.

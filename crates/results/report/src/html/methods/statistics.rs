@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use taceva_core::counted;
 use taceva_metrics::{Standing, catalogue};
 
-use crate::markup::counted;
 use crate::names::listed;
 use crate::results::Study;
 use crate::scores::ScoreTable;
@@ -99,9 +99,9 @@ fn seeds(studies: &[Study]) -> String {
     match all.as_slice() {
         [] => String::new(),
         [seeds] => format!(
-            " Each model was fitted with the seeds {}; scores are those of the first, and the standard deviation over seeds is given separately.",
+            " Each model was fitted with the seeds {}; scores are those of the first, the standard deviation over seeds is given separately, and its square is added to the variance between clusters in tests of predictions.",
             listed(seeds)
         ),
-        _ => " Models were fitted with several seeds each; scores are those of the first, and the standard deviation over seeds is given separately.".to_owned(),
+        _ => " Models were fitted with several seeds each; scores are those of the first, the standard deviation over seeds is given separately, and its square is added to the variance between clusters in tests of predictions.".to_owned(),
     }
 }

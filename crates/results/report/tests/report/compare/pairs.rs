@@ -6,7 +6,7 @@ use taceva_report::Study;
 use taceva_results::Samples;
 
 /// A study with a table of samples, of which the first truth is `first` and every error about `error`.
-fn sampled(sensor: &str, first: f64, error: f64) -> Study {
+pub(super) fn sampled(sensor: &str, first: f64, error: f64) -> Study {
     let mut table = String::from("id,point_id,Fz,Fz_predicted\n");
     let (mut sum, rows) = (0.0, 48);
     for row in 0..rows {

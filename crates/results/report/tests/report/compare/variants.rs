@@ -1,10 +1,16 @@
 //! Metrics of which another variant than the value is compared.
 
 use super::{of_metric, score, study};
-use taceva_report::Study;
+use taceva_report::{CompareRequest, Study, compare};
 
 /// A study of one score of Fz whose variant `name` has another value and interval.
-fn with_variant(sensor: &str, metric: &str, value: f64, name: &str, variant: f64) -> Study {
+pub(super) fn with_variant(
+    sensor: &str,
+    metric: &str,
+    value: f64,
+    name: &str,
+    variant: f64,
+) -> Study {
     let mut drawn = score(value, 0.001, "N");
     drawn[name] = score(variant, 0.01, "N");
     study(sensor, &[(metric, "Fz", drawn)], &["Fz"])
@@ -57,4 +63,20 @@ fn an_unevenness_that_is_no_more_than_chance_gives_no_verdict_and_says_why() {
     );
     let reason = comparison.answers[0].reason.as_deref().unwrap_or_default();
     assert!(reason.contains("not above chance"), "{reason}");
+}
+
+#[test]
+fn a_softer_gel_differs_and_is_no_better() {
+    let of = |sensor, value| {
+        let sensitivity = score(value, 0.01, "mm/N");
+        study(sensor, &[("sensitivity", "Fz", sensitivity)], &[])
+    };
+    let studies = [of("Soft", 3.0), of("Firm", 2.0)];
+    let comparison = of_metric(&studies, "sensitivity");
+    assert_eq!(comparison.answers[0].better(), None);
+    let words = comparison.answers[0].words(&comparison.names);
+    assert!(words.starts_with("Soft and Firm differ by 1.0"), "{words}");
+    // Nobody asked for what is neither good nor bad by itself.
+    let comparison = compare(&studies, &CompareRequest::default());
+    assert!(comparison.answers.is_empty(), "{:?}", comparison.answers);
 }

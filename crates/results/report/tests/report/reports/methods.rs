@@ -2,7 +2,7 @@
 
 use super::page;
 use crate::support::{self, drawn};
-use taceva_report::{Report, report};
+use taceva_report::{ReportPage, report};
 
 #[test]
 fn methods_say_how_it_was_done_and_nothing_that_is_not_known() {
@@ -24,7 +24,7 @@ fn methods_say_how_it_was_done_and_nothing_that_is_not_known() {
     let empty = support::read(
         &serde_json::json!({"schema": "taceva.evaluation/1.0", "subject": {"sensor": "x"}, "metrics": {}}),
     );
-    let page = report(&Report {
+    let page = report(&ReportPage {
         title: "empty",
         studies: &empty.expect("a result"),
         pictures: &[],

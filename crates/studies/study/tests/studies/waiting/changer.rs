@@ -4,16 +4,17 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::{Duration, Instant};
 
-use taceva_acquire::AcquireError;
+use taceva_acquire::{AcquireError, check_rig, read_rig};
 use taceva_core::{Changer, Deadline, DriverError, ErrorKind, Interrupt, Progress, SilentProgress};
+use taceva_dataset::Source;
 use taceva_drivers::MonotonicClock;
 use taceva_protocol::{Answer, Cancel, Left, Operator, Question, StopCause};
 use taceva_study::StudyError;
 
-use crate::waiting::devices::CAROUSEL;
+use crate::waiting::devices::{CAROUSEL, drivers};
 use crate::waiting::operator::LIGHTS;
 use crate::waiting::record_on;
-use crate::waiting::session::{UPRIGHT, rig_file, scene};
+use crate::waiting::session::{self, UPRIGHT, rig_file, scene};
 use crate::waiting::world::{Misfortune, World};
 
 /// Two units, of which the surface is felt at two places each, with a tip so slow in contact that a busy machine is in time.
@@ -146,6 +147,44 @@ fn changers_bring_units_and_specimens_while_the_robot_stands_halted_and_nobody_i
 }
 
 #[test]
+fn a_check_of_a_rig_opens_its_changers_and_its_light_and_moves_none_of_them() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let changers = format!("{}\nlight = \"wall/lamp\"", both());
+    let file = read_rig(&rig(folder.path(), &changers)).expect("a rig");
+    let check = check_rig(&file, &drivers(&world), None).expect("a right file");
+    let found = check.changers.iter();
+    let found: Vec<String> = found
+        .map(|changer| format!("{}: {}", changer.key, changer.holds.join(", ")))
+        .collect();
+    let ball = format!("specimen: {BALL}");
+    assert_eq!(found, [ball.as_str(), "unit: a, b", "light: dark, lamp"]);
+    assert!(world.state().changes.is_empty() && world.state().lights.is_empty());
+}
+
+#[test]
+fn one_simulated_changer_makes_the_recording_of_a_real_rig_a_simulated_one() {
+    for (changer, source) in [
+        ("carousel", Source::Recorded),
+        ("revolver", Source::Simulated),
+    ] {
+        let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+        let rig = rig_file(folder.path(), UPRIGHT);
+        let text = std::fs::read_to_string(&rig).expect("written");
+        let changers = format!("[changers]\nspecimen = \"wall/{changer}:holds={BALL}\"\n");
+        std::fs::write(&rig, text + &changers).expect("written");
+        let person = Mutex::new(session::Person::default());
+        let whole = record_on(
+            &world,
+            &folder.path().join("run"),
+            &SilentProgress,
+            (&scene(), Some(&rig), Some(&person)),
+        );
+        let whole = whole.expect("somebody lets it move");
+        assert_eq!(whole.header().source, source, "{changer}");
+    }
+}
+
+#[test]
 fn a_light_of_the_rig_file_stands_in_the_place_of_hands_and_is_set_above_the_gel() {
     let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
     let rig = rig(folder.path(), "light = \"wall/lamp\"");
@@ -254,7 +293,7 @@ fn what_a_changer_does_not_hold_needs_somebody_and_is_named_before_anything_is_o
     let needed =
         "2 specimens are changed by hand, which the changer does not hold: sphere of radius 2 mm";
     assert!(text.contains(needed), "{text}");
-    let needed = "1 units of the sensor are changed by hand, which the changer does not hold: b";
+    let needed = "1 unit of the sensor is changed by hand, which the changer does not hold: b";
     assert!(text.contains(needed), "{text}");
     assert_eq!(world.state().readings, 0);
 }

@@ -16,6 +16,8 @@ use crate::waiting::changer::Carousel;
 use crate::waiting::world::{World, pose};
 
 const ROBOT: DriverKey = DriverKey::fixed("wall/robot");
+/// The same robot in a base frame.
+const ARM: DriverKey = DriverKey::fixed("wall/arm");
 const FORCE: DriverKey = DriverKey::fixed("wall/force");
 const SWITCH: DriverKey = DriverKey::fixed("wall/pedal");
 pub(crate) const CAROUSEL: DriverKey = DriverKey::fixed("wall/carousel");
@@ -50,15 +52,22 @@ pub(crate) fn drivers(world: &World) -> Drivers {
     };
     let gel = OnWall::new(SENSOR, Facts::Sensor(Box::new(sensor)), world);
     drivers.sensors.add(Box::new(gel)).expect("one");
-    let arm = OnWall::new(ROBOT, Facts::Robot(robot), world);
-    drivers.robots.add(Box::new(arm)).expect("one");
+    for (key, is_base) in [(ROBOT, false), (ARM, true)] {
+        let facts = Facts::Robot(robot.with_base_frame(is_base));
+        let arm = OnWall::new(key, facts, world);
+        drivers.robots.add(Box::new(arm)).expect("one");
+    }
     let transducer = OnWall::new(FORCE, Facts::Force(force), world);
     drivers.forces.add(Box::new(transducer)).expect("one");
     for key in [CAROUSEL, REVOLVER] {
         let holds = ArgSpec::text("holds").changes_facts();
         let facts = Facts::Changer(ChangerFacts::default());
+        let is_simulated = key == REVOLVER;
         let mut changer = OnWall::new(key, facts, world);
-        let spec = changer.descriptor.to_spec().arguments([holds]);
+        let mut spec = changer.descriptor.to_spec().arguments([holds]);
+        if is_simulated {
+            spec.source = DriverSource::Simulated;
+        }
         changer.descriptor = spec.check().expect("no contradiction");
         drivers.changers.add(Box::new(changer)).expect("one");
     }
@@ -66,7 +75,8 @@ pub(crate) fn drivers(world: &World) -> Drivers {
     let lamp = OnWall::new(LAMP, Facts::Lighting(facts), world);
     drivers.lightings.add(Box::new(lamp)).expect("one");
     let held = world.clone();
-    drivers.switches.add(SWITCH, Vec::new(), move |_| {
+    let title = "what somebody holds with a foot";
+    drivers.switches.add(SWITCH, title, Vec::new(), move |_| {
         match held.state().is_unplugged {
             true => Err(OpenError::Device(unplugged("open"))),
             false => Ok(Arc::new(Pedal(held.clone()))),
@@ -215,8 +225,15 @@ impl RobotWatch for Arm {
 impl Robot for Arm {
     fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let now = MonotonicClock.now();
-        let tip = self.0.state().tip(now.as_secs_f64());
-        Ok((pose(tip), Stamp::at(now)))
+        let state = self.0.state();
+        if state.is_lost {
+            return Err(DriverError::new(
+                ErrorKind::Disconnected,
+                &ROBOT,
+                "read the pose",
+            ));
+        }
+        Ok((pose(state.tip(now.as_secs_f64())), Stamp::at(now)))
     }
 
     fn move_to(&mut self, target: Pose, speed: Speed, _: Deadline) -> Result<Stamp, DriverError> {

@@ -1,10 +1,15 @@
 //! Setting a rig up: what is heard of its devices, how soon its robot stands, and where somebody jogged it.
 
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
 use taceva_acquire::{AcquireError, RigProblem, check_rig, read_rig, teach_rig};
+use taceva_core::{ErrorKind, SilentProgress};
 use taceva_protocol::{Answer, Cancel, Operator, Question, RigFile, Spot};
 
 use crate::waiting::devices::drivers;
-use crate::waiting::session::{UPRIGHT, rig_file};
+use crate::waiting::record_on;
+use crate::waiting::session::{self, UPRIGHT, rig_file, scene};
 use crate::waiting::world::World;
 
 /// Lets the robot move, or not.
@@ -60,6 +65,114 @@ fn a_transducer_that_says_nothing_is_a_problem_with_what_helps() {
         panic!("{:?}", check.problems);
     };
     assert!(check.problems[0].to_string().contains("check its cable"));
+}
+
+#[test]
+fn a_camera_that_fails_is_named_and_the_other_devices_are_measured_and_the_robot_is_halted() {
+    let world = World::new();
+    world.state().camera = Some(ErrorKind::Disconnected);
+    let check = check_rig(&rig(), &drivers(&world), Some(&mut Person(Answer::Done)));
+    let check = check.expect("the file is right");
+    let failed = check.problems.iter().filter(|problem| problem.is_failure());
+    let failed: Vec<_> = failed.filter_map(RigProblem::device).collect();
+    assert_eq!(failed, ["sensor"], "{:?}", check.problems);
+    let mut failed = check.problems.iter().filter(|problem| problem.is_failure());
+    let said = failed.next().map(ToString::to_string).unwrap_or_default();
+    assert!(
+        said.starts_with("wall/gel: cannot take a picture: ") && said.contains("; check its cable"),
+        "{said}"
+    );
+    assert!(check.force.is_some() && check.robot.is_some() && check.sensor.is_none());
+    assert!(check.halt.is_some() && check.halt_left_out.is_none());
+}
+
+#[test]
+fn nothing_moves_in_a_check_whose_force_or_robot_failed_and_nobody_is_asked_to_permit_it() {
+    for (withheld, is_lost, why) in [
+        (u32::MAX, false, "because the force transducer failed"),
+        (0, true, "because the robot failed"),
+        (
+            u32::MAX,
+            true,
+            "because the robot and the force transducer failed",
+        ),
+    ] {
+        let world = World::new();
+        world.state().withheld = withheld;
+        world.state().is_lost = is_lost;
+        let check = check_rig(&rig(), &drivers(&world), Some(&mut Nobody));
+        let check = check.expect("the file is right");
+        assert!(check.sensor.is_some_and(|sensor| sensor.count > 0));
+        assert_eq!(check.robot.is_some(), !is_lost);
+        assert!(check.halt.is_none() && world.state().motions == 0);
+        let left_out = check.halt_left_out.expect("a reason");
+        assert_eq!(left_out, format!("nothing moves, {why}"));
+    }
+}
+
+#[test]
+fn nothing_moves_in_a_check_whose_rig_file_has_the_tip_in_the_gel_or_was_never_taught() {
+    let world = World::new();
+    assert!(world.travel([0.0, 0.0, 0.25], 50.0));
+    let check = check_rig(&rig(), &drivers(&world), Some(&mut Nobody)).expect("a file");
+    let is_deep = |problem: &RigProblem| match problem {
+        RigProblem::InGel { depth_mm } => (depth_mm - 0.25).abs() < 1e-9,
+        _ => false,
+    };
+    assert!(check.problems.iter().any(is_deep), "{:?}", check.problems);
+    assert!(check.halt.is_none() && world.state().motions == 1);
+    let world = World::new();
+    let check = check_rig(&untaught(), &drivers(&world), Some(&mut Nobody)).expect("a file");
+    assert!(check.problems.contains(&RigProblem::Untaught));
+    assert!(check.halt.is_none() && world.state().motions == 0);
+    let why = "nothing moves, because the place of the robot is wrong";
+    assert_eq!(check.halt_left_out.as_deref(), Some(why));
+}
+
+/// A rig file as `init rig` writes it.
+fn untaught() -> RigFile {
+    let folder = tempfile::tempdir().expect("a folder");
+    read_rig(&new_file(folder.path())).expect("a rig")
+}
+
+fn new_file(folder: &Path) -> PathBuf {
+    let path = rig_file(folder, UPRIGHT);
+    let text = std::fs::read_to_string(&path).expect("written");
+    std::fs::write(&path, text.replace("wall/robot", "wall/arm")).expect("written");
+    path
+}
+
+#[test]
+fn a_run_with_a_rig_file_that_was_never_taught_is_refused_with_its_line_before_anything_is_opened()
+{
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    world.state().is_lost = true;
+    let rig = new_file(folder.path());
+    let person = Mutex::new(session::Person::default());
+    let refused = record_on(
+        &world,
+        &folder.path().join("run"),
+        &SilentProgress,
+        (&scene(), Some(&rig), Some(&person)),
+    );
+    let said = refused.expect_err("never taught").to_string();
+    assert!(
+        said.contains(
+            "lab.toml, line 5: `origin_mm` and `axes` are those of a new file: run taceva rig teach"
+        ),
+        "{said}"
+    );
+    let state = world.state();
+    assert_eq!((state.readings, state.motions), (0, 0));
+}
+
+/// Fails the test if it is asked.
+struct Nobody;
+
+impl Operator for Nobody {
+    fn ask(&mut self, question: &Question, _: &Cancel) -> Answer {
+        panic!("{question}");
+    }
 }
 
 /// Jogs the robot in its base frame to places that it was given.

@@ -232,3 +232,24 @@ fn a_check_of_the_rig_looks_at_the_switch_and_moves_the_robot_only_while_it_is_h
         found.problems
     );
 }
+
+#[test]
+fn a_check_of_a_rig_whose_switch_does_not_open_measures_the_other_devices_and_moves_nothing() {
+    let world = World::new();
+    world.state().is_unplugged = true;
+    let found = checked(&world, true);
+    let failed = found.problems.iter().filter(|problem| problem.is_failure());
+    let failed: Vec<&RigProblem> = failed.collect();
+    let [RigProblem::Failed { device, why }] = failed[..] else {
+        panic!("{failed:?}");
+    };
+    assert_eq!(*device, "switch");
+    assert!(why.contains("plug the switch in"), "{why}");
+    assert!(found.force.is_some() && found.robot.is_some() && found.sensor.is_some());
+    assert!(found.halt.is_none() && world.state().motions == 0);
+    let left_out = found.halt_left_out.expect("a reason");
+    assert_eq!(
+        left_out,
+        "nothing moves, because the enabling switch failed"
+    );
+}

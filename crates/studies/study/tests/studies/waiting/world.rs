@@ -34,6 +34,8 @@ pub(crate) struct State {
     pub(crate) struck_s: Option<f64>,
     /// Whether the emergency stop is pressed.
     pub(crate) is_stopped: bool,
+    /// Whether the robot gives no pose, because its cable is out.
+    pub(crate) is_lost: bool,
     /// Motions and releases that were asked for after it was reported.
     pub(crate) defied: u32,
     told: bool,
@@ -76,6 +78,7 @@ impl World {
             obstacle_x_mm: f64::INFINITY,
             struck_s: None,
             is_stopped: false,
+            is_lost: false,
             defied: 0,
             told: false,
             is_held: true,

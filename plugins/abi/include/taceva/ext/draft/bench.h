@@ -1,4 +1,4 @@
-/* Draft extension of a rig: a simulated bench, whose clock turns as fast as it is worked out and whose specimens change by themselves. */
+/* Draft extension of a rig: a simulated bench. Its clock advances as fast as the simulation, and the host changes its specimens. */
 #ifndef TACEVA_EXT_BENCH_H
 #define TACEVA_EXT_BENCH_H
 
@@ -20,7 +20,7 @@ typedef struct taceva_specimen {
   int64_t size_nm; /* the radius of a sphere, the spacing of a grating */
 } taceva_specimen;
 
-/* `bench` is the name that the devices were opened with as `rig=`. */
+/* `bench` is the value of `rig=` with which the devices were opened. */
 typedef struct taceva_bench_calls {
   uint32_t size;
   uint32_t reserved;

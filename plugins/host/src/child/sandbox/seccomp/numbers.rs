@@ -74,7 +74,7 @@ pub(super) const ALWAYS: &[i64] = &[
     libc::SYS_rt_sigsuspend,
     libc::SYS_rt_sigtimedwait,
     libc::SYS_sigaltstack,
-    // Who and where it is.
+    // Identity and working folder.
     libc::SYS_getegid,
     libc::SYS_geteuid,
     libc::SYS_getgid,
@@ -88,7 +88,7 @@ pub(super) const ALWAYS: &[i64] = &[
     libc::SYS_uname,
 ];
 
-/// Older numbers of the same calls, which only x86-64 still has.
+/// Older numbers of the same calls, present only on x86-64.
 #[cfg(target_arch = "x86_64")]
 pub(super) const ALWAYS_TOO: &[i64] = &[
     libc::SYS_access,
@@ -122,7 +122,7 @@ pub(super) const SOCKETS: &[i64] = &[
 /// Calls of a process that may listen for connections.
 pub(super) const LISTENING: &[i64] = &[libc::SYS_accept, libc::SYS_accept4, libc::SYS_listen];
 
-/// Allowed `fcntl` commands. None lets the kernel signal another process.
+/// Allowed `fcntl` commands. None of them lets the kernel signal another process.
 pub(super) const FILE_CONTROLS: &[i32] = &[
     libc::F_DUPFD,
     libc::F_DUPFD_CLOEXEC,

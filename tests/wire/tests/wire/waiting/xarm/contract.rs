@@ -1,4 +1,4 @@
-//! What every robot promises, and what this one does.
+//! Contract of every robot, and behaviour specific to this one.
 
 use std::time::Duration;
 
@@ -56,7 +56,7 @@ fn a_press_reaches_the_gel_where_the_driver_sent_it() {
     let [x, y, z] = truth.tip_mm;
     let expected = Base::to_sensor([300.0, 0.0, 250.7]);
     for (found, expected) in [x, y, z].into_iter().zip(expected) {
-        // What float32 leaves of 300 mm.
+        // Resolution of float32 at 300 mm.
         assert!((found - expected).abs() < 2e-5, "{truth:?}");
     }
     assert!(truth.force_n[2] > 0.1, "{truth:?}");

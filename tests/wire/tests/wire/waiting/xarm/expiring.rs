@@ -30,7 +30,7 @@ fn a_link_that_falls_silent_lets_the_arm_stand_though_no_stop_is_confirmed() {
     setup(Ports::ANY).stands_where_its_link_falls_silent();
 }
 
-/// Moves the arm that it is told of, until somebody kills it; a test of nothing where it is told of none.
+/// Moves the arm named in the environment until the process is killed; does nothing if none is named.
 #[test]
 fn the_host_that_dies() {
     die_moving(&XarmFactory::new().expect("a factory"));

@@ -1,4 +1,4 @@
-//! Controllers that fail, and links that do.
+//! Failing controllers and failing links.
 
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
@@ -61,7 +61,7 @@ fn reports_that_stop_stop_the_arm() {
         inject(&setup.bench, Device::Robot, FaultKind::Silent, 1_000);
     });
     assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
-    // A quarter of a second without a report, 40 ms for an answer that does not come, and looking whether it stands.
+    // A quarter of a second without a report, 40 ms for a missing answer, and the check that the arm stands.
     assert!(took < Duration::from_millis(1_200), "{took:?}");
     assert!(!setup.bench.truth().is_moving);
 }
@@ -71,7 +71,7 @@ fn a_silence_that_is_over_keeps_an_arm_at_rest_no_longer_than_a_moment() {
     let setup = setup(Ports::ANY);
     let mut arm = setup.open();
     let (home, _) = arm.pose(PATIENCE).expect("a pose");
-    // The connection by which it is stopped is tried twice a second: the silences begin at every phase of that.
+    // The stop connection is tested twice per second: the silences begin at all phases of these tests.
     for phase in 0..25_u8 {
         inject(&setup.bench, Device::Robot, FaultKind::Silent, 150);
         std::thread::sleep(Duration::from_millis(350));
@@ -88,8 +88,8 @@ fn a_stop_waits_for_no_answer_that_somebody_else_waits_for() {
     let mut arm = setup.open();
     let halt = arm.halt_handle();
     let (home, _) = arm.pose(PATIENCE).expect("a pose");
-    // The connection by which it is stopped is tried twice a second, and a silent controller keeps such a trial waiting for 120 ms: the stops come
-    // at every phase of that.
+    // The stop connection is tested twice per second, and a silent controller blocks such a test for 120 ms: the stops occur at all phases
+    // of it.
     for phase in 0..16_u64 {
         let stood_after = || {
             while !setup.bench.truth().is_moving {
@@ -104,7 +104,7 @@ fn a_stop_waits_for_no_answer_that_somebody_else_waits_for() {
                     std::thread::yield_now();
                 }
                 let stood = began.elapsed();
-                // Whether it was confirmed is another question.
+                // The confirmation does not matter here.
                 drop(halting.join().expect("no panic"));
                 stood
             })
@@ -154,7 +154,7 @@ fn an_arm_that_goes_away_is_disconnected() {
     });
     assert_eq!(posed.expect("gone").kind(), ErrorKind::Disconnected);
     let handle = robot.halt_handle();
-    // The last client of the emulator is let go within a moment; until then a stop still arrives.
+    // The last client of the emulator is closed within a moment; until then a stop still arrives.
     let halted = (0..100).find_map(|_| {
         std::thread::sleep(Duration::from_millis(20));
         handle.halt().err()
@@ -164,7 +164,7 @@ fn an_arm_that_goes_away_is_disconnected() {
     assert!(handle.halt().is_ok(), "there is nothing left to stop");
 }
 
-/// What opening gives where `answer` is said to every client, whatever it asks.
+/// Result of opening if every client gets `answer` to any request.
 fn opened_against(answer: &'static [u8]) -> DriverError {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = listener.local_addr().expect("bound").port();

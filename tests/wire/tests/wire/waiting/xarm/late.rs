@@ -1,4 +1,4 @@
-//! Stops that are late, and a connection for stops that falls silent.
+//! Late stops, and a silent stop connection.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -11,7 +11,7 @@ use crate::waiting::gate::{Gate, halted_while_shut};
 use crate::waiting::setup::Setup;
 use crate::waiting::support::{PATIENCE, lower, speed};
 
-/// An arm, the gate before it, and the driver behind that.
+/// An arm, a gate in front of it, and the driver.
 fn behind_a_gate(holds: fn(usize) -> bool) -> (Setup<Emulator>, Arc<Gate>, Box<dyn Robot>) {
     let setup = setup(Ports::ANY);
     let address = setup.emulator.address(Port::Command);
@@ -25,18 +25,18 @@ fn behind_a_gate(holds: fn(usize) -> bool) -> (Setup<Emulator>, Arc<Gate>, Box<d
     (setup, gate, arm)
 }
 
-/// What is sent counts as lost after so long: a machine that stood still for that long shows nothing.
+/// Time after which a sent command counts as lost: a machine that paused for that long proves nothing.
 const LOST_AFTER: Duration = Duration::from_secs(2);
 const TRIES: u32 = 5;
 
 #[test]
 fn a_halt_does_not_end_before_every_stop_was_obeyed_so_that_none_ends_the_motion_after_it() {
-    // The second connection is that for stops.
+    // The second connection is the one for stops.
     for _ in 0..TRIES {
         let (setup, gate, mut arm) = behind_a_gate(|number| number == 1);
         let (home, _) = arm.pose(PATIENCE).expect("a pose");
         let shut = halted_while_shut(&gate, &setup.bench, &mut *arm);
-        // The connection for stops is given up meanwhile, and another stands in its place: the stop is still under way on the first.
+        // The stop connection is abandoned and replaced; the stop is still pending on the first one.
         gate.wait_for(3);
         match arm.clear_halt(PATIENCE) {
             Err(error) => assert_eq!(error.kind(), ErrorKind::Timeout, "{error}"),
@@ -60,7 +60,7 @@ fn a_motion_waits_for_the_connection_by_which_it_would_be_stopped() {
     let (setup, gate, mut arm) = behind_a_gate(|number| number > 0);
     let (home, _) = arm.pose(PATIENCE).expect("a pose");
     gate.shut(true);
-    // It was tried, and is made anew: until that answers nothing moves.
+    // The connection failed its test and is replaced: nothing moves until the new one answers.
     gate.wait_for(3);
     let way_mm = setup.bench.truth().way_mm;
     let refused = arm.move_to(lower(home, 1.0), speed(20.0), PATIENCE);

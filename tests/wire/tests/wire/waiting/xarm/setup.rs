@@ -1,4 +1,4 @@
-//! An emulated arm, and the driver that is connected to it.
+//! An emulated arm with its connected driver.
 
 use taceva_drivers::ufactory::xarm::XarmFactory;
 use taceva_wire::xarm::{Emulator, Port, Ports};
@@ -11,11 +11,11 @@ pub(crate) fn setup(ports: Ports) -> Setup<Emulator> {
     Setup::with_arguments(factory, |bench| Emulator::start(bench, ports), arguments)
 }
 
-/// The arguments of the driver for this arm.
+/// Driver arguments of this arm.
 fn arguments(arm: &Emulator) -> String {
     let port = |port| arm.address(port).port();
     let [command, pose, status] = [Port::Command, Port::Pose, Port::Status].map(port);
-    // Where a port of reports is missing, one is named at which nobody listens.
+    // A missing report port is replaced by a port without a listener.
     let [pose, status] = [pose, status].map(|port| if port == command { 1 } else { port });
     format!(
         "host=127.0.0.1;port={command};pose_port={pose};status_port={status};workspace=240,-60,220,360,60,340"

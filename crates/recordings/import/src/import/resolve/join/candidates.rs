@@ -4,13 +4,13 @@ use std::collections::HashMap;
 
 use super::matching::{comparable, seconds};
 use crate::csv_table::number;
+use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::{JoinBy, JoinMap};
 use crate::import::resolve::cell::cell_of;
 use crate::import::resolve::coordinate_frame;
 use crate::import::resolve::times::TextTimes;
 use crate::import::resolve::unit_statement::{self, Of, Reading};
-use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 
 /// Table with its candidate rows.
@@ -53,7 +53,7 @@ impl Candidates {
         map: &JoinMap,
         table: ForeignTable,
         labels: &[&str],
-    ) -> Result<Candidates, DatasetError> {
+    ) -> Result<Candidates, ImportError> {
         let frame = map.frame_id.as_deref();
         let in_frame = frame.map(|frame| coordinate_frame::rows_in(&table, labels, frame));
         let in_frame = in_frame.transpose()?;
@@ -98,13 +98,13 @@ impl Candidates {
                     let end = end
                         .ok()
                         .filter(|end| until.last().is_none_or(|(last, _)| last <= end));
-                    let end = end.ok_or_else(|| DatasetError::Table {
-                        place: table.place(*row, column),
-                        problem: format!(
+                    let end = end.ok_or_else(|| {
+                        table_error!(
+                            table.place(*row, column),
                             "`{}`: expected a whole number no smaller than the one before it, as join `{}` counts through",
                             shown(&cell),
                             map.name
-                        ),
+                        )
                     })?;
                     until.push((end, *row));
                 }
@@ -112,7 +112,7 @@ impl Candidates {
             JoinBy::Columns(columns) => {
                 for row in rows.iter() {
                     let cells = columns.iter().map(|(_, other)| cell_of(table, *row, other));
-                    let key: Result<Vec<String>, DatasetError> =
+                    let key: Result<Vec<String>, ImportError> =
                         cells.map(|cell| Ok(comparable(&cell?))).collect();
                     let key = key?;
                     if !key.iter().any(String::is_empty) {
@@ -127,16 +127,17 @@ impl Candidates {
                     of: Of::Others,
                 };
                 unit_statement::check(table, &join.time.column, reading)?;
-                let cells: Result<Vec<String>, DatasetError> = rows
+                let cells: Result<Vec<String>, ImportError> = rows
                     .iter()
                     .map(|row| cell_of(table, *row, &join.time.column))
                     .collect();
                 let cells = cells?;
                 let texts = TextTimes::of(&cells, &join.time);
-                let texts = texts.map_err(|(at, problem)| DatasetError::Table {
-                    place: table
-                        .place(rows.get(at).copied().unwrap_or_default(), &join.time.column),
-                    problem,
+                let texts = texts.map_err(|(at, problem)| {
+                    ImportError::table(
+                        table.place(rows.get(at).copied().unwrap_or_default(), &join.time.column),
+                        problem,
+                    )
                 })?;
                 let cells = texts.map_or(cells, |texts| texts.seconds);
                 for (row, cell) in rows.iter().zip(&cells) {
@@ -148,14 +149,12 @@ impl Candidates {
                 // The first of several rows at one time is kept.
                 by_time.dedup_by(|later, first| later.0.total_cmp(&first.0).is_eq());
                 if let Some([_, (_, row)]) = back.as_deref() {
-                    return Err(DatasetError::Table {
-                        place: table.place(*row, &join.time.column),
-                        problem: format!(
-                            "the time of join `{}` decreases here, so rows cannot be matched by it: split the table where its clock was \
+                    return Err(table_error!(
+                        table.place(*row, &join.time.column),
+                        "the time of join `{}` decreases here, so rows cannot be matched by it: split the table where its clock was \
                              set",
-                            map.name
-                        ),
-                    });
+                        map.name
+                    ));
                 }
             }
         }

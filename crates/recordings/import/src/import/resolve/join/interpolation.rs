@@ -3,10 +3,10 @@
 use taceva_core::Unit;
 
 use crate::csv_table::number;
+use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::{ImportMap, RotationMap};
 use crate::import::resolve::cell::cell_of;
-use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 
 /// Interpolation of one column between two rows.
@@ -98,12 +98,12 @@ impl Gap<'_> {
     /// Interpolated cell of `column`; empty if either row is empty.
     ///
     /// # Errors
-    /// [`DatasetError::Table`] for a cell that is no number, and for angles or rotations without a unique path.
+    /// [`ImportError::Table`] for a cell that is no number, and for angles or rotations without a unique path.
     pub(super) fn cell(
         &self,
         column: &str,
         known: &[Interpolation],
-    ) -> Result<String, DatasetError> {
+    ) -> Result<String, ImportError> {
         let mut ways = known.iter().filter(|known| known.column == column);
         let way = ways.next().map(|known| &known.by);
         if let Some(Way::Rotation { map, columns, at }) = way {
@@ -114,14 +114,12 @@ impl Gap<'_> {
         };
         let number = match way {
             Some(Way::Angle { channel, half_turn }) if (after - before).abs() > *half_turn => {
-                return Err(DatasetError::Table {
-                    place: self.table.place(self.rows[1], column),
-                    problem: format!(
-                        "{after} follows {before}, more than half a turn of `{channel}`, and `pick = \"linear\"` would invent angles between: write \
+                return Err(table_error!(
+                    self.table.place(self.rows[1], column),
+                    "{after} follows {before}, more than half a turn of `{channel}`, and `pick = \"linear\"` would invent angles between: write \
                          `rotation = [\"Rx\", \"Ry\", \"Rz\"]` above the first [section] of the map if it is a part of a rotation vector, \
                          `period = 360` in `{channel} = {{ … }}` if it is one angle that wraps around, or `pick = \"nearest\"` in the join"
-                    ),
-                });
+                ));
             }
             Some(Way::Periodic(period)) => wrapped(before, after, self.share, *period),
             _ => before + self.share * (after - before),
@@ -130,15 +128,15 @@ impl Gap<'_> {
     }
 
     /// Numbers in both rows; `None` if either is empty.
-    fn ends(&self, column: &str) -> Result<Option<[f64; 2]>, DatasetError> {
-        let of = |row| -> Result<Option<f64>, DatasetError> {
+    fn ends(&self, column: &str) -> Result<Option<[f64; 2]>, ImportError> {
+        let of = |row| -> Result<Option<f64>, ImportError> {
             let cell = cell_of(self.table, row, column)?;
-            number::number(&cell).map_err(|problem| DatasetError::Table {
-                place: self.table.place(row, column),
-                problem: format!(
+            number::number(&cell).map_err(|problem| {
+                table_error!(
+                    self.table.place(row, column),
                     "`{}`: {problem}; `pick = \"linear\"` is for numbers",
                     shown(&cell)
-                ),
+                )
             })
         };
         let [before, after] = self.rows.map(of);
@@ -151,7 +149,7 @@ impl Gap<'_> {
         map: &RotationMap,
         columns: &[String],
         at: usize,
-    ) -> Result<String, DatasetError> {
+    ) -> Result<String, ImportError> {
         let mut ends = [Vec::new(), Vec::new()];
         for column in columns {
             let Some(found) = self.ends(column)? else {
@@ -162,22 +160,21 @@ impl Gap<'_> {
                 .for_each(|(end, part)| end.push(part));
         }
         let orientation = |which: usize| {
-            map.orientation(&ends[which])
-                .ok_or_else(|| DatasetError::Table {
-                    place: self.table.place(self.rows[which], &columns[0]),
-                    problem: RotationMap::no_rotation(&ends[which]),
-                })
+            map.orientation(&ends[which]).ok_or_else(|| {
+                ImportError::table(
+                    self.table.place(self.rows[which], &columns[0]),
+                    RotationMap::no_rotation(&ends[which]),
+                )
+            })
         };
         let (before, after) = (orientation(0)?, orientation(1)?);
         let apart = before.angle_to(after).0;
         if apart > OPPOSITE_DEG {
-            return Err(DatasetError::Table {
-                place: self.table.place(self.rows[1], &columns[0]),
-                problem: format!(
-                    "this rotation is {apart:.1} degrees from the one before, so its interpolation is ambiguous: write `pick = \
+            return Err(table_error!(
+                self.table.place(self.rows[1], &columns[0]),
+                "this rotation is {apart:.1} degrees from the one before, so its interpolation is ambiguous: write `pick = \
                      \"nearest\"` in the join"
-                ),
-            });
+            ));
         }
         let cells = map.cells(before.toward(after, self.share));
         Ok(format!("{:?}", cells[at]))

@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use crate::error::{ImportError, table_error};
 use crate::import::summary::JoinSummary;
 use taceva_dataset::internal::shown_path;
-use taceva_dataset::{DatasetError, Place};
 
 /// Matches of one main table with a joined table.
 pub(in crate::import) struct JoinMatches {
@@ -52,7 +52,7 @@ impl JoinMatches {
         main: &Path,
         tables: usize,
         are_files: bool,
-    ) -> Result<(), DatasetError> {
+    ) -> Result<(), ImportError> {
         let shared = other
             .tables
             .keys()
@@ -70,14 +70,12 @@ impl JoinMatches {
                 "join by a column of both, `on = { COLUMN = \"COLUMN\" }`, or by time, or name a table for each with `{path.NAME}`",
             ),
         };
-        Err(DatasetError::Table {
-            place: Place::file(main),
-            problem: format!(
-                "join `{}`: with {key} the first row of {} would belong to the first row of each of the {each}: {remedy}",
-                self.name,
-                shown_path(shared)
-            ),
-        })
+        Err(table_error!(
+            main,
+            "join `{}`: with {key} the first row of {} would belong to the first row of each of the {each}: {remedy}",
+            self.name,
+            shown_path(shared)
+        ))
     }
 
     pub(in crate::import) fn name(&self) -> &str {

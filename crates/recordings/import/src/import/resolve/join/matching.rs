@@ -1,10 +1,10 @@
 //! Match rules between rows of two tables: equal keys, near times.
 
 use crate::csv_table::number;
+use crate::error::{ImportError, Place, table_error};
 use crate::foreign::cell_list;
 use crate::import::map::{Pick, TimeJoin, TimeMap};
 use taceva_dataset::internal::shown;
-use taceva_dataset::{DatasetError, Place};
 
 /// Upper limit of the `f64` rounding error of seconds since 1970.
 const ROUNDING_S: f64 = 1e-6;
@@ -37,9 +37,9 @@ pub(super) fn seconds(
     cell: &str,
     time: &TimeMap,
     place: impl Fn() -> Place,
-) -> Result<Option<f64>, DatasetError> {
+) -> Result<Option<f64>, ImportError> {
     number::number_in_unit(cell, &time.unit)
-        .map_err(|problem| DatasetError::table(place(), format!("`{}`: {problem}", shown(cell))))
+        .map_err(|problem| table_error!(place(), "`{}`: {problem}", shown(cell)))
 }
 
 /// Match of `instant` in `times`, which are sorted, with its distance, s.

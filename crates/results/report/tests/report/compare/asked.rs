@@ -1,0 +1,117 @@
+//! Metrics that a request names, and metrics of another version.
+
+use super::{of_metric, score, study};
+use taceva_report::{CompareRequest, Comparison, Study, compare};
+
+/// Two sensors, of which the second has the smaller errors.
+fn two() -> [Study; 2] {
+    [("Coarse", 0.75), ("Fine", 0.25)].map(|(sensor, value)| {
+        let scores = [
+            ("mae", "Fz", score(value, 0.01, "N")),
+            ("rmse", "Fz", score(value, 0.01, "N")),
+            ("shininess", "Fz", score(value, 0.01, "N")),
+        ];
+        study(sensor, &scores, &["Fz"])
+    })
+}
+
+fn asked(comparison: &Comparison) -> Vec<String> {
+    let decisions = comparison.decisions();
+    decisions.iter().map(|decision| decision.asked()).collect()
+}
+
+#[test]
+fn every_metric_that_is_asked_for_is_answered_beside_the_questions_with_a_name() {
+    let request = CompareRequest {
+        metrics: vec!["mae".to_owned(), "rmse".to_owned()],
+        ..CompareRequest::default()
+    };
+    let comparison = compare(&two(), &request);
+    assert_eq!(asked(&comparison), ["Normal force (mae Fz ↓)", "rmse Fz ↓"]);
+    let overview = comparison.overview(None);
+    let line = "\nrmse Fz ↓: Fine, 0.25 N, better than Coarse (p < 0.001)\n";
+    assert!(overview.contains(line), "{overview}");
+    // Without a request the named questions stand alone.
+    let every = compare(&two(), &CompareRequest::default());
+    assert_eq!(asked(&every), ["Normal force (mae Fz ↓)"]);
+}
+
+#[test]
+fn markdown_has_the_answers_of_the_overview_above_every_pair() {
+    let markdown = of_metric(&two(), "mae").markdown();
+    let answer = "\n- Normal force (mae Fz ↓): Fine, 0.25 N, better than Coarse (p &lt; 0.001)\n";
+    let [answer, table] = [answer, "\n| metric"].map(|part| markdown.find(part));
+    assert!(
+        answer.is_some() && answer < table,
+        "{answer:?}, {table:?}: {markdown}"
+    );
+}
+
+#[test]
+fn a_metric_of_another_version_is_named_and_no_verdict_is_given_on_it() {
+    let every = compare(&two(), &CompareRequest::default());
+    let note =
+        "shininess not compared: this version of taceva does not know which values are better";
+    assert!(
+        every.notes.iter().any(|own| own == note),
+        "{:?}",
+        every.notes
+    );
+    assert!(
+        every
+            .answers
+            .iter()
+            .all(|answer| answer.metric != "shininess")
+    );
+    let decisions = of_metric(&two(), "shininess").decisions();
+    assert_eq!(decisions[0].winner, None);
+    assert_eq!(
+        decisions[0].words,
+        "no winner: this version of taceva does not know which values are better"
+    );
+}
+
+#[test]
+fn a_group_means_its_metrics_that_have_scores_and_all_of_them_where_none_has() {
+    let asked = |name: &str| CompareRequest {
+        metrics: vec![name.to_owned()],
+        ..CompareRequest::default()
+    };
+    let studies = two();
+    let request = asked("accuracy").resolved(&studies).expect("a group");
+    assert_eq!(request.metrics, ["mae", "r2"]);
+    assert_eq!(request.absent(&studies), [""; 0]);
+    let other = [study("A", &[("drift", "Fz", score(0.5, 0.01, "N"))], &[])];
+    let request = asked("accuracy").resolved(&other).expect("a group");
+    assert_eq!(request.metrics, ["mae", "r2", "smape"]);
+    assert_eq!(
+        request.absent(&other)[0],
+        "mae: no result has such a score; they have drift"
+    );
+    let request = asked("shininess").resolved(&studies).expect("a score");
+    assert_eq!(request.metrics, ["shininess"]);
+}
+
+#[test]
+fn a_margin_of_no_score_is_refused_with_the_scores_that_there_are() {
+    let refused = |name: &str| {
+        let request = CompareRequest {
+            margins: [(name.to_owned(), 0.1)].into(),
+            ..CompareRequest::default()
+        };
+        request.resolved(&two()).map_err(|error| error.to_string())
+    };
+    assert!(refused("mae").is_ok() && refused("mae.Fz").is_ok());
+    let error = refused("mae.Fq").expect_err("no such channel");
+    assert_eq!(
+        error,
+        "mae.Fq: no result has such a score; expected mae or one of mae.Fz"
+    );
+    let error = refused("drift").expect_err("not scored");
+    assert_eq!(
+        error,
+        "drift: no result has such a score; they have mae, r2, rmse, shininess"
+    );
+    let error = refused("mea").expect_err("no metric");
+    assert!(error.contains("did you mean `mae`?"), "{error}");
+}

@@ -1,0 +1,65 @@
+//! Sentence on samples that nobody measured.
+
+use std::collections::BTreeSet;
+
+/// Sentence that every output about samples of these `sources` states; `None` if nothing is known to be simulated or synthetic.
+///
+/// A source is one of those of [`Subject::source`](crate::Subject). One simulated or emulated device makes a whole recording `simulated`.
+///
+/// ```
+/// use taceva_results::not_measured;
+/// assert_eq!(not_measured(["recorded", "unknown"]), None);
+/// let said = not_measured(["simulated", "recorded"]).expect("one is simulated");
+/// assert_eq!(said, "Not everything here was measured: some of the samples are simulated.");
+/// ```
+pub fn not_measured<'a>(sources: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    let sources: BTreeSet<&str> = sources.into_iter().collect();
+    let drawn: Vec<&str> = ["simulated", "synthetic"]
+        .into_iter()
+        .filter(|source| sources.contains(source))
+        .collect();
+    if drawn.is_empty() {
+        let words = "Not everything here may have been measured: the samples have several origins.";
+        return sources.contains("several").then(|| words.to_owned());
+    }
+    let kinds = drawn.join(" and ");
+    Some(match drawn.len() == sources.len() {
+        true => format!("Nothing here was measured: the samples are {kinds}."),
+        false => {
+            format!("Not everything here was measured: some of the samples are {kinds}.")
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_sample_that_is_not_measured_is_stated_with_its_origin() {
+        for (sources, said) in [
+            (vec![], None),
+            (vec!["recorded", "published", "unknown"], None),
+            (
+                vec!["simulated", "simulated"],
+                Some("Nothing here was measured: the samples are simulated."),
+            ),
+            (
+                vec!["synthetic", "simulated"],
+                Some("Nothing here was measured: the samples are simulated and synthetic."),
+            ),
+            (
+                vec!["recorded", "synthetic", "recorded"],
+                Some("Not everything here was measured: some of the samples are synthetic."),
+            ),
+            (
+                vec!["several", "recorded"],
+                Some(
+                    "Not everything here may have been measured: the samples have several origins.",
+                ),
+            ),
+        ] {
+            assert_eq!(not_measured(sources).as_deref(), said);
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! Problems that `rig check` finds, with their remedies.
+
+use std::fmt;
+
+/// Longest time from a halt to a robot at rest, in ms, as plans demand of a stated stop time.
+pub(super) const HALT_MS: f64 = 50.0;
+
+/// Problems of a run on this rig, with their remedies.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub enum RigProblem {
+    /// A device did not open, or failed while it was read.
+    Failed {
+        /// `force`, `robot`, `sensor`, `switch`, `specimen`, `unit` or `light`.
+        device: &'static str,
+        /// Failure and its remedy.
+        why: String,
+    },
+    /// A device gave no readings.
+    Unheard {
+        /// `force`, `robot` or `sensor`.
+        device: &'static str,
+    },
+    /// Gaps interrupt presses.
+    Gaps {
+        /// Longest gap, in ms.
+        gap_ms: f64,
+        /// Longest allowed gap, in ms.
+        allowed_ms: f64,
+    },
+    /// The measured noise is more than twice the noise that the driver states.
+    Noise {
+        /// `force` or `robot`.
+        device: &'static str,
+        /// Measured noise, in N or mm.
+        measured: f64,
+        /// Noise that the driver states, in the same unit.
+        stated: f64,
+    },
+    /// The file has the place of the robot that a new file begins with.
+    Untaught,
+    /// The tip is inside the gel according to the file.
+    InGel {
+        /// Depth of the tip, in mm.
+        depth_mm: f64,
+    },
+    /// The robot stops too late.
+    SlowHalt {
+        /// Time until the motion had ended, in ms.
+        ended_ms: f64,
+    },
+    /// The robot did not stop.
+    NotHalted,
+    /// The enabling switch was never seen held, although the operator was asked to hold it.
+    Unheld,
+}
+
+impl fmt::Display for RigProblem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            RigProblem::Failed { why, .. } => f.write_str(why),
+            RigProblem::Unheard { device } => write!(
+                f,
+                "the {device} sent nothing: check its cable, its address in the rig file, and whether another program uses it"
+            ),
+            RigProblem::Gaps { gap_ms, allowed_ms } => write!(
+                f,
+                "force readings arrive up to {gap_ms:.0} ms apart (limit {allowed_ms:.0} ms): stop other traffic on this network and other programs, or run with `chrt -f 10`"
+            ),
+            RigProblem::Noise {
+                device,
+                measured,
+                stated,
+            } => write!(
+                f,
+                "the {device} has noise of {measured:.4}, but its driver states {stated:.4}: presses may be halted without cause; check what shakes it"
+            ),
+            RigProblem::Untaught => f.write_str(
+                "`origin_mm` and `axes` of [robot] are those of a new file, and upwards may be downwards: run `taceva rig teach`",
+            ),
+            RigProblem::InGel { depth_mm } => write!(
+                f,
+                "by `origin_mm` and `axes` of [robot] the tip is {depth_mm:.1} mm inside the gel: raise it by a centimetre, or run `taceva rig teach` if it is above the gel"
+            ),
+            RigProblem::SlowHalt { ended_ms } => write!(
+                f,
+                "the robot came to rest {ended_ms:.0} ms after a halt, expected at most {HALT_MS} ms: lower `speed_mm_s` in contact, or shorten its braking at the controller"
+            ),
+            RigProblem::Unheld => f.write_str(
+                "the enabling switch was never read as held: hold it when the check asks for it; if you did, correct `byte` and `mask` of `enable`; nothing moves without it",
+            ),
+            RigProblem::NotHalted => f.write_str(
+                "the robot did not stop at a halt: do not run it; check the driver and the controller",
+            ),
+        }
+    }
+}
+
+impl RigProblem {
+    /// Device of the problem, as of [`RigProblem::Failed`]; `None` for a problem of the halt.
+    pub fn device(&self) -> Option<&'static str> {
+        match self {
+            RigProblem::Failed { device, .. }
+            | RigProblem::Unheard { device }
+            | RigProblem::Noise { device, .. } => Some(device),
+            RigProblem::Gaps { .. } => Some("force"),
+            RigProblem::Untaught | RigProblem::InGel { .. } => Some("robot"),
+            RigProblem::Unheld => Some("switch"),
+            RigProblem::SlowHalt { .. } | RigProblem::NotHalted => None,
+        }
+    }
+
+    /// True if the device gave no measurement at all.
+    pub fn is_failure(&self) -> bool {
+        matches!(self, RigProblem::Failed { .. } | RigProblem::Unheard { .. })
+    }
+}

@@ -1,0 +1,34 @@
+//! What the changers and the lighting of a rig hold, opened to be checked.
+
+use taceva_protocol::RigFile;
+
+use crate::error::AcquireError;
+use crate::presses::FileOpener;
+
+/// Names of what an open changer or lighting of a rig holds. It is made by [`check_rig`](super::check_rig).
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[non_exhaustive]
+pub struct Stock {
+    /// Key under `[changers]`: `specimen`, `unit` or `light`.
+    pub key: &'static str,
+    /// Names of the things that it holds, or of its scenes.
+    pub holds: Vec<String>,
+}
+
+/// Stock of a device that was opened or not.
+pub(super) struct TriedStock {
+    pub(super) key: &'static str,
+    /// Names of what it holds; `None` if the rig file names none.
+    pub(super) holds: Result<Option<Vec<String>>, AcquireError>,
+}
+
+/// Opens the changers of `rig` and its lighting, one after the other. Nothing moves.
+pub(super) fn take_stock(rig: &RigFile, opener: &FileOpener<'_>) -> [TriedStock; 3] {
+    let changers = &rig.changers;
+    let tried = |key, holds| TriedStock { key, holds };
+    [
+        tried("specimen", opener.held(changers.specimen.as_ref())),
+        tried("unit", opener.held(changers.unit.as_ref())),
+        tried("light", opener.scenes(changers.light.as_ref())),
+    ]
+}

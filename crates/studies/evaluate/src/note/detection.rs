@@ -1,0 +1,80 @@
+//! Detection limit of normal force: verified by light presses, or not.
+
+use std::fmt;
+
+use taceva_results::{Score, Value};
+
+/// Evidence for a least force that is detected.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Detection {
+    /// A limit, and the light presses that verify it.
+    Verified {
+        /// The limit, N.
+        limit_n: f64,
+        /// Least and greatest true force of the presses, N.
+        forces_n: [f64; 2],
+        /// The presses.
+        presses: u64,
+        /// The places that they pressed.
+        places: u64,
+    },
+    /// Only the noise of untouched frames, with the reason that light presses give no limit.
+    Unverified(Option<String>),
+}
+
+impl Detection {
+    /// The evidence in `scores`; `None` if none of them is the noise of untouched frames.
+    pub(crate) fn of(scores: &[Score]) -> Option<Detection> {
+        let has_noise = |score: &Score| {
+            score.metric == "noise_equivalent_force" && score.value.number().is_some()
+        };
+        scores.iter().any(has_noise).then(|| {
+            let mut scores = scores.iter();
+            let limit = scores.find(|score| score.metric == "detection_limit");
+            limit.and_then(verified).unwrap_or_else(|| {
+                Detection::Unverified(limit.and_then(|limit| match &limit.value {
+                    Value::Undefined(reason) => Some(reason.clone()),
+                    _ => None,
+                }))
+            })
+        })
+    }
+}
+
+fn verified(score: &Score) -> Option<Detection> {
+    let force = |name: &str| score.variant(name)?.value.number();
+    let places = score.counts.iter().find(|(name, _)| name == "places");
+    Some(Detection::Verified {
+        limit_n: score.value.number()?,
+        forces_n: [force("least_force")?, force("greatest_force")?],
+        presses: score.n,
+        places: places.map(|(_, count)| *count)?,
+    })
+}
+
+impl fmt::Display for Detection {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Detection::Verified {
+                limit_n,
+                forces_n: [least, greatest],
+                presses,
+                places,
+            } => write!(
+                f,
+                "detection limit: {limit_n:.3} N of Fz, from {presses} light presses of {least:.3} N to {greatest:.3} N at {places} places; \
+                 it is not verified for other forces, places and days"
+            ),
+            Detection::Unverified(reason) => {
+                f.write_str("detection limit: not verified")?;
+                if let Some(reason) = reason {
+                    write!(f, " ({reason})")?;
+                }
+                f.write_str(
+                    "; noise_equivalent_force uses untouched frames only; light presses (0.02 N to 0.2 N) at ten places or more would verify \
+                     a limit",
+                )
+            }
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! Periods of angles in tables, as they are written.
+
+use std::fmt;
+use std::str::FromStr;
+
+use taceva_core::Unit;
+
+/// Period of an angle: a number in the unit of its column, or a multiple of π in radians.
+///
+/// # Units
+/// The unit of the column, degrees or radians.
+///
+/// ```
+/// use taceva_core::Unit;
+/// use taceva_evaluate::Period;
+/// let turn: Period = "2pi".parse()?;
+/// assert_eq!(turn.degrees("yaw", Unit::Radian), Ok(360));
+/// assert_eq!(Period::from(180).degrees("tool", Unit::Degree), Ok(180));
+/// assert!(turn.degrees("yaw", Unit::Degree).is_err());
+/// # Ok::<(), String>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Period {
+    number: f64,
+    /// True for a number of half turns, as in `2pi`.
+    is_of_pi: bool,
+}
+
+/// Greatest difference of a period in radians from whole degrees, degrees: four decimals of radians.
+const ROUNDED_DEG: f64 = 0.01;
+
+impl Period {
+    /// Unit of a column whose name and caller state none.
+    pub(super) fn own_unit(self, name: &str) -> Unit {
+        let by_name = [("_rad", Unit::Radian), ("_deg", Unit::Degree)];
+        let by_name = by_name.iter().find(|(end, _)| name.ends_with(end));
+        match (by_name, self.is_of_pi) {
+            (Some((_, unit)), _) => *unit,
+            (None, true) => Unit::Radian,
+            (None, false) => Unit::Degree,
+        }
+    }
+
+    /// Whole degrees of the period of the column `name` in `unit`.
+    ///
+    /// # Errors
+    /// A message with the remedy if the period does not fit the unit, or is no whole number of degrees.
+    pub fn degrees(self, name: &str, unit: Unit) -> Result<u16, String> {
+        let degrees = match (unit, self.is_of_pi) {
+            (Unit::Radian, true) => self.number * 180.0,
+            (Unit::Radian, false) => self.number.to_degrees(),
+            (_, true) => {
+                return Err(format!(
+                    "a period of {self} is given for `{name}`, whose unit is {unit}: write {name}={} for degrees, or --units {name}=rad",
+                    self.number * 180.0
+                ));
+            }
+            (_, false) => self.number,
+        };
+        let rounding = if unit == Unit::Radian {
+            ROUNDED_DEG
+        } else {
+            0.0
+        };
+        let whole = degrees.round();
+        if unit == Unit::Radian && degrees > 360.0 + rounding {
+            return Err(format!(
+                "a period of {self} is given for `{name}`, which is in radians: write {name}=2pi for a whole turn, or --units {name}=deg if its \
+                 numbers are degrees"
+            ));
+        }
+        if (degrees - whole).abs() > rounding || !(0.0..=f64::from(u16::MAX)).contains(&whole) {
+            return Err(format!(
+                "a period of {self} is given for `{name}` in {unit}: expected a whole number of degrees, such as {name}=360 or {name}=2pi"
+            ));
+        }
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a whole number from 0 to that of the type"
+        )]
+        Ok(whole as u16)
+    }
+}
+
+impl From<u16> for Period {
+    /// Period of so many degrees, or radians.
+    fn from(number: u16) -> Period {
+        Period {
+            number: f64::from(number),
+            is_of_pi: false,
+        }
+    }
+}
+
+impl FromStr for Period {
+    type Err = String;
+
+    /// The period written as `360`, `6.2832`, `2pi` or `pi`.
+    fn from_str(text: &str) -> Result<Period, String> {
+        let text = text.trim();
+        let of_pi = text.strip_suffix("pi").or_else(|| text.strip_suffix('π'));
+        let number = match of_pi {
+            Some("") => Ok(1.0),
+            Some(number) => number.trim_end_matches(['*', ' ']).parse(),
+            None => text.parse(),
+        };
+        match number {
+            Ok(number) if f64::is_finite(number) => Ok(Period {
+                number,
+                is_of_pi: of_pi.is_some(),
+            }),
+            _ => Err(format!(
+                "`{}` is no period, expected a number such as 360, or 2pi",
+                taceva_core::shown(text)
+            )),
+        }
+    }
+}
+
+impl fmt::Display for Period {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.is_of_pi, self.number) {
+            (false, number) => write!(f, "{number}"),
+            (true, number) => write!(f, "{number}pi"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn degrees(text: &str, unit: Unit) -> Result<u16, String> {
+        text.parse::<Period>()?.degrees("yaw", unit)
+    }
+
+    #[test]
+    fn a_period_is_a_number_in_the_unit_of_its_column_or_a_multiple_of_pi() {
+        for (text, unit, expected) in [
+            ("360", Unit::Degree, 360),
+            ("2pi", Unit::Radian, 360),
+            ("pi", Unit::Radian, 180),
+            ("0.5*pi", Unit::Radian, 90),
+            ("2π", Unit::Radian, 360),
+            ("6.283185307179586", Unit::Radian, 360),
+            ("6.2832", Unit::Radian, 360),
+            ("3.1416", Unit::Radian, 180),
+        ] {
+            assert_eq!(degrees(text, unit), Ok(expected), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_period_that_does_not_fit_the_unit_is_refused_with_the_one_that_does() {
+        for (text, unit, remedy) in [
+            ("360", Unit::Radian, "write yaw=2pi"),
+            ("2pi", Unit::Degree, "write yaw=360"),
+            ("90.5", Unit::Degree, "a whole number of degrees"),
+            ("1", Unit::Radian, "a whole number of degrees"),
+            ("-360", Unit::Degree, "a whole number of degrees"),
+            ("full", Unit::Degree, "`full` is no period"),
+        ] {
+            let problem = degrees(text, unit).expect_err(text);
+            assert!(problem.contains(remedy), "{problem}");
+        }
+        assert_eq!(Period::from(2).own_unit("yaw_rad"), Unit::Radian);
+        assert_eq!(Period::from(2).own_unit("yaw"), Unit::Degree);
+        assert_eq!(
+            "pi".parse::<Period>().map(|pi| pi.own_unit("yaw")),
+            Ok(Unit::Radian)
+        );
+    }
+}

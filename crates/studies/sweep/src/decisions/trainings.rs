@@ -1,0 +1,91 @@
+//! Variation between seeds of the difference of two configurations.
+
+use taceva_metrics::TrainingSpread;
+
+use crate::analysis::Group;
+
+/// Standard error of the mean difference of the errors of `channel` over the seeds that both groups have; `None` for fewer than two seeds, or
+/// if all differences are equal.
+///
+/// Both sides of a seed share its division, so that differences are formed seed by seed. A seed also exchanges the tested contact points,
+/// whose variation the clusters show as well: together both overstate it rather than understate it.
+pub(super) fn between_seeds(
+    chosen: &Group<'_>,
+    other: &Group<'_>,
+    channel: &str,
+) -> Option<TrainingSpread> {
+    let error = |group: &Group<'_>, seed: u64| {
+        let mut results = group.results.iter();
+        let (_, result) = results.find(|(own, _)| *own == seed)?;
+        result.score("mae", channel)?.value.number()
+    };
+    let seeds = chosen.results.iter().map(|(seed, _)| *seed);
+    let differences: Vec<f64> = seeds
+        .filter_map(|seed| Some(error(chosen, seed)? - error(other, seed)?))
+        .collect();
+    TrainingSpread::of_mean(&differences).filter(TrainingSpread::varies)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use taceva_core::Unit;
+    use taceva_dataset::Digest;
+    use taceva_results::Score;
+
+    use super::*;
+    use crate::key::{KeyParts, TaskKey};
+    use crate::result::TaskResult;
+
+    fn result(error: f64) -> TaskResult {
+        let key = TaskKey::of(KeyParts {
+            dataset: Digest::of(b"data"),
+            model: "cnn",
+            settings: &BTreeMap::new(),
+            split: None,
+            seed: 1,
+            metrics: &[],
+            sensor: None,
+            plugin: None,
+        });
+        let mut result = TaskResult::new(key);
+        result
+            .scores
+            .push(Score::of_number("mae", "Fz", error, Unit::Newton));
+        result
+    }
+
+    fn group<'a>(seeds: &[u64], results: &'a [TaskResult]) -> Group<'a> {
+        Group {
+            dataset: "monday",
+            split: None,
+            configuration: "cnn".to_owned(),
+            results: seeds.iter().copied().zip(results).collect(),
+            is_whole: true,
+        }
+    }
+
+    #[test]
+    fn differences_are_formed_seed_by_seed_and_vary_as_their_mean_does() {
+        let one = [0.5, 0.25, 0.75].map(result);
+        let other = [1.0, 0.5, 0.75].map(result);
+        // By seed −0.5, −0.25 and 0: deviation 0.25, of the mean 0.25 / √3.
+        let spread = between_seeds(&group(&[1, 2, 3], &one), &group(&[1, 2, 3], &other), "Fz");
+        let spread = spread.expect("three seeds");
+        assert!((spread.standard_error - 0.25 / 3_f64.sqrt()).abs() < 1e-15);
+        assert!((spread.freedom - 2.0).abs() < 1e-15);
+        // In another order of the seeds too; a seed without its counterpart does not count.
+        let turned = [0.75, 1.0, 0.5].map(result);
+        let again = between_seeds(&group(&[1, 2, 3], &one), &group(&[3, 1, 2], &turned), "Fz");
+        assert_eq!(again, Some(spread));
+        let two = between_seeds(&group(&[1, 2, 3], &one), &group(&[1, 2, 4], &other), "Fz");
+        assert!((two.expect("two seeds").freedom - 1.0).abs() < 1e-15);
+        let none = between_seeds(&group(&[1, 2, 3], &one), &group(&[1, 5, 4], &other), "Fz");
+        assert_eq!(none, None);
+        // A model that draws nothing, and is scored on one division.
+        let same = [0.5, 0.5, 0.5].map(result);
+        let same = group(&[1, 2, 3], &same);
+        assert_eq!(between_seeds(&same, &same, "Fz"), None);
+    }
+}

@@ -1,0 +1,276 @@
+//! Checks of a device's declared rate and of its time stamps.
+
+use std::fmt;
+use std::time::{Duration, Instant};
+
+use crate::quantity::Hertz;
+use crate::stamp::Stamp;
+
+/// Periods of the declared rate after which a sample is late.
+const LATE_PERIODS: f64 = 10.0;
+/// Late samples in a row that are an error of the device.
+const LATE_MAX: u32 = 10;
+/// Maximum jump of stamps, in s.
+const JUMP_S: f64 = 60.0;
+
+/// Delays and stamps of the samples of one device.
+///
+/// A sample is late if the calls for it took more than ten periods of the declared rate. Ten late samples in a row are an error, and so is a
+/// stamp that jumps by a minute. A sample from a queue may be old.
+///
+/// ```
+/// use std::time::{Duration, Instant};
+/// use taceva_core::{Hertz, SampleTiming, Stamp};
+///
+/// let mut timing = SampleTiming::of(Some(Hertz(100.0)));
+/// timing.wait(Duration::from_millis(10));
+/// timing.sample(Instant::now(), Stamp::at(Duration::ZERO))?;
+/// let an_hour_later = Stamp::at(Duration::from_secs(3600));
+/// assert!(timing.sample(Instant::now(), an_hour_later).is_err());
+/// # Ok::<(), taceva_core::TimingError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SampleTiming {
+    /// False for a device whose time is not that of its host.
+    is_checked: bool,
+    rate: Option<Hertz>,
+    /// Duration of the calls since the last sample.
+    waited: Duration,
+    late: u32,
+    last: Option<Last>,
+}
+
+/// The last accepted sample.
+#[derive(Clone, Copy, Debug)]
+struct Last {
+    /// Arrival of the first sample.
+    begun: Instant,
+    stamp_s: f64,
+    /// Greatest difference between a stamp and the time since `begun`, in s.
+    ahead_s: f64,
+}
+
+impl SampleTiming {
+    /// Timing of a device with this declared rate, if it declares one.
+    pub fn of(rate: Option<Hertz>) -> SampleTiming {
+        SampleTiming {
+            is_checked: true,
+            rate,
+            waited: Duration::ZERO,
+            late: 0,
+            last: None,
+        }
+    }
+
+    /// Timing of a simulated device or a recording, whose time is not that of its host: nothing is checked.
+    pub fn unchecked() -> SampleTiming {
+        SampleTiming {
+            is_checked: false,
+            ..SampleTiming::of(None)
+        }
+    }
+
+    /// Adds the duration of a call for a sample, also of a call that failed.
+    pub fn wait(&mut self, took: Duration) {
+        self.waited = self.waited.saturating_add(took);
+    }
+
+    /// Checks a sample that arrived at `now`.
+    ///
+    /// # Errors
+    /// [`TimingError`] for the tenth late sample in a row or for a stamp that jumps.
+    pub fn sample(&mut self, now: Instant, stamp: Stamp) -> Result<(), TimingError> {
+        let took = std::mem::take(&mut self.waited);
+        if !self.is_checked {
+            return Ok(());
+        }
+        self.check_rate(took.as_secs_f64())?;
+        self.check_stamp(now, stamp.valid_s)
+    }
+
+    fn check_rate(&mut self, took_s: f64) -> Result<(), TimingError> {
+        let Some(rate) = self.rate.filter(|rate| rate.0 > 0.0) else {
+            return Ok(());
+        };
+        let limit_s = LATE_PERIODS / rate.0;
+        if took_s <= limit_s {
+            self.late = 0;
+            return Ok(());
+        }
+        self.late = self.late.saturating_add(1);
+        if self.late < LATE_MAX {
+            return Ok(());
+        }
+        Err(TimingError::Late {
+            samples: self.late,
+            limit_s,
+            took_s,
+            rate,
+        })
+    }
+
+    /// Checks a stamp against the newest one on the clock of the host, and against the last one.
+    fn check_stamp(&mut self, now: Instant, stamp_s: f64) -> Result<(), TimingError> {
+        let begun = self.last.map_or(now, |last| last.begun);
+        let ahead_s = stamp_s - now.saturating_duration_since(begun).as_secs_f64();
+        let mut newest_s = ahead_s;
+        if let Some(last) = self.last {
+            let forward_s = ahead_s - last.ahead_s;
+            let back_s = stamp_s - last.stamp_s;
+            if forward_s > JUMP_S {
+                return Err(TimingError::Jump { jump_s: forward_s });
+            }
+            if back_s < -JUMP_S {
+                return Err(TimingError::Jump { jump_s: back_s });
+            }
+            newest_s = ahead_s.max(last.ahead_s);
+        }
+        self.last = Some(Last {
+            begun,
+            stamp_s,
+            ahead_s: newest_s,
+        });
+        Ok(())
+    }
+}
+
+/// A device that misses its declared rate, or whose stamps jump.
+///
+/// ```
+/// use taceva_core::TimingError;
+/// let jump = TimingError::Jump { jump_s: -3600.0 };
+/// assert_eq!(jump.to_string(), "its stamps jump by -3600.0 s: check the clock of the device");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum TimingError {
+    /// Successive samples that each took longer than ten periods of the declared rate.
+    Late {
+        /// Number of these samples.
+        samples: u32,
+        /// Ten periods, in s.
+        limit_s: f64,
+        /// Duration of the calls for the last sample, in s.
+        took_s: f64,
+        /// Declared rate.
+        rate: Hertz,
+    },
+    /// A stamp far ahead of the host's clock, or far before the last stamp.
+    Jump {
+        /// Size of the jump, in s; below 0 if it goes back.
+        jump_s: f64,
+    },
+}
+
+impl fmt::Display for TimingError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            TimingError::Late {
+                samples,
+                limit_s,
+                took_s,
+                rate,
+            } => write!(
+                f,
+                "{samples} samples in a row took more than {limit_s:.3} s, the last one {took_s:.3} s, at a declared {rate}: check the device and the load of this machine, or declare its actual rate (argument `rate`; `rate_hz` of a plugin)"
+            ),
+            TimingError::Jump { jump_s } => write!(
+                f,
+                "its stamps jump by {jump_s:.1} s: check the clock of the device"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for TimingError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PERIOD: Duration = Duration::from_millis(10);
+    const HOUR: Duration = Duration::from_secs(3600);
+
+    fn at_100_hz() -> SampleTiming {
+        SampleTiming::of(Some(Hertz(100.0)))
+    }
+
+    /// Samples that each take `took`, and whose stamps are apart by it.
+    fn taken(timing: &mut SampleTiming, count: u32, took: Duration) -> Result<(), TimingError> {
+        let begun = Instant::now();
+        (1..=count).try_for_each(|number| {
+            timing.wait(took);
+            timing.sample(begun + took * number, Stamp::at(took * number))
+        })
+    }
+
+    #[test]
+    fn ten_late_samples_in_a_row_are_refused_and_nine_are_not() {
+        let mut timing = at_100_hz();
+        taken(&mut timing, 9, PERIOD * 11).expect("nine");
+        taken(&mut timing, 1, PERIOD).expect("one in time");
+        taken(&mut timing, 9, PERIOD * 11).expect("nine again");
+        taken(&mut at_100_hz(), 50, PERIOD * 9).expect("in time");
+        let refused = taken(&mut at_100_hz(), 10, PERIOD * 490).expect_err("ten");
+        let refused = refused.to_string();
+        assert!(refused.contains("10 samples in a row"), "{refused}");
+        assert!(refused.contains("the last one 4.900 s"), "{refused}");
+        assert!(refused.contains("at a declared 100 Hz"), "{refused}");
+        taken(&mut SampleTiming::of(None), 50, PERIOD * 490).expect("no declared rate");
+    }
+
+    #[test]
+    fn the_time_of_calls_without_a_sample_belongs_to_the_next_sample() {
+        let mut timing = at_100_hz();
+        let begun = Instant::now();
+        let mut results = (0..10).map(|_| {
+            (0..11).for_each(|_| timing.wait(PERIOD));
+            timing.sample(begun, Stamp::at(Duration::ZERO))
+        });
+        assert!(results.by_ref().take(9).all(|result| result.is_ok()));
+        let refused = results.next().expect("the tenth");
+        assert!(
+            matches!(refused, Err(TimingError::Late { samples: 10, .. })),
+            "{refused:?}"
+        );
+    }
+
+    #[test]
+    fn stamps_that_jump_by_an_hour_are_refused_for_good_in_both_directions() {
+        let begun = Instant::now();
+        for (first, second) in [(Duration::ZERO, HOUR), (HOUR, Duration::ZERO)] {
+            let mut timing = SampleTiming::of(None);
+            timing.sample(begun, Stamp::at(first)).expect("the first");
+            for number in 1..4 {
+                let refused = timing.sample(begun + PERIOD * number, Stamp::at(second));
+                let refused = refused.expect_err("an hour").to_string();
+                assert!(refused.contains("3600.0 s"), "{refused}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_pause_is_no_jump_nor_is_a_sample_that_waited_in_a_queue_through_it() {
+        let begun = Instant::now();
+        let mut timing = at_100_hz();
+        for (arrival, stamp) in [
+            (Duration::ZERO, Duration::ZERO),
+            (HOUR, PERIOD),
+            (HOUR + PERIOD, PERIOD * 2),
+            (HOUR + PERIOD * 2, HOUR + PERIOD * 2),
+        ] {
+            let arrived = timing.sample(begun + arrival, Stamp::at(stamp));
+            arrived.expect("in order, and never ahead");
+        }
+    }
+
+    #[test]
+    fn a_device_in_another_time_is_not_checked() {
+        let mut timing = SampleTiming::unchecked();
+        taken(&mut timing, 20, PERIOD * 490).expect("late");
+        for stamp in [HOUR, Duration::ZERO, HOUR * 2] {
+            let now = Instant::now();
+            timing.sample(now, Stamp::at(stamp)).expect("a jump");
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! Line of predicted over true force of light presses, and the least force that it detects.
+
+use super::sums::LightSums;
+use crate::exact::Dyadic;
+use crate::score::value::UndefinedReason;
+use crate::stats::noncentral::{critical_factor, detection_factor};
+
+/// Least number of independent places for a limit.
+pub(super) const LEAST_PLACES: u64 = 10;
+
+/// Detection limit and its threshold, N of true force.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limit {
+    pub(super) value: f64,
+    pub(super) critical: f64,
+}
+
+impl Limit {
+    /// The limit of ISO 11843-2 for one prediction a press and g = n² / Σ nᵢ² independent presses.
+    ///
+    /// With S_xx = n Σ x² − (Σ x)², S_yy and S_xy alike and R = S_xx S_yy − S_xy² it is s / b = √(R S_xx) / (n S_xy) × √(g / (g − 2)).
+    /// R, S_xx and S_xy are exact; each root and quotient is rounded once.
+    pub(super) fn of(sums: &LightSums) -> Result<Limit, UndefinedReason> {
+        let range = sums.range.ok_or(UndefinedReason::NoLightPresses)?;
+        if !sums.places.are_named() {
+            return Err(UndefinedReason::NoClusters);
+        }
+        let n = Dyadic::from(sums.n);
+        let squares = sums.places.iter().map(|(_, presses)| presses.0);
+        let squares = squares.fold(0_u64, |sum, n| sum.saturating_add(n.saturating_mul(n)));
+        let have = sums.n.saturating_mul(sums.n) / squares.max(1);
+        if have < LEAST_PLACES {
+            return Err(UndefinedReason::TooFewPlaces {
+                have,
+                least: LEAST_PLACES,
+            });
+        }
+        let independent = (&n * &n).over(&Dyadic::from(squares));
+        let freedom = independent - 2.0;
+        let [x, y, xx, xy, yy] = sums.sums.each_ref().map(|sum| sum.to_dyadic());
+        let spread_x = &(&n * &xx) - &(&x * &x);
+        let spread_y = &(&n * &yy) - &(&y * &y);
+        let shared = &(&n * &xy) - &(&x * &y);
+        if spread_x.is_zero() {
+            return Err(UndefinedReason::ConstantTruth { perfect: false });
+        }
+        let shared_squared = &shared * &shared;
+        let rest = &(&spread_x * &spread_y) - &shared_squared;
+        let threshold = critical_factor(freedom);
+        // The one-sided t of the slope; presses on a line have no uncertainty of it.
+        let rises = !(shared.is_zero() || shared.is_negative())
+            && (rest.is_zero() || shared_squared.root_over(&rest) * freedom.sqrt() > threshold);
+        if !rises {
+            return Err(UndefinedReason::NoRise);
+        }
+        let deviation = (&rest * &spread_x).root_over(&(&(&n * &n) * &shared_squared))
+            * (independent / freedom).sqrt();
+        let leverage = (1.0 + (&x * &x).over(&spread_x)) / independent;
+        let deviation = deviation * (1.0 + leverage).sqrt();
+        let limit = detection_factor(freedom) * deviation;
+        if limit > range.greatest {
+            return Err(UndefinedReason::BeyondLightPresses);
+        }
+        Ok(Limit {
+            value: limit.max(range.least),
+            critical: threshold * deviation,
+        })
+    }
+}

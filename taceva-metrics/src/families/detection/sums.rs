@@ -1,0 +1,117 @@
+//! Sums of light presses, and their number at each place.
+
+use crate::exact::ExactSum;
+use crate::exact::merge::Merge;
+use crate::exact::record::Record;
+use crate::families::cells::Cells;
+use crate::pair::Paired;
+
+/// Sums of light presses: x the true force, y the predicted one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct LightSums {
+    pub(super) n: u64,
+    pub(super) n_invalid: u64,
+    /// Σ x, Σ y, Σ x², Σ x y, Σ y².
+    pub(super) sums: [ExactSum; 5],
+    /// Least and greatest x; `None` for no press.
+    pub(super) range: Option<Forces>,
+    /// Presses of each place.
+    pub(super) places: Cells<Presses>,
+}
+
+/// Least and greatest true force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Forces {
+    pub(super) least: f64,
+    pub(super) greatest: f64,
+}
+
+/// Number of presses of a place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Presses(pub(super) u64);
+
+impl Merge for Presses {
+    fn merge(&mut self, other: &Presses) {
+        self.0 = self.0.saturating_add(other.0);
+    }
+}
+
+impl Forces {
+    fn and(self, other: Forces) -> Forces {
+        Forces {
+            least: self.least.min(other.least),
+            greatest: self.greatest.max(other.greatest),
+        }
+    }
+}
+
+impl LightSums {
+    /// Adds a press at the place `point`.
+    pub(super) fn add(&mut self, pair: Paired<f64>, point: Option<&str>) {
+        let Paired {
+            estimate: y,
+            reference: x,
+        } = pair;
+        self.n += 1;
+        let [of_x, of_y, xx, xy, yy] = &mut self.sums;
+        of_x.add(x);
+        of_y.add(y);
+        xx.add_product(x, x);
+        xy.add_product(x, y);
+        yy.add_product(y, y);
+        let own = Forces {
+            least: x,
+            greatest: x,
+        };
+        self.range = Some(self.range.map_or(own, |range| range.and(own)));
+        self.places.at(point, 0).merge(&Presses(1));
+    }
+
+    /// Converts the sums to the record of a state.
+    pub(super) fn to_record(&self) -> Record {
+        let range = self.range.map(|range| vec![range.least, range.greatest]);
+        Record {
+            counts: vec![self.n, self.n_invalid, u64::from(self.places.are_named())],
+            sums: self.sums.to_vec(),
+            values: range.unwrap_or_default(),
+            cells: self.places.to_records(|presses| Record {
+                counts: vec![presses.0],
+                ..Record::default()
+            }),
+        }
+    }
+
+    /// Reads the record of a state.
+    pub(super) fn read_record(record: &Record) -> Result<LightSums, String> {
+        let (&[n, n_invalid, named], sums) = record.with_cells()?;
+        let range = match record.values[..] {
+            [] if n == 0 => None,
+            [least, greatest] if n > 0 && least <= greatest => Some(Forces { least, greatest }),
+            _ => return Err(format!("{:?} as the forces of {n} presses", record.values)),
+        };
+        let read = |record: &Record| {
+            let (&[presses], _) = record.exactly::<1, 0>()?;
+            Ok(Presses(presses))
+        };
+        Ok(LightSums {
+            n,
+            n_invalid,
+            sums: sums.clone(),
+            range,
+            places: Cells::from_record(record, named == 1, read)?,
+        })
+    }
+}
+
+impl Merge for LightSums {
+    fn merge(&mut self, other: &LightSums) {
+        self.n = self.n.saturating_add(other.n);
+        self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
+        self.sums.merge(&other.sums);
+        self.range = match (self.range, other.range) {
+            (Some(own), Some(other)) => Some(own.and(other)),
+            (own, other) => own.or(other),
+        };
+        self.places.merge(&other.places);
+    }
+}
