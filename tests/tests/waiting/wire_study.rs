@@ -18,12 +18,7 @@ fn a_study_over_sockets_is_the_one_that_is_simulated_in_the_program() {
     let presses = std::env::var("TACEVA_WIRE_PRESSES");
     let presses = presses.map_or(FEW, |count| count.parse().expect("a number of presses"));
     let options = ServeOptions::over(BenchOptions::quiet(SEED));
-    // A guarded tip reads other heights than an unguarded one, so that fitted surfaces are a micrometre apart.
-    let threshold = "threshold_N = 0.021";
-    let scene = scene_of(presses);
-    assert!(scene.contains(threshold));
-    let scene = scene.replace(threshold, &format!("{threshold}\ndepth_from = \"contact\""));
-    let on = OnTheWire::new(&options, &scene);
+    let on = OnTheWire::new(&options, &scene_of(presses));
     finished(on.simulated()).expect("it is simulated");
     let before = on.served.bench().truth();
     let took = finished(on.study()).expect("over sockets");

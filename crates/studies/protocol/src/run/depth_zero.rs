@@ -25,7 +25,7 @@ pub struct DepthZero {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ZeroUnknown {
-    /// The scene states that depths count from the first contact.
+    /// Depths count from the first contact, as by default.
     CountedFromContact,
     /// Too few readings before and in contact.
     FewReadings {
@@ -63,7 +63,7 @@ impl fmt::Display for ZeroUnknown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             ZeroUnknown::CountedFromContact => {
-                f.write_str("the scene states `depth_from = \"contact\"`")
+                f.write_str("depths count from the first contact (`depth_from = \"contact\"`)")
             }
             ZeroUnknown::FewReadings { readings } => write!(
                 f,

@@ -47,7 +47,7 @@ impl Tip<'_> {
         };
         loop {
             let Point { x, y, z } = self.here().position;
-            let up = (z.0 - self.pace.segment_mm).max(least_mm).min(z.0);
+            let up = (z.0 - self.pace.segment_mm).max(least_mm);
             self.approach([x.0, y.0, up])?;
             let wrench = self.look()?.wrench;
             let depth_mm = self.at.position.z.0 - height_mm;

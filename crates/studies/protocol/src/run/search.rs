@@ -3,8 +3,8 @@
 //! Once felt, a gel begins at a similar height elsewhere. Guard threads allow one motion through the steps that end well above it, and halt
 //! it at a collision. This saves the rest after each step. The remaining steps have the same heights as in a search without guard.
 //!
-//! The readings near the contact are kept, since depths count from the height of the gel that is fitted to them. Without guard threads they lie
-//! a segment apart. With them the strides are longer, so the tip passes the last steps again by segments where a metric reads depths.
+//! The readings near the contact are kept, because depths may count from a surface that is fitted to them. Without guard threads they lie a
+//! segment apart. With them the strides are longer, so the tip passes the last steps again by segments where a metric reads depths.
 
 use taceva_core::Millimetre;
 

@@ -62,7 +62,7 @@ table! {
         #[serde(rename = "threshold_N")]
         threshold_n: f64 = 0.02,
         /// Height from which depths count.
-        depth_from: DepthOrigin = DepthOrigin::Surface,
+        depth_from: DepthOrigin = DepthOrigin::Contact,
         /// Height of travel and start of the search above the nominal surface, in mm.
         clearance_mm: f64 = 2.0,
         /// Depth below the nominal surface at which the search ends, in mm.

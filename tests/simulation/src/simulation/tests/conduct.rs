@@ -8,6 +8,7 @@ use crate::simulation::gel::Gel;
 use crate::simulation::scenario::planned_scene;
 use taceva_protocol::Plan;
 use taceva_protocol::Signals;
+use taceva_protocol::{DepthOrigin, DepthZero, ZeroUnknown};
 use taceva_protocol::{Event, Left, Mode, StopCause, Trip};
 
 /// A robot that reports its pose with uniform noise of ±0.05 mm per axis.
@@ -76,8 +77,26 @@ fn the_same_robot_is_halted_without_allowance_for_its_noise() {
 }
 
 #[test]
-fn depths_count_from_the_uneven_surface_within_the_uncertainty_that_is_stated() {
+fn by_default_depths_count_from_the_first_contact_and_no_uncertainty_is_stated() {
     let mut plan = planned_scene(SCENE, 1, &SOFT).expect("a plan");
+    plan.presses.truncate(20);
+    let mut bench = Bench::with(SOFT, plan);
+    let mut log = Memory::default();
+    bench.run(Mode::Acquire, &mut log).expect("no faults");
+    let records = log.records.iter();
+    let zeros: Vec<DepthZero> = records.filter_map(|record| record.zero).collect();
+    assert!(!zeros.is_empty());
+    for zero in zeros {
+        assert_eq!(zero.uncertainty, Err(ZeroUnknown::CountedFromContact));
+    }
+    let mut samples = log.records.iter().flat_map(|record| &record.samples);
+    assert!(samples.all(|sample| sample.zero_u_mm.is_none()));
+}
+
+#[test]
+fn fitted_depths_count_from_the_uneven_surface_within_the_uncertainty_that_is_stated() {
+    let mut plan = planned_scene(SCENE, 1, &SOFT).expect("a plan");
+    plan.contact.depth_from.value = DepthOrigin::Surface;
     plan.presses.truncate(100);
     for press in &mut plan.presses {
         press.frames = false;

@@ -78,10 +78,10 @@ fn gratings_are_classified_by_what_there_is() {
 }
 
 #[test]
-fn depths_count_from_the_surface_or_from_the_first_contact() {
+fn depths_count_from_the_first_contact_or_from_the_surface() {
     let error = with("[protocol.contact]\ndepth_from = \"step\"");
     assert!(
-        error.starts_with("s.toml, line 10: ") && error.contains("expected `surface` or `contact`"),
+        error.starts_with("s.toml, line 10: ") && error.contains("expected `contact` or `surface`"),
         "{error}"
     );
 }
