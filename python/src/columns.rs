@@ -18,7 +18,7 @@ pub(crate) fn stream<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<
     {
         let unit: &[(&str, &str)] = match name {
             "t_s" => &[("unit", "s")],
-            "spacing_mm" => &[("unit", "mm")],
+            "spacing_mm" | "zero_u_mm" => &[("unit", "mm")],
             _ => &[],
         };
         let cells = cells(table, name).filter(|cells| !cells.are_absent());
@@ -57,6 +57,7 @@ fn cells(table: &Table, name: &str) -> Option<Cells> {
         "repeat" => Cells::Counts(table.repeat().to_vec()),
         "source_row" => Cells::Counts(table.source_row().to_vec()),
         "t_s" => Cells::Numbers(table.t_s().to_vec()),
+        "zero_u_mm" => Cells::Numbers(table.zero_u_mm().to_vec()),
         "intensity" => Cells::Numbers(table.intensity().to_vec()),
         "spacing_mm" => {
             let spacing = table.spacing().iter();

@@ -44,6 +44,8 @@ pub struct Sample {
     pub phase: Option<Phase>,
     /// Limit of the gel that kept the tip from its target. Labels and picture then belong to the place that was reached.
     pub limited_by: Option<Limit>,
+    /// Standard uncertainty, in mm, of the height from which its depth `Pz` counts. `None` if that height is not fitted.
+    pub zero_u_mm: Option<f64>,
     /// Time of the observation.
     pub stamp: Option<Stamp>,
     /// The relief of the grating that is touched.

@@ -146,8 +146,9 @@ impl<S: SampleSink> SampleSink for Select<S> {
             depth_step: sample.depth_step.filter(|_| kept(Field::DepthStep)),
             repeat: sample.repeat.filter(|_| kept(Field::Repeat)),
             phase: sample.phase.filter(|_| kept(Field::Phase)),
-            // Always kept: `limited_by`, like the id, has no `Field`.
+            // Always kept: like the id, these have no `Field`.
             limited_by: sample.limited_by,
+            zero_u_mm: sample.zero_u_mm,
             stamp: sample.stamp.filter(|_| kept(Field::Stamp)),
             kind: sample.kind.filter(|_| kept(Field::Kind)),
             spacing: sample.spacing.filter(|_| kept(Field::Spacing)),

@@ -19,7 +19,7 @@ KEYS = ("sample", "id", "sample_id", "index")
 _AGREE = {"point_id": 0.0, "frame_sha256": 0.0, "t_s": 0.0005}
 
 #: Columns that are no channels.
-_BESIDE = {*KEYS, *_AGREE, "scene", "unit_id", "repeat", "depth_step", "phase", "part", "kind", "spacing_mm", "intensity"}
+_BESIDE = {*KEYS, *_AGREE, "scene", "unit_id", "repeat", "depth_step", "phase", "part", "kind", "spacing_mm", "zero_u_mm", "intensity"}
 
 _SIX = ("Px", "Py", "Pz", "Fx", "Fy", "Fz")
 

@@ -256,7 +256,7 @@ class Dataset:
         return xarray.DataArray(np.array(self.labels()), dims=("sample", "channel"), coords=coordinates, name="labels", attrs=facts)
 
     def _units_of(self, columns: Sequence[str]) -> dict[str, str]:
-        units = {"t_s": "s", "spacing_mm": "mm", **self.units}
+        units = {"t_s": "s", "spacing_mm": "mm", "zero_u_mm": "mm", **self.units}
         return {name: units[name] for name in columns if name in units}
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:

@@ -74,6 +74,13 @@ impl Sample {
         self
     }
 
+    /// The same sample with the standard uncertainty of the height from which its depth counts, in mm.
+    #[must_use]
+    pub fn with_zero_u_mm(mut self, zero_u_mm: impl Into<Option<f64>>) -> Sample {
+        self.zero_u_mm = zero_u_mm.into();
+        self
+    }
+
     /// The same sample with its time.
     #[must_use]
     pub fn with_stamp(mut self, stamp: impl Into<Option<Stamp>>) -> Sample {

@@ -328,7 +328,6 @@ impl Recorder {
     }
 
     fn row(&self, sample: &Sample, frame: Option<FrameEntry>) -> Row {
-        let channels = self.table.channels().len();
         Row {
             sample: sample.id.clone(),
             point_id: sample.point_id.clone(),
@@ -338,6 +337,7 @@ impl Recorder {
             repeat: sample.repeat,
             phase: sample.phase,
             limited_by: sample.limited_by,
+            zero_u_mm: sample.zero_u_mm,
             source_table: None,
             source_row: None,
             source_frame: None,
@@ -349,7 +349,7 @@ impl Recorder {
             intensity: sample
                 .intensity
                 .or_else(|| sample.frame.as_ref().map(Frame::mean_luma)),
-            truth: (0..channels)
+            truth: (0..self.table.channels().len())
                 .map(|position| sample.truth.get(position))
                 .collect(),
             attributes: Vec::new(),

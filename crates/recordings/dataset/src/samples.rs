@@ -50,6 +50,7 @@ mod tests {
                 repeat: Some(u32::MAX - u32::from(row)),
                 phase: is_even.then_some(Phase::Load),
                 limited_by: (row == 4).then_some(Limit::NormalForce),
+                zero_u_mm: is_even.then_some(0.004),
                 t_s: Some(1.7e9 + f64::from(row)),
                 kind: is_even.then_some(GratingKind::Dot),
                 spacing: Some(Nanometre(350_000 + i64::from(row))),

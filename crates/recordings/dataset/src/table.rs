@@ -46,6 +46,7 @@ pub struct Table {
     repeat: Vec<Option<u32>>,
     phase: Vec<Option<Phase>>,
     limited_by: Vec<Option<Limit>>,
+    zero_u_mm: Vec<Option<f64>>,
     source_table: Vec<Option<String>>,
     source_row: Vec<Option<u32>>,
     source_frame: Vec<Option<String>>,
@@ -68,7 +69,7 @@ impl Table {
     /// use taceva_dataset::Table;
     /// assert!(Table::NAMES.contains(&"point_id") && !Table::NAMES.contains(&"Fz"));
     /// ```
-    pub const NAMES: [&'static str; 18] = RESERVED;
+    pub const NAMES: [&'static str; 19] = RESERVED;
 
     /// A table without rows.
     pub fn new(channels: Channels, attribute_names: Vec<String>) -> Table {
@@ -101,6 +102,7 @@ impl Table {
         self.repeat.push(row.repeat);
         self.phase.push(row.phase);
         self.limited_by.push(row.limited_by);
+        self.zero_u_mm.push(row.zero_u_mm);
         self.source_table.push(row.source_table);
         self.source_row.push(row.source_row);
         self.source_frame.push(row.source_frame);
@@ -184,6 +186,11 @@ impl Table {
     /// The limit of the gel that stopped the tip before its target, of each row.
     pub fn limited_by(&self) -> &[Option<Limit>] {
         &self.limited_by
+    }
+
+    /// Standard uncertainty of the height from which the depth of each row counts, mm.
+    pub fn zero_u_mm(&self) -> &[Option<f64>] {
+        &self.zero_u_mm
     }
 
     /// The table of the lab from which each row was imported, relative to its folder.
@@ -306,6 +313,7 @@ impl Table {
         sample.repeat = self.repeat[row].filter(|_| wanted(Field::Repeat));
         sample.phase = self.phase[row].filter(|_| wanted(Field::Phase));
         sample.limited_by = self.limited_by[row];
+        sample.zero_u_mm = self.zero_u_mm[row];
         sample.stamp = stamp.map(|valid_s| Stamp {
             valid_s,
             received_s: None,
@@ -358,6 +366,7 @@ impl Table {
             named("repeat", Cells::Count(&self.repeat)),
             named("phase", Cells::Phase(&self.phase)),
             named("limited_by", Cells::Limit(&self.limited_by)),
+            named("zero_u_mm", Cells::Measured(&self.zero_u_mm)),
             named("source_table", Cells::Text(&self.source_table)),
             named("source_row", Cells::Count(&self.source_row)),
             named("source_frame", Cells::Text(&self.source_frame)),

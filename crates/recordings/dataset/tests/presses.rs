@@ -133,3 +133,48 @@ fn a_press_that_a_limit_ended_is_counted_by_its_limit_though_it_has_no_sample() 
     let sample = dataset.table().sample(5, FieldSet::EMPTY, None);
     assert_eq!(sample.limited_by, Some(Limit::ShearForce));
 }
+
+#[test]
+fn the_uncertainty_of_the_zero_of_depths_outlives_an_interruption_and_others_have_none() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("r");
+    let mut recorder = recorded(&path);
+    let mut samples = press("c");
+    for sample in &mut samples[..2] {
+        sample.zero_u_mm = Some(0.1 / 3.0);
+    }
+    recorder
+        .append_press("c", PressOutcome::Complete, &samples)
+        .expect("recorded");
+    drop(recorder);
+    Recorder::resume(&path)
+        .expect("resumes")
+        .close()
+        .expect("closes");
+    let dataset = Dataset::open(&path).expect("a dataset");
+    let stated = Some(0.1 / 3.0);
+    let expected = [None, None, None, stated, stated, None];
+    assert_eq!(dataset.table().zero_u_mm(), expected);
+    let sample = dataset.table().sample(4, FieldSet::EMPTY, None);
+    assert_eq!(sample.zero_u_mm, stated);
+}
+
+#[test]
+fn a_table_without_fitted_zeros_has_no_column_of_their_uncertainty() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("r");
+    recorded(&path).close().expect("closes");
+    let dataset = Dataset::open(&path).expect("a dataset");
+    let columns = dataset.table().columns();
+    assert!(columns.iter().all(|column| column.name != "zero_u_mm"));
+}
+
+#[test]
+fn an_uncertainty_that_is_no_number_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut recorder = recorded(&folder.path().join("r"));
+    let mut samples = press("c");
+    samples[1].zero_u_mm = Some(f64::NAN);
+    let refused = recorder.append_press("c", PressOutcome::Complete, &samples);
+    assert!(matches!(refused, Err(DatasetError::Sample { .. })));
+}

@@ -64,7 +64,7 @@ pub use predict::{
     predicted_table, truth,
 };
 pub use provenance::{choices, model as model_provenance, of as provenance_of};
-pub use recordings::reduced;
+pub use recordings::{depth_zeros, reduced};
 pub use report::skipped;
 pub use row_ledger::Taken;
 pub use rows::{DataPart, Divided, Need, require_samples, usable};

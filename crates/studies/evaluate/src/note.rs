@@ -70,6 +70,19 @@ pub enum Note {
         /// The message of the import.
         words: String,
     },
+    /// Standard uncertainty of the heights from which depths count.
+    DepthZeros {
+        /// The recording, if several were joined.
+        recording: Option<String>,
+        /// Median over the samples with one, mm.
+        median_mm: f64,
+        /// The greatest, mm.
+        most_mm: f64,
+        /// Samples with a depth that have none.
+        without: usize,
+        /// Samples with a depth.
+        of: usize,
+    },
     /// Angles between predicted and true rotations.
     Rotation {
         /// The channels of the rotation.

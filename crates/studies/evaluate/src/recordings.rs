@@ -168,6 +168,29 @@ pub fn reduced(dataset: &Dataset) -> Vec<Note> {
     })
 }
 
+/// Uncertainty of the heights from which depths count, for recordings whose depths count from a fitted surface.
+pub fn depth_zeros(dataset: &Dataset) -> Vec<Note> {
+    of_each(dataset, |recording, name| {
+        depth_zero(recording, name).into_iter().collect()
+    })
+}
+
+fn depth_zero(recording: &Dataset, name: Option<&str>) -> Option<Note> {
+    let table = recording.table();
+    let depths = table.truth(table.channels().position("Pz")?);
+    let with_depth = (0..table.rows()).filter(|row| depths.get(*row).is_some());
+    let deviations: Vec<Option<f64>> = with_depth.map(|row| table.zero_u_mm()[row]).collect();
+    let mut stated: Vec<f64> = deviations.iter().copied().flatten().collect();
+    stated.sort_by(f64::total_cmp);
+    Some(Note::DepthZeros {
+        recording: name.map(str::to_owned),
+        median_mm: *stated.get(stated.len() / 2)?,
+        most_mm: *stated.last()?,
+        without: deviations.len() - stated.len(),
+        of: deviations.len(),
+    })
+}
+
 /// The view used, for recordings whose samples have several pictures.
 pub(crate) fn viewed(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
@@ -268,5 +291,58 @@ impl Clusters {
             points: self.points,
             least: LEAST_CLUSTERS,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{Channel, Channels, Clock, PressOutcome, Readings, Sample};
+    use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
+
+    use super::*;
+
+    /// The note on a recording of presses to 1 mm with these uncertainties of their zeros.
+    fn note(channel: Channel, zeros_u_mm: &[Option<f64>]) -> Vec<Note> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("pressed");
+        let facts = RecordingFacts::new(
+            Source::Synthetic,
+            Clock::Monotonic,
+            SensorFacts::new("a drawn gel"),
+        );
+        let spec = RecordingSpec::new(facts, Channels::new([channel]).expect("one"));
+        let mut recorder = Recorder::create(&path, &spec).expect("new");
+        let samples: Vec<Sample> = zeros_u_mm
+            .iter()
+            .enumerate()
+            .map(|(number, zero_u_mm)| {
+                Sample::new(format!("{number}"))
+                    .with_truth(Readings::from_values([1.0]))
+                    .with_zero_u_mm(*zero_u_mm)
+            })
+            .collect();
+        let recorded = recorder.append_press("press", PressOutcome::Complete, &samples);
+        recorded.expect("recorded");
+        recorder.close().expect("closed");
+        depth_zeros(&Dataset::open(&path).expect("a dataset"))
+    }
+
+    #[test]
+    fn fitted_zeros_are_noted_with_their_median_and_the_samples_without() {
+        let expected = Note::DepthZeros {
+            recording: None,
+            median_mm: 0.005,
+            most_mm: 0.02,
+            without: 1,
+            of: 4,
+        };
+        let found = note(Channel::PZ, &[Some(0.02), None, Some(0.004), Some(0.005)]);
+        assert_eq!(found, [expected]);
+    }
+
+    #[test]
+    fn without_fitted_zeros_or_depths_nothing_is_noted() {
+        assert_eq!(note(Channel::PZ, &[None, None]), []);
+        assert_eq!(note(Channel::FZ, &[Some(0.004)]), []);
     }
 }

@@ -29,16 +29,16 @@ pub use rig_file::{
     RigOperator, RigRobot, RigSensor, SignedAxes, Taught, TeachError,
 };
 pub use run::{
-    Answer, Cancel, ChangedTouch, Controls, Devices, Enabling, Event, Left, Mode, MotionStage,
-    Observation, Operator, Oversight, PressLog, PressRecord, Question, ReferenceTouch, RunError,
-    RunReport, RunSpec, SessionRecord, SessionSpec, SharedSupervisor, SpecimenChanger, Spot,
-    StopCause, Supervisor, TapError, TapHeard, TapListener, Tapped, Timekeeper, TouchFault, Trip,
-    raise, run, run_guarded, tap, wrench_between,
+    Answer, Cancel, ChangedTouch, Controls, DepthZero, Devices, Enabling, Event, Left, Mode,
+    MotionStage, Observation, Operator, Oversight, PressLog, PressRecord, Question, ReferenceTouch,
+    RunError, RunReport, RunSpec, SessionRecord, SessionSpec, SharedSupervisor, SpecimenChanger,
+    Spot, StopCause, Supervisor, TapError, TapHeard, TapListener, Tapped, Timekeeper, TouchFault,
+    Trip, ZeroUnknown, raise, run, run_guarded, tap, wrench_between,
 };
 pub use scene::{
-    BuiltinScene, Calibration, Contact, DeviceSpec, FootprintSpec, GratingClassifier, Gratings,
-    Hysteresis, Idle, LightSweep, LightingSpec, MetricSettings, MetricsSpec, ModelSpec, Protocol,
-    Repeatability, ReportSpec, Scene, SensorSpec, Shape, Spatial, Study, SurfaceMap,
+    BuiltinScene, Calibration, Contact, DepthOrigin, DeviceSpec, FootprintSpec, GratingClassifier,
+    Gratings, Hysteresis, Idle, LightSweep, LightingSpec, MetricSettings, MetricsSpec, ModelSpec,
+    Protocol, Repeatability, ReportSpec, Scene, SensorSpec, Shape, Spatial, Study, SurfaceMap,
 };
 pub use source::{RecordingInfo, RigInfo, SourceInfo};
 pub use taceva_core::Specimen;

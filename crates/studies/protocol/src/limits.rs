@@ -17,7 +17,7 @@ use crate::text::{SceneError, SceneProblem, Setting, Text};
 /// mm, N and mm/s.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct RigLimits {
-    /// Deepest indentation, from the first contact.
+    /// Deepest indentation, from the zero of the press: the fitted surface, or the first contact.
     pub depth_max: Millimetre,
     /// Greatest normal force.
     pub normal_max: Newton,

@@ -28,7 +28,7 @@ use crate::frame_size::FrameSize;
 use crate::limits::RigLimits;
 use crate::phase_kind::PhaseKind;
 use crate::reason::{PlanReason, PlanSkip, Subject};
-use crate::scene::{Contact, Scene, Study};
+use crate::scene::{Contact, DepthOrigin, Scene, Study};
 use crate::source::SourceInfo;
 use crate::text::{SceneError, SceneProblem};
 use collect::Collected;
@@ -86,6 +86,10 @@ impl Plan {
             .number(contact.settle_s.value)
             .number(contact.speed_mm_s.value)
             .count(self.presses.len());
+        let hasher = match contact.depth_from.value {
+            DepthOrigin::Surface => hasher.text("depth from the surface"),
+            DepthOrigin::Contact => hasher,
+        };
         let hasher = match self.kept_frames {
             Some(kept) => hasher.text("frames").text(&kept.to_string()),
             None => hasher,
@@ -136,6 +140,12 @@ impl Plan {
                     .unwrap_or(default.reference_scene),
             )
             .with_frame_size(self.frame.map(|frame| [frame.width, frame.height]))
+    }
+
+    /// True if a metric reads depths.
+    pub(crate) fn reads_depth(&self) -> bool {
+        let reads = |metric: &PlannedMetric| metric.channels.iter().any(|name| name == "Pz");
+        self.metrics.iter().any(reads)
     }
 
     /// Presses of one phase, in order.

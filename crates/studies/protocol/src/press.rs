@@ -37,10 +37,10 @@ pub enum Motion {
     Indent(Vec<Waypoint>),
 }
 
-/// Position at which the tip rests for a sample, relative to the first contact.
+/// Position at which the tip rests for a sample, relative to the zero of the press.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Waypoint {
-    /// Depth below the first contact.
+    /// Depth below the zero of the press.
     pub depth: Nanometre,
     /// Offset along x and y from the place of the press.
     pub shear: [Nanometre; 2],

@@ -11,6 +11,7 @@ mod by_hand;
 mod camera;
 mod change;
 mod clearance;
+mod depth_zero;
 mod devices;
 mod enabling_wait;
 mod error;
@@ -35,6 +36,7 @@ mod session;
 mod session_start;
 mod stride;
 mod supervisor;
+mod surface_fit;
 mod tap;
 #[cfg(test)]
 mod tests;
@@ -45,6 +47,7 @@ mod zero;
 
 pub use align::wrench_between;
 pub use clearance::raise;
+pub use depth_zero::{DepthZero, ZeroUnknown};
 pub use devices::{Devices, SpecimenChanger};
 pub use error::{Left, RunError, StopCause};
 pub use event::Event;

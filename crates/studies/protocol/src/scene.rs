@@ -5,6 +5,7 @@ mod builtin;
 mod check;
 mod classifier;
 mod counts;
+mod depth_origin;
 mod devices;
 mod metrics;
 mod study;
@@ -15,6 +16,7 @@ pub use counts::{
     Calibration, Contact, Gratings, Hysteresis, Idle, LightSweep, Protocol, Repeatability, Spatial,
     SurfaceMap,
 };
+pub use depth_origin::DepthOrigin;
 pub use devices::{DeviceSpec, FootprintSpec, LightingSpec, ModelSpec, SensorSpec, Shape};
 pub use metrics::{MetricSettings, MetricsSpec, ReportSpec};
 pub use study::Study;

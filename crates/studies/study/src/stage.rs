@@ -12,7 +12,9 @@ use taceva_protocol::PhaseKind;
 
 use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_evaluate::EvaluateError;
-use taceva_evaluate::{Bounded, Context, Note, ScoredRows, calibration, choices, reduced};
+use taceva_evaluate::{
+    Bounded, Context, Note, ScoredRows, calibration, choices, depth_zeros, reduced,
+};
 use taceva_evaluate::{CachedStage, Key};
 use taceva_evaluate::{DataPart, Divided, Need, usable};
 use taceva_evaluate::{FitPlan, FitRequest, Recipe};
@@ -83,6 +85,7 @@ pub(crate) fn assess(
     notes.extend(spacings.as_ref().map(|_| Note::Spacings(classifier.note())));
     notes.extend(phase_rows.shortfall());
     notes.extend(reduced(dataset));
+    notes.extend(depth_zeros(dataset));
     let sessions = RecordedSessions::of(dataset.path());
     notes.extend(sessions.map(|sessions| Note::Sessions(sessions.note)));
     let retries = frame_retries(dataset.path());

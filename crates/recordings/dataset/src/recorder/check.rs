@@ -20,7 +20,8 @@ impl Recorder {
             )));
         }
         let times = sample.stamp.iter().map(|stamp| stamp.valid_s);
-        let mut numbers = values.iter().copied().flatten().chain(times);
+        let numbers = values.iter().copied().flatten().chain(times);
+        let mut numbers = numbers.chain(sample.zero_u_mm);
         if let Some(number) = numbers.find(|number| !is_scorable(*number)) {
             return Err(refused(format!(
                 "{number:e} is no finite number up to {MAGNITUDE_MAX:.3e}"

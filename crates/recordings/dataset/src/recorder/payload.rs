@@ -106,6 +106,8 @@ pub(super) struct WrittenSample {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     limited_by: Option<Limit>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    zero_u_mm: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     t_s: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     kind: Option<GratingKind>,
@@ -202,6 +204,7 @@ impl WrittenSample {
             repeat: row.repeat,
             phase: row.phase,
             limited_by: row.limited_by,
+            zero_u_mm: row.zero_u_mm,
             t_s: row.t_s,
             kind: row.kind,
             spacing_nm: row.spacing.map(|spacing| spacing.0),
@@ -244,6 +247,7 @@ impl WrittenSample {
             .values()
             .chain(&self.t_s)
             .chain(&self.intensity)
+            .chain(&self.zero_u_mm)
             .any(|number| !taceva_core::is_scorable(*number))
         {
             return Err("a number that is not finite, or too large to be scored".to_owned());
@@ -261,6 +265,7 @@ impl WrittenSample {
             repeat: self.repeat,
             phase: self.phase,
             limited_by: self.limited_by,
+            zero_u_mm: self.zero_u_mm,
             source_table: None,
             source_row: None,
             source_frame: None,

@@ -101,6 +101,7 @@ pub(super) fn assemble(
                 .ok_or_else(|| format!("row {row}: no such phase"))?,
             limited_by: known(columns.text("limited_by", row)?, Limit::from_name)
                 .ok_or_else(|| format!("row {row}: no such limit"))?,
+            zero_u_mm: columns.number("zero_u_mm", row)?,
             source_table: columns.text("source_table", row)?,
             source_row: columns.count("source_row", row)?,
             source_frame: columns.text("source_frame", row)?,

@@ -6,7 +6,7 @@ use super::FrameEntry;
 use crate::digest::PartsDigest;
 
 /// The names of the columns on disk that are no channels; channels and attributes must have other names.
-pub const RESERVED: [&str; 18] = [
+pub const RESERVED: [&str; 19] = [
     "sample",
     "point_id",
     "unit_id",
@@ -15,6 +15,7 @@ pub const RESERVED: [&str; 18] = [
     "repeat",
     "phase",
     "limited_by",
+    "zero_u_mm",
     "source_table",
     "source_row",
     "source_frame",

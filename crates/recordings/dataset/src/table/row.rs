@@ -115,6 +115,8 @@ pub struct Row {
     pub phase: Option<Phase>,
     /// The limit of the gel that stopped the tip before its target.
     pub limited_by: Option<Limit>,
+    /// Standard uncertainty of the height from which the depth counts, mm.
+    pub zero_u_mm: Option<f64>,
     /// The table of the import, relative to the folder of the lab, or the file that was the row.
     pub source_table: Option<String>,
     /// The row in that table, from 0.

@@ -42,6 +42,7 @@ impl Table {
             repeat: other.repeat[row],
             phase: other.phase[row],
             limited_by: other.limited_by[row],
+            zero_u_mm: other.zero_u_mm[row],
             source_table: other.source_table[row].clone(),
             source_row: other.source_row[row],
             source_frame: other.source_frame[row].clone(),

@@ -105,7 +105,8 @@ fn write_column(
     let unit = exported.dataset.table().channels().by_name(name);
     let unit = unit.map(|channel| channel.unit().symbol()).or(match cells {
         Cells::Spacing(_) => Some("mm"),
-        Cells::Measured(_) => Some("s"),
+        Cells::Measured(_) if name == "t_s" => Some("s"),
+        Cells::Measured(_) if name == "zero_u_mm" => Some("mm"),
         _ => None,
     });
     let attributes: Vec<(&str, &str)> = unit.map(|unit| ("unit", unit)).into_iter().collect();

@@ -142,7 +142,7 @@ fn features(exported: &Exported<'_>) -> Vec<WrittenFeature> {
         let feature = WrittenFeature::new(column, [1]);
         features.push(match label.name {
             "t_s" => feature.with_unit("s"),
-            "spacing_mm" => feature.with_unit("mm"),
+            "spacing_mm" | "zero_u_mm" => feature.with_unit("mm"),
             _ => feature,
         });
     }

@@ -48,7 +48,7 @@ pub(super) fn quoted(text: &str) -> String {
 }
 
 /// Ids with the same name in a map and in the table.
-const IDS: [&str; 11] = [
+const IDS: [&str; 12] = [
     "sample",
     "point_id",
     "unit_id",
@@ -57,6 +57,7 @@ const IDS: [&str; 11] = [
     "repeat",
     "phase",
     "limited_by",
+    "zero_u_mm",
     "part",
     "kind",
     "spacing_mm",

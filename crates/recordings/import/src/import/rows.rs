@@ -47,6 +47,7 @@ pub(super) struct MappedTable<'a> {
     repeat: Option<usize>,
     phase: Option<usize>,
     limited_by: Option<usize>,
+    zero_u_mm: Option<usize>,
     part: Option<usize>,
     kind: Option<usize>,
     spacing: Option<usize>,
@@ -102,6 +103,7 @@ impl<'a> MappedTable<'a> {
             repeat: find_optional(&ids.repeat)?,
             phase: find_optional(&ids.phase)?,
             limited_by: find_optional(&ids.limited_by)?,
+            zero_u_mm: find_optional(&ids.zero_u_mm)?,
             part: find_optional(&ids.part)?,
             kind: find_optional(&ids.kind)?,
             spacing: find_optional(&ids.spacing_mm)?,
@@ -241,6 +243,7 @@ impl<'a> MappedTable<'a> {
         read.repeat = self.count(row, self.repeat)?;
         read.phase = self.phase(row)?;
         read.limited_by = self.limited_by(row)?;
+        read.zero_u_mm = self.zero_u_mm(row)?;
         read.source_table = source_table;
         read.source_row = source_row;
         read.source_frame = text(frame);

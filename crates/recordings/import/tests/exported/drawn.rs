@@ -69,6 +69,7 @@ pub(crate) fn recorded(folder: &Path) -> Dataset {
         sample.depth_step = (number % 4 != 0).then_some(u32::from(number % 10));
         sample.phase = (number % 3 != 0).then_some(Phase::Unload);
         sample.limited_by = (number % 10 == 9).then_some(Limit::NormalForce);
+        sample.zero_u_mm = (number % 5 != 0).then_some(0.004 / f64::from(number));
         sample.scene_id = (number < 500).then(|| "dark, \"room\"".to_owned());
         recorder.append(&sample).expect("recorded");
     }

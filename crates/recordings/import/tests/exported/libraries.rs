@@ -115,6 +115,7 @@ fn is_read(python: &Path, dataset: &Dataset, (form, reader): (ExportForm, &str))
         "repeat",
         "phase",
         "limited_by",
+        "zero_u_mm",
         "part",
         "kind",
         "spacing_mm",
@@ -197,6 +198,14 @@ fn each_form_is_read_by_the_libraries_that_it_is_for() {
         is_read(&python, &dataset, (ExportForm::HuggingFace, "huggingface"));
         let arrays = is_read(&python, &dataset, (ExportForm::Hdf5, "hdf5"));
         assert_eq!(arrays.columns["Fz@unit"], [Some("N".to_owned())]);
+        for (column, unit) in [("t_s", "s"), ("zero_u_mm", "mm"), ("intensity", "")] {
+            let units = arrays.columns.get(&format!("{column}@unit"));
+            let found = units.and_then(|units| units[0].as_deref());
+            assert!(
+                found.is_none_or(|found| found == unit),
+                "{column}: {found:?}"
+            );
+        }
         is_read(&python, &dataset, (ExportForm::LeRobot, "layout"));
     }
 }

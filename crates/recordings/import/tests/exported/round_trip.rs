@@ -46,6 +46,7 @@ fn comes_back(dataset: &Dataset, form: ExportForm) -> Dataset {
         "repeat",
         "phase",
         "limited_by",
+        "zero_u_mm",
         "part",
         "kind",
         "spacing_mm",

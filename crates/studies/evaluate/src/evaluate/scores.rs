@@ -109,6 +109,7 @@ pub fn score(
     notes.extend(few_points);
     notes.extend(recordings::extended(dataset));
     notes.extend(recordings::reduced(dataset));
+    notes.extend(recordings::depth_zeros(dataset));
     notes.extend(recordings::viewed(dataset));
     notes.extend(recordings::imported(dataset));
     notes.extend(rotations(dataset, predicted));

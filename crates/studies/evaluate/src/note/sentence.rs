@@ -68,6 +68,27 @@ impl fmt::Display for Note {
             Note::Imported { recording, words } => {
                 write!(f, "{}import: {}", of(recording), shown(words))
             }
+            Note::DepthZeros {
+                recording,
+                median_mm,
+                most_mm,
+                without,
+                of: all,
+            } => {
+                write!(
+                    f,
+                    "{}Pz counts from the surface of the gel, fitted for each press: standard uncertainty {median_mm:.3} mm (median), \
+                     at most {most_mm:.3} mm",
+                    of(recording)
+                )?;
+                match without {
+                    0 => Ok(()),
+                    without => write!(
+                        f,
+                        "; {without} of {all} samples count from the first reading in contact, with unknown uncertainty"
+                    ),
+                }
+            }
             Note::Rotation {
                 channels,
                 samples,

@@ -36,6 +36,31 @@ fn a_column_of_unit_one_is_named_with_the_channel_that_it_may_be() {
 }
 
 #[test]
+fn depths_state_the_uncertainty_of_their_zero_and_how_many_have_none() {
+    let note = |without| {
+        let note = Note::DepthZeros {
+            recording: Some("lab".to_owned()),
+            median_mm: 0.004_4,
+            most_mm: 0.012,
+            without,
+            of: 480,
+        };
+        note.to_string()
+    };
+    assert_eq!(
+        note(0),
+        "lab: Pz counts from the surface of the gel, fitted for each press: standard uncertainty 0.004 mm (median), at most 0.012 mm"
+    );
+    let some = note(3);
+    assert!(
+        some.ends_with(
+            "; 3 of 480 samples count from the first reading in contact, with unknown uncertainty"
+        ),
+        "{some}"
+    );
+}
+
+#[test]
 fn a_detection_limit_names_the_presses_that_it_stands_on_or_the_reason_that_there_is_none() {
     let score = |metric: &str, value: Option<f64>| {
         let mut score = Score::of_number(metric, "Fz", value.unwrap_or_default(), Unit::Newton);

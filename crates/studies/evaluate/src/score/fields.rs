@@ -6,7 +6,7 @@ use taceva_import::CsvTable;
 use crate::error::EvaluateError;
 
 /// Columns of a table that are no channels, besides row keys.
-pub(super) const NOT_CHANNELS: [&str; 12] = [
+pub(super) const NOT_CHANNELS: [&str; 13] = [
     "point_id",
     "scene",
     "unit_id",
@@ -16,6 +16,7 @@ pub(super) const NOT_CHANNELS: [&str; 12] = [
     "part",
     "kind",
     "spacing_mm",
+    "zero_u_mm",
     "intensity",
     "t_s",
     "frame_sha256",

@@ -14,7 +14,7 @@ use crate::press::Waypoint;
 const DRAW_BACKS: u32 = 32;
 
 impl Run<'_> {
-    /// Visits the waypoints below a first contact at `height_mm`.
+    /// Visits the waypoints, whose depths count from `height_mm`.
     ///
     /// If a limit of the gel stops the tip, it draws back until it may rest and takes the sample of that waypoint there. Deeper waypoints
     /// are skipped. Waypoints on the way out are visited from that depth.

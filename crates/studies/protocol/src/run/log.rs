@@ -2,6 +2,7 @@
 
 use taceva_core::{Frame, PressOutcome, Sample, SinkError};
 
+use super::depth_zero::DepthZero;
 use super::reference_touch::SessionRecord;
 use crate::content_id::ContentId;
 
@@ -40,9 +41,11 @@ pub struct PressRecord {
     pub press: ContentId,
     /// Outcome.
     pub outcome: PressOutcome,
+    /// Height from which depths count; `None` for a press that does not indent or has no contact.
+    pub zero: Option<DepthZero>,
     /// Samples in order, named `<press>/<number>` by waypoint or picture. Waypoints that a limited press skipped have no sample.
     ///
-    /// Truth holds the channels of the plan, in its order. `Pz` is the depth from the first contact. `surface_z` is the height of the felt surface in
+    /// Truth holds the channels of the plan, in its order. `Pz` is the depth from the zero of the press. `surface_z` is the height of the felt surface in
     /// the sensor's frame, positive into the gel. A press gives one of the two. A sample that a limit stopped before its waypoint names the limit and
     /// has no `depth_step`.
     pub samples: Vec<Sample>,

@@ -1,8 +1,9 @@
 //! One press: sets specimen, light and place, then executes the motion.
 
-use taceva_core::{Degree, Millimetre, Nanometre, PressOutcome};
+use taceva_core::{Degree, Nanometre, PressOutcome};
 
 use super::align::Look;
+use super::depth_zero::{DepthZero, ZeroUnknown};
 use super::error::StopCause;
 use super::event::Event;
 use super::log::{PressLog, PressRecord};
@@ -12,6 +13,7 @@ use super::session::Run;
 use super::tip::{DEADLINE, Step, Tip};
 use crate::plan::PlannedPress;
 use crate::press::Motion;
+use crate::scene::DepthOrigin;
 
 impl Run<'_> {
     /// Makes one press, from the height of travel and back. Stores a picture without contact in `untouched` before, if given.
@@ -40,6 +42,7 @@ impl Run<'_> {
         Ok(PressRecord {
             press: planned.id,
             outcome,
+            zero: gathered.zero,
             samples: gathered.samples,
         })
     }
@@ -118,11 +121,20 @@ impl Run<'_> {
         let Some(contact) = self.tip.search()? else {
             return Ok(PressOutcome::NoContact);
         };
-        let height_mm = contact.pose.position.z.0;
-        let height = Millimetre(height_mm);
+        let height = contact.look.pose.position.z;
         (self.events)(&Event::Contact { height });
         match &press.motion {
-            Motion::Indent(_) => self.indent(planned, height_mm, gathered),
+            Motion::Indent(_) => {
+                let is_depth_read = self.plan.reads_depth();
+                let zero = match self.plan.contact.depth_from.value {
+                    DepthOrigin::Surface => self.tip.depth_zero(contact, is_depth_read)?,
+                    DepthOrigin::Contact => {
+                        DepthZero::at_contact(height.0, ZeroUnknown::CountedFromContact)
+                    }
+                };
+                gathered.zero = Some(zero);
+                self.indent(planned, zero.height.0, gathered)
+            }
             Motion::Touch | Motion::Rest { .. } => {
                 let rested = self.tip.settle()?;
                 self.sample(planned, Spot::reached(0, 0.0), rested, gathered)?;
@@ -141,6 +153,8 @@ impl Run<'_> {
         let camera = self.camera.as_mut().filter(|_| planned.frames);
         let observed = observe(before, &mut self.tip, camera, self.events)?;
         let sample = sample::sample(planned, spot, observed, &self.plan.channels);
+        let zero_u = gathered.zero.and_then(|zero| zero.uncertainty.ok());
+        let sample = sample.with_zero_u_mm(zero_u.map(|deviation| deviation.0));
         gathered.samples.push(sample);
         (self.events)(&Event::Sampled {
             number: gathered.samples.len() - 1,

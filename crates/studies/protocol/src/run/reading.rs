@@ -9,6 +9,7 @@ use super::error::StopCause;
 use super::halt_reason::Trip;
 use super::load_limit::Felt;
 use super::supervisor::Observation;
+use super::surface_fit::DepthForce;
 use super::tip::{DEADLINE, Step, Tip, is_silent};
 
 /// Deadline of one reading; reading is retried until the supervisor finds the force stale.
@@ -41,6 +42,12 @@ impl Tip<'_> {
         self.show(&observation)?;
         let wrench = self.supervisor.lock().zeroed(&reading.said);
         self.felt = Felt::of(&wrench);
+        if let Some(readings) = &mut self.readings {
+            readings.push(DepthForce {
+                z_mm: pose.position.z.0,
+                force_n: self.felt.normal_n,
+            });
+        }
         Ok(Look {
             wrench,
             wrench_s: reading.valid_s,

@@ -36,16 +36,22 @@ impl Tip<'_> {
     }
 
     /// After a halt at a limit: moves straight up by segments until the tip may rest, at most to the height of the first contact. Then
-    /// resumes the supervision of the press.
+    /// resumes the supervision of the press, whose depths count from `height_mm`.
     pub(super) fn draw_back(&mut self, height_mm: f64) -> Step<()> {
         self.turn_back()?;
+        let contact_mm = self.contact_mm.unwrap_or(height_mm);
+        // A waypoint may lie above the first contact: from there the tip draws back to the zero of depths.
+        let least_mm = match self.here().position.z.0 >= contact_mm {
+            true => contact_mm,
+            false => height_mm,
+        };
         loop {
             let Point { x, y, z } = self.here().position;
-            let up = (z.0 - self.pace.segment_mm).max(height_mm);
+            let up = (z.0 - self.pace.segment_mm).max(least_mm);
             self.approach([x.0, y.0, up])?;
             let wrench = self.look()?.wrench;
             let depth_mm = self.at.position.z.0 - height_mm;
-            if up <= height_mm || self.supervisor.lock().lets_rest(depth_mm, &wrench) {
+            if up <= least_mm || self.supervisor.lock().lets_rest(depth_mm, &wrench) {
                 break;
             }
         }

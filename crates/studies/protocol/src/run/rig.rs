@@ -201,6 +201,30 @@ impl Timekeeper for Rig {
     }
 }
 
+/// Pseudo-random numbers of a seed.
+pub(super) struct Draws(u64);
+
+impl Draws {
+    pub(super) fn new(seed: u64) -> Draws {
+        Draws(seed.wrapping_add(1))
+    }
+
+    /// A number from 0 to 1 (splitmix64).
+    pub(super) fn fraction(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = self.0;
+        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        let high = u32::try_from((mixed ^ (mixed >> 31)) >> 32).expect("32 bits");
+        f64::from(high) / f64::from(u32::MAX)
+    }
+
+    /// A normally distributed number, nearly: the sum of twelve even ones.
+    pub(super) fn normal(&mut self) -> f64 {
+        (0..12).map(|_| self.fraction()).sum::<f64>() - 6.0
+    }
+}
+
 /// Plan with 2 mm of clearance, 1 mm of depth, an overshoot of 0.25 mm and segments of 0.125 mm.
 pub(super) fn plan() -> Plan {
     let scene = Scene::parse("small", SMALL).expect("a scene");

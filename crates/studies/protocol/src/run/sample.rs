@@ -2,6 +2,7 @@
 
 use taceva_core::{Limit, Nanometre, Readings, Sample, Specimen};
 
+use super::depth_zero::DepthZero;
 use super::observe::Observed;
 use crate::plan::{PlannedPress, SURFACE};
 use crate::press::Motion;
@@ -28,9 +29,11 @@ impl Spot {
     }
 }
 
-/// Samples of a press so far.
+/// Samples of a press so far, and its zero.
 #[derive(Debug, Default)]
 pub(super) struct Gathered {
+    /// Height from which its depths count.
+    pub(super) zero: Option<DepthZero>,
     pub(super) samples: Vec<Sample>,
 }
 

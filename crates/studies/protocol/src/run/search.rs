@@ -2,21 +2,81 @@
 //!
 //! Once felt, a gel begins at a similar height elsewhere. Guard threads allow one motion through the steps that end well above it, and halt
 //! it at a collision. This saves the rest after each step. The remaining steps have the same heights as in a search without guard.
+//!
+//! The readings near the contact are kept, because depths may count from a surface that is fitted to them. Without guard threads they lie a
+//! segment apart. With them the strides are longer, so the tip passes the last steps again by segments where a metric reads depths.
 
 use taceva_core::Millimetre;
 
 use super::align::Look;
+use super::depth_zero::DepthZero;
 use super::error::StopCause;
 use super::halt_reason::Trip;
 use super::supervisor::MotionStage;
+use super::surface_fit::DepthForce;
 use super::tip::{Step, Tip};
 
 /// Greatest rise of the gel above the highest height felt so far, in mm: a millimetre on 20 is 3 degrees.
 const UNEVEN_MM: f64 = 0.4;
+/// Steps above the first contact whose readings the height of the gel is fitted to.
+const FITTED_STEPS: f64 = 6.0;
+/// Steps that a guarded tip passes again by segments.
+const PASSED_AGAIN_STEPS: f64 = 2.0;
+
+/// First contact of a press.
+#[derive(Clone, Debug)]
+pub(super) struct Contact {
+    /// First reading in contact.
+    pub(super) look: Look,
+    /// Readings of the search.
+    readings: Vec<DepthForce>,
+}
 
 impl Tip<'_> {
-    /// Descends until the gel is felt at the end of a step. Returns the reading there; `None` at the end of the search.
-    pub(super) fn search(&mut self) -> Step<Option<Look>> {
+    /// Descends until the gel is felt at the end of a step. Returns the first contact; `None` at the end of the search.
+    pub(super) fn search(&mut self) -> Step<Option<Contact>> {
+        let (look, readings) = self.recorded(Vec::new(), Self::search_by_steps)?;
+        Ok(look.map(|look| Contact { look, readings }))
+    }
+
+    /// Height from which the depths of a press count, after its first contact; the limit of depth counts from it from now on.
+    ///
+    /// A guarded tip passes the last steps again if `is_depth_read`.
+    pub(super) fn depth_zero(&mut self, contact: Contact, is_depth_read: bool) -> Step<DepthZero> {
+        let contact_mm = contact.look.pose.position.z.0;
+        let readings = match self.is_guarded && is_depth_read {
+            true => self.recorded(contact.readings, Self::pass_again)?.1,
+            false => contact.readings,
+        };
+        let window_mm = FITTED_STEPS * self.pace.step_mm;
+        let zero = DepthZero::of(&readings, contact_mm, window_mm);
+        let height_mm = zero.height.0;
+        self.watch(MotionStage::Press { height_mm });
+        Ok(zero)
+    }
+
+    /// Adds every reading of `act` to `readings`.
+    fn recorded<T>(
+        &mut self,
+        readings: Vec<DepthForce>,
+        act: impl FnOnce(&mut Self) -> Step<T>,
+    ) -> Step<(T, Vec<DepthForce>)> {
+        self.readings = Some(readings);
+        let done = act(self);
+        let readings = self.readings.take().unwrap_or_default();
+        Ok((done?, readings))
+    }
+
+    /// Rises by some steps in one motion, and descends by segments to where the tip was.
+    fn pass_again(&mut self) -> Step<()> {
+        let end_mm = self.target.position.z.0;
+        let mut above = self.target;
+        above.position.z = Millimetre(end_mm - PASSED_AGAIN_STEPS * self.pace.step_mm);
+        self.go(above, self.pace.contact)?;
+        self.descend(end_mm)
+    }
+
+    fn search_by_steps(&mut self) -> Step<Option<Look>> {
         let start_mm = self.target.position.z.0;
         let passed = self.pass_air(start_mm)?;
         self.watch(MotionStage::Search);
@@ -69,6 +129,8 @@ impl Tip<'_> {
             Err(StopCause::Tripped(Trip::UnexpectedContact { .. })) => {
                 self.surface_mm = None;
                 self.retreat()?;
+                // What was touched is not the gel.
+                self.readings = Some(Vec::new());
                 Ok(0)
             }
             Err(cause) => Err(cause),
@@ -100,7 +162,7 @@ impl Tip<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::rig::{CONTACT_MM, Motion, Rig, with_tip};
+    use crate::run::rig::{CONTACT_MM, Draws, Motion, Rig, with_tip};
 
     /// A gel that pushes back below its surface; readings differ.
     fn over_a_gel() -> Rig {
@@ -113,14 +175,14 @@ mod tests {
     /// Height of contact, and the motions of the search, after `know` has set the knowledge of the gel.
     fn found(know: impl FnOnce(&mut Tip<'_>, &Rig)) -> (f64, Vec<Motion>) {
         let rig = over_a_gel();
-        let look = with_tip(&rig, |tip| {
+        let contact = with_tip(&rig, |tip| {
             tip.release()?;
             tip.find_pose()?;
             know(tip, &rig);
             tip.search()
         });
-        let look = look.expect("no fault").expect("a gel");
-        (look.pose.position.z.0, rig.motions())
+        let contact = contact.expect("no fault").expect("a gel");
+        (contact.look.pose.position.z.0, rig.motions())
     }
 
     #[test]
@@ -167,5 +229,89 @@ mod tests {
             .position(|motion| motion.to_mm > motion.from_mm)
             .expect("it comes down again");
         assert_eq!(from_above[begins..], every[..]);
+    }
+
+    /// Zero of a press on a gel of 2 N/mm, read with 4 mN of noise in segments of 15 µm, and the stage after it.
+    ///
+    /// The seed draws where the steps meet the gel, as over a tilted one.
+    fn zero_of(seed: u32, is_guarded: bool) -> (DepthZero, MotionStage) {
+        let seed = u64::from(seed);
+        let start_mm = -2.0 + 0.1 * Draws::new(seed).fraction();
+        let rig = Rig::new(start_mm, move |question, height_mm| {
+            let noise = Draws::new((seed << 32) | u64::from(question)).normal();
+            Some(2.0 * (height_mm - CONTACT_MM).max(0.0) + 0.004 * noise)
+        });
+        let found = with_tip(&rig, |tip| {
+            tip.pace.segment_mm = 0.015;
+            tip.is_guarded = is_guarded;
+            tip.release()?;
+            tip.find_pose()?;
+            let contact = tip.search()?.expect("a gel");
+            let zero = tip.depth_zero(contact, true)?;
+            Ok::<_, StopCause>((zero, tip.stage))
+        });
+        found.expect("no fault")
+    }
+
+    #[test]
+    fn over_a_noisy_tilted_gel_depths_count_from_its_surface_within_their_uncertainty() {
+        for is_guarded in [false, true] {
+            let (mut sum, mut squares, mut held) = (0.0, 0.0, 0.0);
+            for seed in 0..100 {
+                let (zero, stage) = zero_of(seed, is_guarded);
+                let error_mm = zero.height.0 - CONTACT_MM;
+                let deviation = zero.uncertainty.expect("readings enough");
+                sum += error_mm;
+                squares += error_mm * error_mm;
+                held += f64::from(u8::from(error_mm.abs() <= 1.96 * deviation.0));
+                // The limit of depth counts from there too.
+                let height_mm = zero.height.0;
+                assert_eq!(stage, MotionStage::Press { height_mm });
+            }
+            let mean_mm: f64 = sum / 100.0;
+            let deviation_mm = (squares / 100.0 - mean_mm * mean_mm).sqrt();
+            assert!(mean_mm.abs() < 0.005, "{mean_mm}");
+            assert!(deviation_mm < 0.01, "{deviation_mm}");
+            assert!(held >= 95.0, "{held}");
+        }
+    }
+
+    #[test]
+    fn a_guarded_tip_passes_the_last_steps_again_only_where_depths_are_read() {
+        for is_depth_read in [false, true] {
+            let rig = over_a_gel();
+            let (before, contact_mm) = with_tip(&rig, |tip| {
+                tip.is_guarded = true;
+                tip.release()?;
+                tip.find_pose()?;
+                let contact = tip.search()?.expect("a gel");
+                let contact_mm = contact.look.pose.position.z.0;
+                let before = rig.motions().len();
+                tip.depth_zero(contact, is_depth_read)?;
+                Ok::<_, StopCause>((before, contact_mm))
+            })
+            .expect("no fault");
+            let again = &rig.motions()[before..];
+            assert_eq!(again.is_empty(), !is_depth_read);
+            if let [first, .., last] = again {
+                let up_mm = first.from_mm - first.to_mm;
+                assert!((up_mm - 0.2).abs() < 1e-9, "{again:?}");
+                assert_eq!(last.to_mm.to_bits(), contact_mm.to_bits());
+            }
+        }
+    }
+
+    #[test]
+    fn without_threads_the_zero_costs_no_motion() {
+        let rig = over_a_gel();
+        let before = with_tip(&rig, |tip| {
+            tip.release()?;
+            tip.find_pose()?;
+            let contact = tip.search()?.expect("a gel");
+            let before = rig.motions().len();
+            tip.depth_zero(contact, true)?;
+            Ok::<_, StopCause>(before)
+        });
+        assert_eq!(rig.motions().len(), before.expect("no fault"));
     }
 }

@@ -24,7 +24,11 @@ impl Tip<'_> {
             MotionStage::Retreat { .. } if is_straight_up(here, goal) => LONGEST_MM,
             MotionStage::Search if is_straight_down(here, goal) => bearing.unfelt_mm(),
             MotionStage::Press { height_mm } => {
-                bearing.room_mm(here.position.z.0 - height_mm, &self.felt)
+                // The stiffness counts from the first contact: from a surface that was fitted too high the gel would seem too soft.
+                let z_mm = here.position.z.0;
+                let contact_mm = self.contact_mm.unwrap_or(height_mm);
+                let room_mm = bearing.room_mm(z_mm - contact_mm, &self.felt);
+                room_mm.min(bearing.depth_max_mm - (z_mm - height_mm))
             }
             _ => segment_mm,
         };

@@ -15,6 +15,7 @@ use super::reading::READ_DEADLINE;
 
 use super::halt_reason::Trip;
 use super::supervisor::{MotionStage, SharedSupervisor};
+use super::surface_fit::DepthForce;
 use super::time::{Cancel, Timekeeper};
 use super::way::{distance, part_way, settled};
 use crate::limits::FROZEN_READINGS;
@@ -58,6 +59,8 @@ pub(super) struct Tip<'a> {
     pub(super) felt: Felt,
     /// Highest height at which the gel was felt, in mm.
     pub(super) surface_mm: Option<f64>,
+    /// Readings of the search in progress, or of its last steps passed again.
+    pub(super) readings: Option<Vec<DepthForce>>,
     /// True if the robot reported a fault: then a person must check it first.
     pub(super) robot_failed: bool,
     /// True while a retreat ignores cancellation.
@@ -146,6 +149,7 @@ impl<'a> Tip<'a> {
             stage: ANY_FORCE,
             felt: Felt::default(),
             surface_mm: None,
+            readings: None,
             robot_failed: false,
             ignores_cancel: false,
             is_box_zeroed: false,

@@ -6,6 +6,7 @@ use serde::Deserialize;
 use taceva_core::GratingKind;
 
 use super::classifier::GratingClassifier;
+use super::depth_origin::DepthOrigin;
 use crate::text::Setting;
 
 /// Declares a table of settings with its defaults.
@@ -60,6 +61,8 @@ table! {
         /// Normal force that counts as contact, in N.
         #[serde(rename = "threshold_N")]
         threshold_n: f64 = 0.02,
+        /// Height from which depths count.
+        depth_from: DepthOrigin = DepthOrigin::Contact,
         /// Height of travel and start of the search above the nominal surface, in mm.
         clearance_mm: f64 = 2.0,
         /// Depth below the nominal surface at which the search ends, in mm.

@@ -1,6 +1,6 @@
 //! Signals of a real rig: noisy poses, temporary gaps of readings, and a robot that stops by itself.
 
-use taceva_core::Fault;
+use taceva_core::{Fault, Nanometre};
 
 use super::bench::{Bench, Memory, SOFT};
 use crate::simulation::fault::{FaultKind, Faults};
@@ -8,6 +8,7 @@ use crate::simulation::gel::Gel;
 use crate::simulation::scenario::planned_scene;
 use taceva_protocol::Plan;
 use taceva_protocol::Signals;
+use taceva_protocol::{DepthOrigin, DepthZero, ZeroUnknown};
 use taceva_protocol::{Event, Left, Mode, StopCause, Trip};
 
 /// A robot that reports its pose with uniform noise of ±0.05 mm per axis.
@@ -73,6 +74,63 @@ fn the_same_robot_is_halted_without_allowance_for_its_noise() {
         "{error}"
     );
     assert_eq!(log.records.len(), 0);
+}
+
+#[test]
+fn by_default_depths_count_from_the_first_contact_and_no_uncertainty_is_stated() {
+    let mut plan = planned_scene(SCENE, 1, &SOFT).expect("a plan");
+    plan.presses.truncate(20);
+    let mut bench = Bench::with(SOFT, plan);
+    let mut log = Memory::default();
+    bench.run(Mode::Acquire, &mut log).expect("no faults");
+    let records = log.records.iter();
+    let zeros: Vec<DepthZero> = records.filter_map(|record| record.zero).collect();
+    assert!(!zeros.is_empty());
+    for zero in zeros {
+        assert_eq!(zero.uncertainty, Err(ZeroUnknown::CountedFromContact));
+    }
+    let mut samples = log.records.iter().flat_map(|record| &record.samples);
+    assert!(samples.all(|sample| sample.zero_u_mm.is_none()));
+}
+
+#[test]
+fn fitted_depths_count_from_the_uneven_surface_within_the_uncertainty_that_is_stated() {
+    let mut plan = planned_scene(SCENE, 1, &SOFT).expect("a plan");
+    plan.contact.depth_from.value = DepthOrigin::Surface;
+    plan.presses.truncate(100);
+    for press in &mut plan.presses {
+        press.frames = false;
+    }
+    let mut bench = Bench::with(SOFT, plan);
+    let mut log = Memory::default();
+    bench.run(Mode::Acquire, &mut log).expect("no faults");
+    let (mut zeros, mut sum_mm, mut held) = (0.0, 0.0, 0.0);
+    for record in &log.records {
+        let Some(zero) = record.zero else { continue };
+        let mut presses = bench.plan.presses.iter();
+        let planned = presses.find(|press| press.id == record.press);
+        let place = planned.expect("it was planned").press.place;
+        let surface_mm = bench
+            .shared
+            .world()
+            .surface(place.map(Nanometre::to_millimetres));
+        let error_mm = zero.height.0 - surface_mm;
+        let deviation = zero.uncertainty.expect("readings enough");
+        zeros += 1.0;
+        sum_mm += error_mm;
+        held += f64::from(u8::from(error_mm.abs() <= 1.96 * deviation.0));
+        let stated = Some(deviation.0);
+        assert!(
+            record
+                .samples
+                .iter()
+                .all(|sample| sample.zero_u_mm == stated)
+        );
+    }
+    assert!(zeros > 50.0, "{zeros}");
+    assert!((sum_mm / zeros).abs() < 0.012, "{}", sum_mm / zeros);
+    assert!(held / zeros >= 0.93, "{}", held / zeros);
+    assert_eq!(bench.shared.world().oracle.violations, []);
 }
 
 /// A bench whose transducer is silent from `from_s` on, for `lasting_s`.

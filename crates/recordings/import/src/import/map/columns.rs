@@ -79,6 +79,8 @@ pub struct IdMap {
     pub phase: Option<String>,
     /// Limit of the gel that ended a press, such as `normal-force`.
     pub limited_by: Option<String>,
+    /// Standard uncertainty of the height from which a depth counts, mm.
+    pub zero_u_mm: Option<String>,
     /// Part of a declared split.
     pub part: Option<String>,
     /// Relief of a grating: `line` or `dot`.

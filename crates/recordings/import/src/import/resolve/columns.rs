@@ -35,6 +35,7 @@ pub(super) fn mentioned(map: &ImportMap) -> Vec<String> {
         &ids.repeat,
         &ids.phase,
         &ids.limited_by,
+        &ids.zero_u_mm,
         &ids.part,
         &ids.kind,
         &ids.spacing_mm,

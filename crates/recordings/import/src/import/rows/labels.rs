@@ -73,6 +73,13 @@ impl MappedTable<'_> {
         })
     }
 
+    pub(super) fn zero_u_mm(&self, row: usize) -> Result<Option<f64>, ImportError> {
+        match self.zero_u_mm {
+            Some(column) => self.table.number(row, column),
+            None => Ok(None),
+        }
+    }
+
     pub(super) fn kind(&self, row: usize) -> Result<Option<GratingKind>, ImportError> {
         self.value(row, self.kind, GratingKind::from_name, || {
             "expected `line` or `dot`".to_owned()

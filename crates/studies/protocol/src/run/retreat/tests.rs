@@ -57,6 +57,17 @@ fn under_a_force_that_does_not_fall_the_tip_draws_back_to_the_first_contact_and_
 }
 
 #[test]
+fn from_a_waypoint_above_the_first_contact_the_tip_draws_back_to_the_zero_of_depths() {
+    let rig = Rig::new(CONTACT_MM - 0.0625, |question, _| {
+        Some(2.0 + f64::from(question) * 1e-6)
+    });
+    let zero_mm = CONTACT_MM - 0.25;
+    with_tip(&rig, |tip| tip.draw_back(zero_mm)).expect("no more than it was");
+    let ends: Vec<f64> = rig.motions().iter().map(|motion| motion.to_mm).collect();
+    assert_eq!(ends, [CONTACT_MM - 0.1875, zero_mm]);
+}
+
+#[test]
 fn after_a_fault_nothing_moves_while_the_force_is_the_same_to_the_last_bit() {
     let rig = Rig::new(1.0, |_, _| Some(0.5));
     assert!(!with_tip(&rig, |tip| tip.abandon()));

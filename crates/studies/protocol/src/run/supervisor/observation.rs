@@ -43,9 +43,9 @@ pub enum MotionStage {
     Zeroing,
     /// Approach to the first contact.
     Search,
-    /// In contact since the tip was at `height_mm`.
+    /// In contact, below `height_mm`.
     Press {
-        /// Height of the first contact in the sensor's frame, in mm.
+        /// Height from which depths count in the sensor's frame, in mm: that of the first contact, or the fitted surface above it.
         height_mm: f64,
     },
     /// Retreat, in which the force must not rise above `force_n`.

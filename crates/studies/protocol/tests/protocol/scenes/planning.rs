@@ -230,3 +230,17 @@ fn a_plan_says_at_what_size_frames_are_kept_and_costs_what_they_take() {
     assert!(written(&whole).get("kept_frames").is_none());
     assert_eq!(written(&kept)["kept_frames"]["width"], 64);
 }
+
+#[test]
+fn depths_from_another_origin_are_another_recording_of_the_same_presses() {
+    let planned = |more: &str| {
+        let scene = Scene::parse("s.toml", &format!("{GOOD}{more}\n")).expect("reads");
+        let source = SourceInfo::Rig(Box::new(seeing()));
+        plan(&scene, |_| source.clone()).expect("a plan").remove(0)
+    };
+    let surface = planned("[protocol.contact]\ndepth_from = \"surface\"");
+    let contact = planned("[protocol.contact]\ndepth_from = \"contact\"");
+    assert_eq!(planned("").digest(), contact.digest());
+    assert_ne!(contact.digest(), surface.digest());
+    assert_eq!(contact.presses, surface.presses);
+}

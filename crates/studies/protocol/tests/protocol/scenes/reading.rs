@@ -78,6 +78,15 @@ fn gratings_are_classified_by_what_there_is() {
 }
 
 #[test]
+fn depths_count_from_the_first_contact_or_from_the_surface() {
+    let error = with("[protocol.contact]\ndepth_from = \"step\"");
+    assert!(
+        error.starts_with("s.toml, line 10: ") && error.contains("expected `contact` or `surface`"),
+        "{error}"
+    );
+}
+
+#[test]
 fn a_scene_of_another_version_is_refused() {
     let error = message(&GOOD.replace("scene_version = 1", "scene_version = 2"));
     assert_eq!(
