@@ -1,4 +1,4 @@
-//! Sentence of each note, for a reader of scores.
+//! Sentence of each note for the reader of scores.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use taceva_results::OPTIMISTIC;
 
 use super::{Independence, Learning, Note, division};
 
-/// Number of recordings below which an interval by recording states that number: Student's t has too few degrees of freedom to be narrow.
+/// Number of recordings below which an interval by recording states that number. With few degrees of freedom, Student's t makes it wide.
 const CLUSTERS_MANY: usize = 10;
 
 impl fmt::Display for Note {
@@ -190,7 +190,7 @@ impl fmt::Display for Note {
     }
 }
 
-/// The name of a recording, as the prefix of a note on it.
+/// Name of a recording, as the prefix of a note on it.
 fn of(recording: &Option<String>) -> String {
     recording
         .as_ref()
@@ -229,7 +229,7 @@ fn clusters(
     Ok(())
 }
 
-/// Columns of unit 1, each with a remedy: `Fz_N` may be `Fz`.
+/// Columns of unit 1, each with a remedy: for instance, `Fz_N` may mean `Fz`.
 fn unit_of_one(names: &[String], f: &mut fmt::Formatter<'_>) -> fmt::Result {
     for (at, name) in names.iter().enumerate() {
         let separator = if at == 0 { "" } else { "; " };
