@@ -15,7 +15,7 @@ pub enum SweepError {
     /// A sweep file or a recording cannot be read.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// No model, setting or metric has this name, or it failed.
+    /// An unknown model, setting or metric, or another error of evaluation.
     #[error(transparent)]
     Study(#[from] EvaluateError),
     /// A sweep file has valid syntax but an invalid value.

@@ -1,15 +1,15 @@
 //! Folder of a sweep: results by key, and other files.
 //!
 //! ```text
-//! FOLDER/results/KEY.json       scores of a task: absent or whole
+//! FOLDER/results/KEY.json       scores of a task: absent or complete
 //!       /evaluations/KEY.json   the whole evaluation, as `taceva evaluate` writes it
-//!       /failed/KEY.json        why a task has no scores
-//!       /logs/KEY.log           what it did, stage by stage
-//!       /times/KEY.json         how long it took, and where
-//!       /claims/KEY             who is at it
-//!       /scenes/NAME/           the run of a scene whose recordings tasks are of
-//!       /cache/                 what tasks have in common
-//!       /slurm/                 scripts, lists of tasks, words of jobs
+//!       /failed/KEY.json        reason why a task has no scores
+//!       /logs/KEY.log           log of a task, stage by stage
+//!       /times/KEY.json         run time and host of a task
+//!       /claims/KEY             claim of the worker that runs a task
+//!       /scenes/NAME/           run of a scene that acquires recordings for tasks
+//!       /cache/                 cache that tasks share
+//!       /slurm/                 scripts, task lists and output of jobs
 //!       table.csv, table.parquet, times.csv, page.html, times.html
 //! ```
 

@@ -94,7 +94,7 @@ impl TaskResult {
         let mut sums = ClusterSums::default();
         for (point, n, sum) in self.errors.get(channel)? {
             sums.try_add(point, *sum).ok()?;
-            // Each sample of the point counts once; the sum is added only once.
+            // Counts the other samples of the point; the sum is already complete.
             for _ in 1..*n {
                 sums.try_add(point, 0.0).ok()?;
             }
