@@ -12,16 +12,16 @@ use crate::names::listed;
 use crate::number::{fixed, numeral};
 use crate::table::{Column, Direction, Table};
 
-/// Schema of a choice as JSON. 1.1: `open` lists sensors with an undecided hard need. 1.2: each step states which numbers are good. 1.3:
-/// place and tie of each ranked sensor. 1.4: intervals, and significant differences. 1.5: sensors with limits from the catalogue. 1.6:
-/// `unplaced` lists sensors without a number for a need that ranks.
+/// Schema of a choice as JSON. 1.1: `open` lists sensors with an unknown number for a hard need. 1.2: each step states the better direction. 1.3:
+/// place and tie of each ranked sensor. 1.4: intervals, and significant differences. 1.5: sensors with limits from the catalogue. 1.6: `unplaced`
+/// lists sensors without a number for a ranking need.
 pub const CHOICE_SCHEMA: &str = "taceva.choice/1.6";
 
-/// Most names in a sentence.
+/// Greatest number of names in a sentence.
 const SHOWN: usize = 6;
 
 impl Choice {
-    /// Table with one row per sensor, need and number, from the best sensor to the dropped ones.
+    /// Table with one row for each sensor, need and number, from the best sensor to the excluded ones.
     pub fn table(&self) -> Table {
         let columns = [
             Column::new("place"),
@@ -123,7 +123,7 @@ impl Choice {
         table
     }
 
-    /// Result in one sentence.
+    /// One sentence with the result.
     pub fn headline(&self) -> String {
         match self.ranked.as_slice() {
             [] if !self.unplaced.is_empty() => {
@@ -213,7 +213,7 @@ impl Choice {
     }
 }
 
-/// Names; the number of the others in place of many.
+/// The first names, and the number of the others.
 fn first(names: &[String]) -> String {
     match names.len().checked_sub(SHOWN) {
         Some(others) if others > 1 => format!(

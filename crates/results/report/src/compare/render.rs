@@ -10,7 +10,7 @@ use crate::number::{fixed, numeral, significant, spaced};
 use crate::table::{Column, Table};
 use crate::wrap::wrapped;
 
-/// Indent of answers, below the score that they are about.
+/// Indent of answers below their score.
 const INDENT: usize = 2;
 
 /// Schema of a comparison as JSON.
@@ -39,7 +39,7 @@ fn level(confidence: f64) -> String {
 }
 
 impl Comparison {
-    /// Table with one row per answer.
+    /// Table with one row for each answer.
     pub fn table(&self) -> Table {
         let columns = [Column::of_metrics()].into_iter();
         let mut table = Table::new("Comparison", columns.chain(HEAD.map(Column::new)));
@@ -166,7 +166,7 @@ impl Comparison {
         )
     }
 
-    /// JSON of [`COMPARISON_SCHEMA`]; an open end of an interval is null.
+    /// JSON of [`COMPARISON_SCHEMA`]; an infinite end of an interval is null.
     pub fn json(&self) -> String {
         let answer = |answer: &Answer| {
             let difference = answer.difference.as_ref().map(|difference| {
@@ -221,7 +221,7 @@ impl Comparison {
     }
 }
 
-/// End of an interval, which may be open.
+/// End of an interval, which may be infinite.
 fn end(end: f64) -> String {
     if end.is_finite() {
         numeral(end)

@@ -1,4 +1,4 @@
-//! Error by light scene: a column per scene and a dot per sensor, as a ratio to the error in reference light.
+//! Error by light scene, relative to the error in reference light: one column for each scene, one dot for each sensor.
 
 use taceva_metrics::SensorFacts;
 
@@ -11,10 +11,10 @@ use crate::results::Study;
 
 use super::SIX;
 
-/// Scene in which models are trained.
+/// Light scene of the training.
 const LEARNT_IN: &str = SensorFacts::REFERENCE_SCENE;
 
-/// Channel of all sensors that light reaches.
+/// A channel of all sensors that ambient light reaches.
 struct Sheet {
     channel: &'static str,
     /// Lighting scores by the position of the study.
@@ -79,7 +79,7 @@ fn caption(studies: &[Study], names: &[String], others: &[usize]) -> String {
     )
 }
 
-/// Names of scenes, sorted, each once.
+/// Distinct names of scenes, sorted.
 fn in_order<'a>(scenes: impl Iterator<Item = &'a Scene>) -> Vec<String> {
     let mut all: Vec<&str> = scenes.map(|scene| scene.name.as_str()).collect();
     all.sort_unstable();

@@ -68,7 +68,7 @@ fn every_reason_has_its_golden_line_in_the_text_of_a_plan() {
         .into_iter()
         .map(|reason| explained(reason, &mut plan))
         .collect();
-    // A reason that is never reported has an empty line.
+    // A plan omits the reason of a metric that was not requested, so its line is empty.
     let golden = include_str!("../../tests/golden/reasons.txt");
     assert_eq!(lines, golden.lines().collect::<Vec<_>>());
 }

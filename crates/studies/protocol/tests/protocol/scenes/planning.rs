@@ -81,7 +81,7 @@ fn a_gel_that_is_opaque_and_said_to_be_transparent_is_refused() {
     let error = plan(&scene, |_| SourceInfo::Rig(Box::new(rig()))).expect_err("contradiction");
     assert_eq!(
         error.to_string(),
-        "s.toml, line 5: `opaque` is false, but the sensor says true: one of them is wrong"
+        "s.toml, line 5: `opaque` is false, but the sensor states true: correct one of them"
     );
 }
 
