@@ -26,7 +26,7 @@ impl Given {
         let rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
         rows.as_ref()
             .map(of)
-            .ok_or_else(|| value_error("scored before"))
+            .ok_or_else(|| value_error("already scored"))
     }
 }
 
@@ -104,7 +104,7 @@ impl Given {
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .take();
-        let rows = rows.ok_or_else(|| value_error("scored before"))?;
+        let rows = rows.ok_or_else(|| value_error("already scored"))?;
         let model = GivenModel { name, settings };
         // Runs watched, so that Ctrl-C is handled at once.
         let scored = watched::run(py, None, |_| {

@@ -59,9 +59,7 @@ fn tables(texts: &[(String, String)]) -> Result<String, String> {
                 .insert(sensor.clone(), study)
                 .is_some()
             {
-                return Err(format!(
-                    "{file}: {sensor} with seed {seed} for the second time"
-                ));
+                return Err(format!("{file}: {sensor} with seed {seed} occurs twice"));
             }
         }
     }

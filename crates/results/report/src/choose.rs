@@ -219,7 +219,7 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
             None if property == Property::Opaque => {
                 let words = &need.words;
                 return Some(format!(
-                    "`{words}` needs {CLOSED}, and of this one that is not known"
+                    "`{words}` needs {CLOSED}, which is unknown for this sensor"
                 ));
             }
             None => "is not known".to_owned(),

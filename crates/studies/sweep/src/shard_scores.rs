@@ -61,7 +61,7 @@ pub(crate) fn join(
         return Err(SweepError::Kept {
             path: folder.path().join("results"),
             problem: format!(
-                "its states are not all shards of {}; remove the folder to make them again",
+                "its states are not all shards of {}; remove the folder to compute them again",
                 shown(list.tasks.first().map_or("", |task| task.dataset.as_str()))
             ),
         });

@@ -24,11 +24,11 @@ impl Sensor {
                 unit: score.unit.symbol().to_owned(),
                 source: "result".to_owned(),
                 read_from: study.source.clone(),
-                conditions: "as its provenance says".to_owned(),
+                conditions: "see its provenance".to_owned(),
                 definition: score.definition.clone(),
                 bound: None,
                 note: decided_by
-                    .map(|variant| format!("the variant {variant}, by which verdicts go")),
+                    .map(|variant| format!("the variant {variant}, which verdicts use")),
                 standing: score.standing,
                 interval: score.interval.as_ref().and_then(Interval::ends),
             })

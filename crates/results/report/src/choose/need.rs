@@ -51,9 +51,7 @@ pub enum NeedError {
         example: String,
     },
     /// The need concerns a price.
-    #[error(
-        "`{0}`: prices take part in no ranking; `taceva catalogue show NAME` shows those that are known"
-    )]
+    #[error("`{0}`: prices are not ranked; `taceva catalogue show NAME` shows known prices")]
     Price(String),
     /// The file is not TOML of the form `needs = ["…", …]`.
     #[error("needs: {0}")]

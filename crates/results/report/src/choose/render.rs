@@ -114,7 +114,7 @@ impl Choice {
         if !self.unknown.is_empty() {
             let known = self.ranked.len() + self.others.len();
             table.note(format!(
-                "{known} of {} {} a requested number; none is known of: {}.",
+                "{known} of {} {} a requested number; none is known for: {}.",
                 counted(known + self.unknown.len(), "sensor"),
                 by_count(known, "has", "have"),
                 first(&self.unknown)
@@ -133,14 +133,14 @@ impl Choice {
                     false => "; others are excluded",
                 };
                 format!(
-                    "No sensor is ranked: a number for a need that ranks is not known of {}{others}",
+                    "No sensor is ranked: a number for a ranking need is unknown for {}{others}",
                     first(&names)
                 )
             }
             [] => "No sensor meets every need, as far as is known".to_owned(),
             [best] if !self.unplaced.is_empty() => {
                 format!(
-                    "{} alone is ranked; of others a number is not known",
+                    "{} alone is ranked; for others a number is unknown",
                     best.name
                 )
             }

@@ -58,7 +58,7 @@ const NEEDS: [(&str, &str, &str); 15] = [
     (
         "units",
         "inter_sensor",
-        "a second unit of the sensor, felt at the same points",
+        "a second unit of the sensor, measured at the same points",
     ),
     (
         "bias",

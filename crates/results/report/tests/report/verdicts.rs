@@ -134,7 +134,7 @@ fn the_figure_of_light_draws_ratios_of_the_scores_and_nothing_from_samples_alone
     assert!(
         figure
             .caption
-            .contains("not clamped to the bounds of the model")
+            .contains("not clipped to the bounds of the model")
     );
     for score in &mut lit.scores {
         score.variants.retain(|variant| variant.name != "scenes");

@@ -73,7 +73,7 @@ pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireErr
     let study = study.expect("the scene has a study");
     let StudySource::Rig(spec) = &study.source else {
         return Err(AcquireError::Request(
-            "a recording is not tapped".to_owned(),
+            "taps need a rig, not a recording".to_owned(),
         ));
     };
     let info = spec

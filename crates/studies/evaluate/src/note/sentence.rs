@@ -38,7 +38,7 @@ impl fmt::Display for Note {
                 extension,
             } => write!(
                 f,
-                "{}{} {} added to {} on {} from {}; each sample before kept its part",
+                "{}{} {} added to {} on {} from {}; earlier samples kept their parts",
                 of(recording),
                 counted(*added, "sample"),
                 by_count(*added, "was", "were"),
@@ -91,12 +91,12 @@ impl fmt::Display for Note {
             ),
             Note::Copies { copies, of } => write!(
                 f,
-                "{copies} of {of} pictures of the test part are byte for byte in the fit too: {OPTIMISTIC} (taceva check, \
+                "{copies} of {of} pictures of the test part are byte-identical to pictures of the fit: {OPTIMISTIC} (taceva check, \
                  TAC002 and TAC007)"
             ),
             Note::FittedBefore { rows, now } => write!(
                 f,
-                "the model was fitted when the dataset had {rows} of its {now} samples; the parts are those of the dataset as it is now"
+                "the model was fitted when the dataset had {rows} of its {now} samples; the parts are those of the present dataset"
             ),
             Note::LeftOut { part, count } => write!(
                 f,
@@ -148,7 +148,7 @@ impl fmt::Display for Note {
                 }
             }),
             Note::Unbounded => f.write_str(
-                "predictions were not clipped to the bounds of the training labels, as those of other models are",
+                "predictions were scored unclipped; other models are clipped to the bounds of the training labels",
             ),
             Note::States(count) => write!(f, "{} merged", counted(*count, "state")),
             Note::Shards([own, all]) => write!(

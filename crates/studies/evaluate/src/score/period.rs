@@ -111,7 +111,7 @@ impl FromStr for Period {
                 is_of_pi: of_pi.is_some(),
             }),
             _ => Err(format!(
-                "`{}` is no period, expected a number such as 360, or 2pi",
+                "`{}` is not a period, expected a number such as 360, or 2pi",
                 taceva_core::shown(text)
             )),
         }

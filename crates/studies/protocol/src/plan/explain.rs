@@ -37,7 +37,7 @@ impl fmt::Display for Plan {
             if self.adds_skill() {
                 writeln!(
                     f,
-                    "add   metric  {SKILL}: says whether predictions take part in verdicts"
+                    "add   metric  {SKILL}: decides whether predictions take part in verdicts"
                 )?;
             }
         }

@@ -132,12 +132,12 @@ impl fmt::Display for Trip {
             }
             Trip::StaleForce { age_s } => write!(
                 f,
-                "the last force reading is {:.0} ms old; on a busy machine, start the run by `chrt -f 10 taceva run …`; a device that stamps by a clock of its own seems late on any machine",
+                "the last force reading is {:.0} ms old; on a busy machine, start the run by `chrt -f 10 taceva run …`; a device with its own clock appears late on any machine",
                 age_s * 1e3
             ),
             Trip::StalePose { age_s } => write!(
                 f,
-                "the last pose reading is {:.0} ms old; on a busy machine, start the run by `chrt -f 10 taceva run …`; a device that stamps by a clock of its own seems late on any machine",
+                "the last pose reading is {:.0} ms old; on a busy machine, start the run by `chrt -f 10 taceva run …`; a device with its own clock appears late on any machine",
                 age_s * 1e3
             ),
             Trip::Released => f.write_str("the enabling switch is not held"),

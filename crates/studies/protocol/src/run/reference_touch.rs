@@ -112,7 +112,7 @@ impl fmt::Display for TouchFault {
                 depth_mm,
             } => write!(
                 f,
-                "at {depth_mm:.3} mm depth the force is {force_n:.4} N, expected at least {wanted_n:.4} N: check how the transducer is mounted and what it measures"
+                "at {depth_mm:.3} mm depth the force is {force_n:.4} N, expected at least {wanted_n:.4} N: check the mounting and the signal of the transducer"
             ),
             TouchFault::Clings { force_n } => write!(
                 f,

@@ -85,7 +85,7 @@ pub(super) fn check_alone(written: &WrittenSweep, place: FilePlace<'_>) -> Resul
         Some((key, _)) => Err(place.wrong(
             key,
             format!(
-                "`{key}` cannot be combined with `[score]`: a sweep is of recordings or of tables; write two files"
+                "`{key}` cannot be combined with `[score]`: a sweep evaluates either recordings or tables; write two files"
             ),
         )),
     }

@@ -40,7 +40,7 @@ pub(super) fn size(file: &SweepFile, recordings: usize) -> Result<(), SweepError
             path: file.path.clone(),
             line: None,
             problem: format!(
-                "a grid of {count} tasks ({}), at most {MOST_TASKS} are allowed: vary less, or make several sweeps",
+                "a grid of {count} tasks ({}), at most {MOST_TASKS} are allowed: vary fewer settings, or write several sweeps",
                 parts.join(" × ")
             ),
         });

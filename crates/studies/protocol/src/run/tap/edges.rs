@@ -79,7 +79,7 @@ pub enum TapError {
     },
     /// Taps contradict each other.
     #[error(
-        "the latency of the {device} varies by {spread_ms:.1} ms between taps, expected at most half a frame, {allowed_ms:.1} ms: stop other traffic and other programs, run with `chrt -f 10`, and check that nothing shakes the rig"
+        "the latency of the {device} varies by {spread_ms:.1} ms between taps, expected at most half a frame, {allowed_ms:.1} ms: stop other traffic and other programs, run with `chrt -f 10`, and check the rig for vibration"
     )]
     Spread {
         /// `force` or `sensor`.
