@@ -155,7 +155,7 @@ fn gratings(tied: &[&Rival<'_>], best: f64, channel: &str) -> String {
 }
 
 /// Meaning of predictions that always equal the spacing of a learnt board: `, which is exactly right among 16 learnt boards at least 0.1 mm apart`;
-/// `None` without predictions, or with others.
+/// `None` without predictions, or if one is not a learnt spacing.
 fn meaning(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<String> {
     let nanometres = |mm: f64| (mm * NM).round();
     let known: BTreeSet<u64> = boards(samples, kind)

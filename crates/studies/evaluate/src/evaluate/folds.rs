@@ -118,7 +118,7 @@ fn default_folds(dataset: &Dataset) -> Result<Option<FoldSpec>, EvaluateError> {
     let fields = SplitFields::of(dataset, &rows, &kind);
     let groups = spec.groups(&fields.input(rows.len()))?;
     let groups: BTreeSet<&String> = groups.iter().filter(|name| !name.is_empty()).collect();
-    // Each fold needs two groups: one to learn from, one to choose settings by.
+    // At least two groups in each fold, enough to learn from and to choose settings by.
     let is_default = (2 * COUNT..GROUPS_MANY).contains(&groups.len());
     Ok(is_default.then_some(spec))
 }

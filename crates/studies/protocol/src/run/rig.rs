@@ -45,7 +45,7 @@ pub(super) struct State {
     pub(super) halted: bool,
     /// True if the robot reports motions that it does not make.
     pub(super) stuck: bool,
-    /// Number of timeouts after a halt is cleared.
+    /// Number of attempts to clear a halt that time out.
     pub(super) unheard: u32,
     /// Height in mm of an obstacle that a guard thread reports once to this supervisor.
     pub(super) obstacle: Option<(f64, SharedSupervisor)>,

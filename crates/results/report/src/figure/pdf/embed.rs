@@ -10,7 +10,7 @@ use super::text::Used;
 
 /// Number of PDF objects per font.
 const OBJECTS: i32 = 5;
-/// Character order of identity: glyphs are addressed by their numbers in the file.
+/// Identity character collection: glyphs are addressed by their numbers in the file.
 const ORDER: SystemInfo = SystemInfo {
     registry: Str(b"Adobe"),
     ordering: Str(b"Identity"),

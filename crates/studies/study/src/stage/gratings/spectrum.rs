@@ -49,7 +49,7 @@ struct Seen {
     row: usize,
     spacing: Nanometre,
     fold: usize,
-    /// Its spectrum after subtraction of the background of each fold.
+    /// Spectrum of the press for each fold, after subtraction of the background of the fold.
     spectra: Vec<Vec<f64>>,
 }
 
