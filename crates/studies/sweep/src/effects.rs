@@ -43,7 +43,7 @@ pub(crate) fn table(loaded: &[Loaded<'_>], list: &TaskList, channels: &[String])
     }
     table.note("Each pair is two tasks that differ only in this setting, on their test parts; a negative difference is a smaller error. A \
         model is listed with the settings that only it has. A channel with several units has no row. The interval assumes independent \
-        pairs, which pairs of one recording are only in part: it describes this sweep. It is not used for choices.");
+        pairs. Pairs of one recording are only partly independent, so it describes this sweep alone. It is not used for choices.");
     table
 }
 

@@ -60,8 +60,8 @@ impl Comparison {
             .map(|difference| difference.test.to_string())
             .collect();
         let rule = "All pairs and channels of a metric are one family, in which Holm's procedure shows a false difference in at most one case of twenty: \
-                    p is that of the pair alone, p by Holm is adjusted for the family, and the interval has the level at which its pair was decided. \
-                    A difference is shown where p by Holm is at most 0.05, and there alone the interval leaves out 0.";
+                    p is for the pair alone, p by Holm is adjusted for the family, and the interval has the level of the decision on its pair. \
+                    A difference is shown if p by Holm is at most 0.05; only then the interval excludes 0.";
         let mut notes = vec![rule.to_owned()];
         notes.extend(self.notes.iter().map(|note| format!("Note: {note}.")));
         notes.extend(tests.into_iter().map(|test| format!("Test: {test}.")));

@@ -25,7 +25,7 @@ const CIVIDIS: [[u8; 3]; 10] = [
     [225, 204, 85],
     [254, 232, 56],
 ];
-/// Diverging scale from blue over near white to orange.
+/// Diverging scale from blue through near white to orange.
 const SIGNED: [[u8; 3]; 5] = [
     [27, 94, 160],
     [146, 190, 222],

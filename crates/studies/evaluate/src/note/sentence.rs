@@ -113,7 +113,7 @@ impl fmt::Display for Note {
                 write!(
                     f,
                     "shares of all predictions outside the bounds of the model (the range of labels, extended by a quarter on each side): \
-                     {}; a score marked `bounded` gives the share among its own samples; robustness uses predictions as they are, every \
+                     {}; a score marked `bounded` gives the share among its own samples; robustness uses unclipped predictions, every \
                      other score uses clipped predictions",
                     shares.join(", ")
                 )
