@@ -136,7 +136,7 @@ fn kept(path: &Path, frames: u64, is_whole: bool) -> String {
     match is_whole {
         true => format!("the {frames} before the failure {are} a complete recording in {path}"),
         false => format!(
-            "the {frames} before the failure {are} stored: free disk space, then run `taceva capture {path} --close`"
+            "the {frames} before the failure {are} stored: free disk space, then run taceva capture {path} --close"
         ),
     }
 }
