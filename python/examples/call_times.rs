@@ -1,11 +1,11 @@
-//! Processor time of the calls that the Python package makes, made from Rust: what `benches/peers/python_update.py` compares with.
+//! Processor time of Rust calls behind the Python package, for comparison with `benches/peers/python_update.py`.
 //!
 //! ```text
 //! call_times update ROWS        # milliseconds of `update` of ROWS × 6 ready columns, metrics of accuracy and the skill
 //! call_times frames RECORDING   # milliseconds in which `map_frames` decodes all frames of a recording into one buffer, on one thread
 //! ```
 //!
-//! Prints the time of a call a line, five lines.
+//! Prints five lines, each with the time of one call.
 
 #![expect(clippy::print_stdout, reason = "its result")]
 
@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 }
 
-/// Numbers from 0 to 1, each a function of its place.
+/// Numbers from 0 to 1, each a function of its position.
 fn drawn(seed: u64, rows: u64) -> Column {
     let bits = |row| u32::try_from(mix((seed << 40) | row) >> 32).unwrap_or(0);
     let number = |row| f64::from(bits(row)) / 4_294_967_296.0;
@@ -38,7 +38,7 @@ fn drawn(seed: u64, rows: u64) -> Column {
 
 fn update(rows: u64) -> Result<(), Box<dyn Error>> {
     let channels = Channels::new(Channel::SIX)?;
-    // What the package asks for, too: no score is without the skill.
+    // Includes the skill, as the package does.
     let wanted = with_skill(catalogue::select(["accuracy"])?);
     let plan = MetricPlan::new(&wanted, channels.clone(), FieldSet::PAIRS);
     let columns = |first| (first..first + 6).map(|seed| drawn(seed, rows)).collect();
@@ -70,10 +70,10 @@ fn timed(calls: u32, call: impl Fn() -> Result<(), Box<dyn Error>>) -> Result<()
     Ok(())
 }
 
-/// Milliseconds of processor time of all threads of this process, ended ones too, in ticks of 10 ms.
+/// Processor time in ms of all threads of this process, including ended ones, in ticks of 10 ms.
 fn processor_ms() -> Result<f64, Box<dyn Error>> {
     let text = std::fs::read_to_string("/proc/self/stat")?;
-    // Behind the name of the program, which may hold blanks: user and system time are the 12th and 13th.
+    // After the program name, which may contain blanks, user and system time are the 12th and 13th fields.
     let (_, behind) = text.rsplit_once(')').ok_or("no name")?;
     let fields: Vec<&str> = behind.split_whitespace().collect();
     let ticks = |at: usize| -> Result<f64, Box<dyn Error>> {

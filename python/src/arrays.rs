@@ -17,7 +17,7 @@ pub(crate) enum Table {
 }
 
 impl Table {
-    /// `array` as a table of `width` columns; errors call it `name`.
+    /// Reads `array` as a table of `width` columns; `name` is its name in errors.
     pub(crate) fn of(array: &Bound<'_, PyAny>, name: &str, width: usize) -> PyResult<Table> {
         let table = match PyBuffer::<f64>::get(array) {
             Ok(buffer) => Table::Double(buffer),
@@ -43,7 +43,7 @@ impl Table {
         }
     }
 
-    /// The number of rows.
+    /// Number of rows.
     pub(crate) fn rows(&self) -> usize {
         match self {
             Table::Single(buffer) => buffer.shape()[0],
@@ -84,7 +84,7 @@ impl Table {
     }
 }
 
-/// Number of values copied from an array at once: they fit into the L1 cache, with their target columns.
+/// Number of values copied at a time; they fit into the L1 cache with their target columns.
 const AT_ONCE: usize = 1536;
 
 /// Appends consecutive rows to `columns`, channel by channel; returns true if all numbers are finite.
@@ -102,7 +102,7 @@ fn gather<T: Element + Into<f64>>(
         let end = rows.end.min(first + step);
         copy_into(py, array, first * width..end * width, &mut numbers);
         are_all &= are_finite(&numbers);
-        // Constant strides for the usual widths.
+        // Constant strides for common widths.
         match width {
             1 => columns[0].extend(numbers.iter().map(|number| (*number).into())),
             3 => apart::<T, 3>(&numbers, columns),
@@ -134,20 +134,20 @@ fn is_finite<T: Element + Into<f64>>(py: Python<'_>, array: &PyBuffer<T>) -> boo
     })
 }
 
-/// True if all numbers are finite; checking all of them is faster than an early exit.
+/// True if all numbers are finite. Checking all is faster than an early exit.
 fn are_finite<T: Copy + Into<f64>>(numbers: &[T]) -> bool {
     let numbers = numbers.iter().map(|number| (*number).into());
     numbers.fold(true, |all, number: f64| all & number.is_finite())
 }
 
-/// Contact points, one name or whole number for each row.
+/// Contact points: one name or whole number for each row.
 pub(crate) enum Points {
     Numbers(PyBuffer<i64>),
     Names(Vec<String>),
 }
 
 impl Points {
-    /// `points` as an array of int64, or as texts.
+    /// Reads `points` as an array of int64, or as texts.
     pub(crate) fn of(points: &Bound<'_, PyAny>) -> PyResult<Points> {
         if let Ok(buffer) = PyBuffer::<i64>::get(points)
             && buffer.dimensions() == 1
@@ -161,7 +161,7 @@ impl Points {
         Ok(Points::Names(names))
     }
 
-    /// The number of rows.
+    /// Number of rows.
     pub(crate) fn rows(&self) -> usize {
         match self {
             Points::Numbers(buffer) => buffer.shape()[0],
@@ -169,7 +169,7 @@ impl Points {
         }
     }
 
-    /// Labels of some rows. A whole number becomes its digits, as in a table.
+    /// Labels of some rows. A whole number becomes decimal text, as in a table.
     pub(crate) fn read(&self, py: Python<'_>, rows: Range<usize>) -> Labels {
         match self {
             Points::Numbers(buffer) => Labels::of_numbers(values(py, buffer, rows)),

@@ -10,7 +10,7 @@ use pyo3::types::PyCapsule;
 use crate::errors::value_error;
 use structs::{Batch, Stream};
 
-/// The cells of a column; missing values are `None`.
+/// Cells of a column; missing values are `None`.
 pub(crate) enum Cells {
     Texts(Vec<Option<String>>),
     Numbers(Vec<Option<f64>>),
@@ -41,7 +41,7 @@ pub(crate) struct ArrowColumn {
 }
 
 impl ArrowColumn {
-    /// The column called `name`, with the metadata of its field.
+    /// Creates the column `name` with the metadata of its field.
     pub(crate) fn new(
         name: &str,
         cells: Cells,
@@ -56,17 +56,17 @@ impl ArrowColumn {
         })
     }
 
-    /// The format string of its type in the interface.
+    /// Format string of its type in the Arrow C interface.
     const fn format(&self) -> &'static CStr {
         match self.cells {
-            // Offsets of 64 bits, so that a column has no size limit.
+            // 64-bit offsets, so that a column has no size limit.
             Cells::Texts(_) => c"U",
             Cells::Numbers(_) => c"g",
             Cells::Counts(_) => c"I",
         }
     }
 
-    /// The buffers after the validity bitmap: the values, for texts preceded by their offsets.
+    /// Buffers after the validity bitmap: the values; for texts, the offsets and then the values.
     fn values(&self) -> Vec<Vec<u64>> {
         match &self.cells {
             Cells::Texts(cells) => {
@@ -102,7 +102,7 @@ fn aligned(bytes: Vec<u8>) -> Vec<u64> {
     bytes.chunks(8).map(word).collect()
 }
 
-/// Metadata in the encoding of the interface: 32-bit counts and lengths, then the bytes.
+/// Metadata in the encoding of the Arrow C interface: 32-bit counts and lengths, then the bytes.
 fn encoded(pairs: &[(&str, &str)]) -> PyResult<Vec<u8>> {
     let size = |length: usize| {
         i32::try_from(length)
@@ -117,7 +117,7 @@ fn encoded(pairs: &[(&str, &str)]) -> PyResult<Vec<u8>> {
     Ok(bytes)
 }
 
-/// `columns` of `rows` rows as the capsule that `__arrow_c_stream__` returns, with metadata of the table.
+/// Capsule for `__arrow_c_stream__` with `columns` of `rows` rows and metadata of the table.
 pub(crate) fn stream<'py>(
     py: Python<'py>,
     rows: usize,

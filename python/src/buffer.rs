@@ -1,4 +1,4 @@
-//! The buffer protocol, in both directions. Only this file and `arrow/structs.rs` use `unsafe`.
+//! Buffer protocol in both directions. Only this file and `arrow/structs.rs` use `unsafe`.
 
 use std::ffi::{CStr, c_int, c_void};
 use std::ops::Range;
@@ -11,10 +11,10 @@ use pyo3::prelude::*;
 
 use crate::errors::value_error;
 
-/// A copy of some numbers of an array in C order.
+/// Copies some numbers of an array in C order.
 ///
 /// # Panics
-/// Beyond the end of `array`.
+/// If the range exceeds `array`.
 pub(crate) fn values<T: Element>(
     py: Python<'_>,
     array: &PyBuffer<T>,
@@ -28,7 +28,7 @@ pub(crate) fn values<T: Element>(
 /// Replaces the content of `values` by some numbers of an array in C order.
 ///
 /// # Panics
-/// Beyond the end of `array`.
+/// If the range exceeds `array`.
 #[expect(unsafe_code, reason = "the memory is Python's")]
 pub(crate) fn copy_into<T: Element>(
     _py: Python<'_>,
@@ -42,9 +42,8 @@ pub(crate) fn copy_into<T: Element>(
     );
     values.clear();
     values.reserve_exact(wanted.len());
-    // SAFETY: the buffer holds the memory of `item_count` numbers, which `get` has found to be aligned numbers of this type. The lock of
-    // the interpreter is held, so no Python code writes to it. C code may write without the lock, as with numpy, but any bits are a valid
-    // number.
+    // SAFETY: the buffer holds the memory of `item_count` numbers, and `get` has checked that they are aligned and of this type. The lock of the
+    // interpreter is held, so no Python code writes to it. C code such as numpy may write without the lock, but any bits are a valid number.
     unsafe {
         let start = array.buf_ptr().cast::<T>().add(wanted.start);
         ptr::copy_nonoverlapping(start, values.as_mut_ptr(), wanted.len());
@@ -52,7 +51,7 @@ pub(crate) fn copy_into<T: Element>(
     }
 }
 
-/// The type of the numbers of a buffer.
+/// Number type of a buffer.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Number {
     U8,
@@ -62,7 +61,7 @@ pub(crate) enum Number {
 }
 
 impl Number {
-    /// The format character of the `struct` module, and the size in bytes.
+    /// Format character of the `struct` module, and size in bytes.
     const fn form(self) -> (&'static CStr, isize) {
         match self {
             Number::U8 => (c"B", 1),
@@ -83,14 +82,15 @@ pub(crate) struct Buffer {
 }
 
 impl Buffer {
-    /// `bytes` as numbers of `shape`; the length must be the product of the shape and the size of a number.
+    /// Interprets `bytes` as numbers of `shape`; the length must match the shape.
     pub(crate) fn new(bytes: Vec<u8>, number: Number, shape: &[usize]) -> PyResult<Buffer> {
         let sizes: Option<Vec<isize>> = shape
             .iter()
             .map(|size| isize::try_from(*size).ok())
             .collect();
         let (_, size) = number.form();
-        let shape = sizes.ok_or_else(|| PyBufferError::new_err("an array larger than memory"))?;
+        let shape =
+            sizes.ok_or_else(|| PyBufferError::new_err("the array is larger than memory"))?;
         let stated = shape
             .iter()
             .try_fold(size, |product, size| product.checked_mul(*size));
@@ -141,7 +141,7 @@ impl Buffer {
         if view.is_null() {
             return Err(PyBufferError::new_err("no view to fill"));
         }
-        // SAFETY: CPython passes a view that it may fill.
+        // SAFETY: CPython passes a view that may be filled.
         unsafe { (*view).obj = ptr::null_mut() };
         if flags & ffi::PyBUF_WRITABLE == ffi::PyBUF_WRITABLE {
             return Err(PyBufferError::new_err(
@@ -173,7 +173,7 @@ impl Buffer {
             internal: ptr::null_mut(),
             obj: slf.clone().into_any().into_ptr(),
         };
-        // SAFETY: as above; the view holds a reference to the object, which keeps all its pointers alive and never changes.
+        // SAFETY: as above. The view holds a reference to the object, which never changes and keeps all its pointers alive.
         unsafe { ptr::write(view, filled) };
         Ok(())
     }
@@ -186,7 +186,7 @@ pub(crate) enum Pixels {
 }
 
 impl Pixels {
-    /// `array` as pixels of `axes` axes; errors call it `name`.
+    /// Reads `array` as pixels with `axes` axes; `name` is its name in errors.
     pub(crate) fn of(array: &Bound<'_, PyAny>, name: &str, axes: usize) -> PyResult<Pixels> {
         let pixels = match PyBuffer::<u8>::get(array) {
             Ok(buffer) => Pixels::Bytes(buffer),
@@ -226,7 +226,7 @@ impl Pixels {
         matches!(self, Pixels::Words(_))
     }
 
-    /// The frame at `row`, with 16-bit samples in little-endian order.
+    /// Bytes of the frame at `row`, with 16-bit samples in little-endian order.
     pub(crate) fn bytes(&self, py: Python<'_>, row: usize) -> Vec<u8> {
         let length: usize = self.frame_shape().iter().product();
         let wanted = row * length..(row + 1) * length;

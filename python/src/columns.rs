@@ -1,4 +1,4 @@
-//! The table of a recording in Arrow columns.
+//! Table of a recording in Arrow columns.
 
 use taceva_core::shown;
 use taceva_dataset::{Dataset, Table};
@@ -8,7 +8,7 @@ use pyo3::types::PyCapsule;
 
 use crate::arrow::{self, ArrowColumn, Cells};
 
-/// The table of `dataset`: one row for each sample, one column for each label in its unit, and all other non-empty columns.
+/// Table of `dataset`: one row for each sample, one column for each label in its unit, and all other non-empty columns.
 pub(crate) fn stream<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<'py, PyCapsule>> {
     let table = dataset.table();
     let mut columns = Vec::new();
@@ -50,7 +50,7 @@ pub(crate) fn stream<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<
     arrow::stream(py, table.rows(), columns, &metadata)
 }
 
-/// The cells of the column called `name`.
+/// Cells of the column called `name`.
 fn cells(table: &Table, name: &str) -> Option<Cells> {
     Some(match name {
         "depth_step" => Cells::Counts(table.depth_step().to_vec()),

@@ -51,7 +51,7 @@ impl Recording {
     }
 }
 
-/// Converts 16-bit samples from little-endian, as in files and frames, to the byte order of the machine.
+/// Converts 16-bit samples from little-endian, as in files and frames, to native byte order.
 fn native(mut bytes: Vec<u8>, number: Number) -> Vec<u8> {
     if matches!(number, Number::U16) && cfg!(target_endian = "big") {
         bytes.chunks_exact_mut(2).for_each(<[u8]>::reverse);
@@ -61,7 +61,7 @@ fn native(mut bytes: Vec<u8>, number: Number) -> Vec<u8> {
 
 #[pymethods]
 impl Recording {
-    /// Opens the folder at `path` and checks its seal; `view` chooses the pictures if samples have several.
+    /// Opens the folder at `path` and checks its seal; `view` selects the pictures if samples have several.
     #[new]
     #[pyo3(signature = (path, view=None))]
     fn open(py: Python<'_>, path: PathBuf, view: Option<String>) -> PyResult<Recording> {
@@ -82,13 +82,13 @@ impl Recording {
         self.dataset.path().to_owned()
     }
 
-    /// The names of the views, if samples have several pictures.
+    /// Names of the views if samples have several pictures.
     fn views(&self) -> Vec<String> {
         let views = self.dataset.views().into_iter();
         views.map(str::to_owned).collect()
     }
 
-    /// The chosen view.
+    /// Selected view.
     fn view(&self) -> Option<String> {
         self.dataset.view()
     }
@@ -114,7 +114,7 @@ impl Recording {
             .collect()
     }
 
-    /// `[rows, channels]`; a missing label is NaN.
+    /// Labels, `[rows, channels]`; a missing label is NaN.
     fn labels(&self) -> PyResult<Buffer> {
         let table = self.dataset.table();
         let width = table.channels().len();
@@ -124,7 +124,7 @@ impl Recording {
         Buffer::of_rows(&labels, width)
     }
 
-    /// A column of the table as texts; `None` for an empty cell, or if there is no such column.
+    /// A column of the table as texts; `None` for an empty cell, or if the column does not exist.
     fn column(&self, name: &str) -> Option<Vec<Option<String>>> {
         let table = self.dataset.table();
         match name {
@@ -133,23 +133,23 @@ impl Recording {
         }
     }
 
-    /// Names of the columns besides channels.
+    /// Names of the columns other than channels.
     fn attributes(&self) -> Vec<String> {
         self.dataset.table().attribute_names().to_vec()
     }
 
-    /// The table as an Arrow stream, in a capsule.
+    /// Table as an Arrow stream in a capsule.
     fn arrow_stream<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyCapsule>> {
         crate::columns::stream(py, &self.dataset)
     }
 
-    /// `(height, width, samples per pixel)`.
+    /// Shape of a frame: `(height, width, samples per pixel)`.
     fn frame_shape(&self) -> Option<(u32, u32, usize)> {
         let info = self.dataset.header().frames.as_ref()?.info;
         Some((info.height, info.width, info.format.samples()))
     }
 
-    /// The frames of `rows`, `[rows, height, width, samples]`.
+    /// Frames of `rows`, `[rows, height, width, samples]`.
     #[pyo3(signature = (rows, jobs, bar = None))]
     fn frames(
         &self,
@@ -162,7 +162,7 @@ impl Recording {
         let mut bytes = Vec::new();
         let length = frame
             .checked_mul(rows.len())
-            .ok_or_else(|| value_error("an array larger than memory"))?;
+            .ok_or_else(|| value_error("the array is larger than memory"))?;
         bytes.try_reserve_exact(length).map_err(value_error)?;
         let decoded = watched::run(py, bar, |progress| {
             let pass = Pass::new(&rows, jobs_of(jobs), progress);
@@ -172,13 +172,13 @@ impl Recording {
             };
             self.dataset.map_frames(pass, |_, frame| frame, take)
         })?;
-        // Frames are taken in the order of the rows, so the first missing one failed.
+        // Frames are decoded in the order of the rows, so the first missing one failed.
         let taken = bytes.len().checked_div(frame).unwrap_or(0);
         decoded.map_err(|error| dataset_error_at(&error, rows.get(taken).copied()))?;
         self.buffer_of(rows.len(), bytes)
     }
 
-    /// The picture of the untouched gel, `[height, width, samples]`, if there is one.
+    /// Frame of the untouched gel, `[height, width, samples]`, if any.
     fn reference(&self, py: Python<'_>) -> PyResult<Option<Buffer>> {
         let reference = py
             .detach(|| self.dataset.reference())
@@ -188,13 +188,13 @@ impl Recording {
             .transpose()
     }
 
-    /// Number of values of a row's signals; `None` without signals.
+    /// Number of signals in a row; `None` without signals.
     fn signal_values(&self) -> Option<usize> {
         let signals = self.dataset.header().signals.as_ref()?;
         Some(signals.spec.info.len())
     }
 
-    /// The signals of `rows`, `[rows, values]`, taxel by taxel.
+    /// Signals of `rows`, `[rows, values]`, taxel by taxel.
     fn signals(&self, py: Python<'_>, rows: Vec<usize>) -> PyResult<Buffer> {
         let Some(header) = &self.dataset.header().signals else {
             return Err(dataset_error_of(
@@ -216,7 +216,7 @@ impl Recording {
         Buffer::new(bytes, Number::F32, &[rows.len(), width])
     }
 
-    /// Rows by part, `(train, validation, test)`, as `evaluate` divides them, and the name of the division.
+    /// Rows of each part, `(train, validation, test)`, divided as by `evaluate`, and the name of the split.
     #[pyo3(signature = (split, seed))]
     fn split(&self, split: Option<&str>, seed: u64) -> PyResult<([Vec<usize>; 3], String)> {
         use taceva_evaluate::DataPart::{Test, Train, Validation};
@@ -226,7 +226,7 @@ impl Recording {
         Ok((parts, divided.spec.to_string()))
     }
 
-    /// Rows by part of each fold of the cross-validation `split`, and the name of the division.
+    /// Rows of each part for each fold of the cross-validation `split`, and the name of the split.
     #[pyo3(signature = (split, seed))]
     fn folds(&self, split: &str, seed: u64) -> PyResult<(Vec<[Vec<usize>; 3]>, String)> {
         use taceva_evaluate::DataPart::{Test, Train, Validation};
@@ -239,7 +239,7 @@ impl Recording {
         Ok((parts.collect(), name.unwrap_or_default()))
     }
 
-    /// Writes the folder `out` in a format of other programs, as `taceva export` does, and returns the data that the format cannot express.
+    /// Exports the recording to the folder `out` like `taceva export`; returns the data that the format cannot express.
     #[pyo3(signature = (form, out, jobs, bar = None))]
     fn export(
         &self,
@@ -265,7 +265,7 @@ impl Recording {
             .map_err(|error| import_error(&error))
     }
 
-    /// The findings of `taceva check`, as its JSON output.
+    /// Findings of `taceva check`, as its JSON output.
     #[pyo3(signature = (jobs, bar = None))]
     fn check<'py>(
         &self,
@@ -288,13 +288,13 @@ impl Recording {
     }
 }
 
-/// Number of threads: as requested, or all cores for 0.
+/// Number of threads; 0 selects all cores.
 pub(crate) fn jobs_of(jobs: usize) -> NonZeroUsize {
     let all = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     NonZeroUsize::new(jobs).unwrap_or_else(all)
 }
 
-/// All models: those built in and those of libraries.
+/// All models: built-in ones and those of libraries.
 pub(crate) fn models() -> Models {
     Models::builtin().with_libraries(taceva_models::library_models())
 }

@@ -54,7 +54,7 @@ pub(crate) fn import_error(error: &ImportError) -> PyErr {
     placed(error.to_string(), path.cloned(), row, line)
 }
 
-/// The file, the row and the line at fault, as far as `error` knows them.
+/// File, row and line at fault, as far as `error` states them.
 fn location(error: &taceva_dataset::DatasetError) -> (Option<&PathBuf>, Option<u64>, Option<u64>) {
     use taceva_dataset::DatasetError as Of;
     match error {

@@ -1,4 +1,4 @@
-//! Evaluations by the pipeline of the program: tables of predictions, and models by name or from a file.
+//! Evaluations by the pipeline of the program, for tables of predictions and for models by name or file.
 
 use std::path::PathBuf;
 
@@ -14,7 +14,7 @@ use crate::errors::{ModelError, study_error, value_error};
 use crate::inventory::host;
 use crate::{results, watched};
 
-/// The results file of two tables, as `taceva score` writes it.
+/// Results file of two tables, with the content that `taceva score` writes.
 #[pyfunction]
 #[pyo3(signature = (truth, prediction, metrics, sensor, key, allow_invalid, jobs, bar = None))]
 #[expect(clippy::too_many_arguments, reason = "the Python side names them")]
@@ -45,7 +45,7 @@ pub(crate) fn score_tables(
     results::sealed(&scored.map_err(|error| study_error(&error))?.report)
 }
 
-/// The results file of a model on a recording, as `taceva evaluate` writes it: `model` is a name, or the file of a fitted model.
+/// Results file of a model on a recording, with the content that `taceva evaluate` writes. `model` is a name, or the file of a fitted model.
 #[pyfunction]
 #[pyo3(signature = (recording, model, settings, channels, split, seed, part, metrics, jobs, bar = None))]
 #[expect(clippy::too_many_arguments, reason = "the Python side names them")]
@@ -69,7 +69,7 @@ pub(crate) fn evaluate_named(
         let opened = py.detach(|| known.open(&path));
         opened.map_err(|error| ModelError::new_err(error.to_string()))
     };
-    // A name of an existing file is a path; any other is the name of a model. Only a name or a file that is not ours needs the plugins.
+    // The name of an existing file is a path; any other is a model name. Only a model name or a foreign file needs the plugins.
     let fitted = match path.is_file() {
         true => match open(&known) {
             Ok(fitted) => Some(fitted),
@@ -118,7 +118,7 @@ pub(crate) fn evaluate_named(
     results::sealed(&evaluated.map_err(|error| study_error(&error))?.report)
 }
 
-/// The part called `name`.
+/// Part called `name`.
 pub(crate) fn part_of(name: &str) -> PyResult<DataPart> {
     let all = [
         DataPart::Train,

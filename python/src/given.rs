@@ -1,4 +1,4 @@
-//! Models held in Python: the rows they may learn from, and the scores of their predictions, by the rules of the program.
+//! Models held in Python: rows to learn from, and scores of their predictions by the rules of the program.
 
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
@@ -14,10 +14,10 @@ use crate::errors::{study_error, value_error};
 use crate::evaluate::part_of;
 use crate::{results, watched};
 
-/// The rows of a recording for a model held in Python.
+/// Rows of a recording for a model held in Python.
 #[pyclass(module = "taceva._taceva", frozen)]
 pub(crate) struct Given {
-    /// Taken by the single call of `score`.
+    /// Removed by the only call of `score`.
     rows: Mutex<Option<GivenRows>>,
 }
 
@@ -26,7 +26,7 @@ impl Given {
         let rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
         rows.as_ref()
             .map(of)
-            .ok_or_else(|| value_error("scored before"))
+            .ok_or_else(|| value_error("already scored"))
     }
 }
 
@@ -76,7 +76,7 @@ impl Given {
         self.with(|rows| rows.target().to_vec())
     }
 
-    /// The labels of the rows to learn from, `[rows, channels]`.
+    /// Labels of the rows to learn from, `[rows, channels]`.
     fn labels(&self, recording: &Recording) -> PyResult<Buffer> {
         self.with(|rows| {
             let labels = rows.labels(&recording.dataset);
@@ -84,7 +84,7 @@ impl Given {
         })?
     }
 
-    /// The results file of `predictions`, `[rows, channels]`, for the rows to predict.
+    /// Results file of `predictions`, `[rows, channels]`, for the rows to predict.
     #[expect(clippy::too_many_arguments, reason = "the Python side names them")]
     fn score(
         &self,
@@ -104,9 +104,9 @@ impl Given {
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .take();
-        let rows = rows.ok_or_else(|| value_error("scored before"))?;
+        let rows = rows.ok_or_else(|| value_error("already scored"))?;
         let model = GivenModel { name, settings };
-        // Watched, so that Ctrl-C is handled at once; the short time until the scores are ready is waited for.
+        // Runs watched, so that Ctrl-C is handled at once.
         let scored = watched::run(py, None, |_| {
             rows.score(&recording.dataset, model, numbers, metrics, jobs_of(jobs))
         })?;
@@ -114,7 +114,7 @@ impl Given {
     }
 }
 
-/// The features of `rows` by `settings`, `[rows, values]`, with their specification, and height, width and depth of each.
+/// Features of `rows` by `settings`, `[rows, values]`, with their specification, and height, width and depth of each.
 #[pyfunction]
 #[pyo3(signature = (recording, settings, rows, jobs, bar = None))]
 pub(crate) fn features(

@@ -1,4 +1,4 @@
-//! Models, metrics and plugins that a program in Python may name: those of the command beside it.
+//! Models, metrics and plugins for Python programs: the same as for the command line.
 
 use std::collections::BTreeSet;
 use std::io::Write as _;
@@ -30,10 +30,10 @@ pub(crate) struct FoundPlugin {
     estimators: Vec<String>,
 }
 
-/// The plugins that the command finds in the folders and environments of the user, run as the user's settings say.
+/// Plugins in the folders and environments of the user, configured by the user's settings.
 ///
 /// # Errors
-/// `ValueError` if the settings of the user cannot be read.
+/// `ValueError` if the user's settings cannot be read.
 pub(crate) fn host(py: Python<'_>) -> PyResult<Arc<PluginHost>> {
     within(py)?;
     py.detach(|| {
@@ -51,18 +51,18 @@ pub(crate) fn host(py: Python<'_>) -> PyResult<Arc<PluginHost>> {
     })
 }
 
-/// Warnings and errors of plugins on standard error. Python does not get them, since a caller that waits may hold its lock.
+/// Writes warnings and errors of plugins to standard error. They do not go to Python, because a waiting caller may hold its lock.
 fn log() -> PluginLog {
     Arc::new(|id, level, target, message| {
         if level <= Level::Warn {
             let line = shown_lines(&format!("taceva: {id}: {target}: {message}\n"));
-            // A closed standard error is ignored: there is nowhere to report it.
+            // Ignores a closed standard error, because there is nowhere to report it.
             let _ = std::io::stderr().write_all(line.as_bytes());
         }
     })
 }
 
-/// Names of all models and presets, each with a description in one line; those of plugins last.
+/// Names of all models and presets, each with a one-line description; those of plugins last.
 #[pyfunction]
 pub(crate) fn model_names(py: Python<'_>) -> PyResult<Vec<(String, String)>> {
     let compiled = dataset::models();
@@ -83,7 +83,7 @@ pub(crate) fn model_names(py: Python<'_>) -> PyResult<Vec<(String, String)>> {
     Ok(names)
 }
 
-/// Names of all metrics and groups, each with its title.
+/// Names of all metrics and groups, with their titles.
 #[pyfunction]
 pub(crate) fn metric_titles() -> Vec<(String, String)> {
     let metrics = catalogue::ALL.into_iter();
@@ -95,7 +95,7 @@ pub(crate) fn metric_titles() -> Vec<(String, String)> {
     metrics.chain(groups).collect()
 }
 
-/// The plugins that were found, and a sentence for each that is not used.
+/// Found plugins, and a sentence for each unused one.
 #[pyfunction]
 pub(crate) fn found_plugins(py: Python<'_>) -> PyResult<(Vec<FoundPlugin>, Vec<String>)> {
     let host = host(py)?;

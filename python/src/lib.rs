@@ -1,7 +1,7 @@
-//! The module `taceva._taceva`: functions of the crates for the Python package, without logic of its own.
+//! Module `taceva._taceva`: functions of the crates for the Python package, without logic of its own.
 //!
-//! Arrays come in by the buffer protocol, as native float32 or float64; the Python side has converted them. They go out as buffers that
-//! numpy wraps without a copy. The interpreter lock is released while numbers are summed, frames decoded and models fitted.
+//! Input arrays arrive through the buffer protocol as native float32 or float64; the Python side has converted them. Output arrays are buffers that
+//! numpy wraps without a copy. The interpreter lock is released during sums, decoding and fits.
 
 mod arrays;
 mod arrow;
@@ -58,15 +58,15 @@ mod _taceva {
             .try_for_each(|name| error.setattr(name, module.py().None()))
     }
 
-    /// Runs the command in `arguments`, of which the first is the name of the program, and returns the exit code. The command handles
-    /// signals from then on, and plugins run in new processes of this interpreter.
+    /// Runs the command in `arguments`, which begin with the program name, and returns the exit code. The command handles signals from then on, and
+    /// plugins run in new processes of this interpreter.
     #[pyfunction]
     fn command(py: Python<'_>, arguments: Vec<OsString>) -> PyResult<u8> {
         super::plugin::within(py)?;
         Ok(py.detach(|| taceva_cli::main_with(arguments)))
     }
 
-    /// The version of the crates of the module.
+    /// Version of the crates in the module.
     #[pyfunction]
     fn version() -> &'static str {
         env!("CARGO_PKG_VERSION")

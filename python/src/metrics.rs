@@ -14,10 +14,10 @@ use taceva_results::EvaluationReport;
 use crate::arrays::{Points, Table};
 use crate::errors::value_error;
 
-/// Rows per block: their columns stay in the L1 and L2 caches. Each block looks up the names of points, so smaller ones cost more.
+/// Rows in a block. Their columns stay in the L1 and L2 caches. Each block looks up the names of points, so smaller blocks cost more.
 const BLOCK_ROWS: usize = 4096;
 
-/// The unit of one of the six channels; `None` for another.
+/// Unit of one of the six channels; `None` for any other.
 #[pyfunction]
 pub(crate) fn unit_of(channel: &str) -> Option<&'static str> {
     let known = Channel::SIX
@@ -26,7 +26,7 @@ pub(crate) fn unit_of(channel: &str) -> Option<&'static str> {
     known.map(|channel| channel.unit().symbol())
 }
 
-/// Positions in `channels`, which have their units, in the order in which sums and recordings have them: the six, then others by name.
+/// Order of `channels`, given with their units, in sums and recordings: the six first, then others by name.
 #[pyfunction]
 pub(crate) fn channel_order(channels: Vec<(String, String)>) -> PyResult<Vec<usize>> {
     let ordered = channels_of(&channels)?;
@@ -34,7 +34,7 @@ pub(crate) fn channel_order(channels: Vec<(String, String)>) -> PyResult<Vec<usi
     Ok(ordered.iter().filter_map(position).collect())
 }
 
-/// Fields that a row may have besides its numbers and its contact point.
+/// Fields that a row may have in addition to its numbers and its contact point.
 const FIELDS: [Field; 7] = [
     Field::Scene,
     Field::UnitId,
@@ -79,7 +79,7 @@ impl Said {
     }
 }
 
-/// The field called `name`, if arrays may have it.
+/// Field called `name`, if arrays may have it.
 fn field_of(name: &str) -> PyResult<Field> {
     FIELDS
         .into_iter()
@@ -111,8 +111,8 @@ impl Sums {
 
 #[pymethods]
 impl Sums {
-    /// Sums of `channels` with their units, for metrics and groups, and for the skill, which verdicts require. `is_independent` makes every
-    /// sample its own cluster, and every row has `fields`. Angles repeat after `periods`, in degrees.
+    /// Sums of `channels` with their units, for the given metrics and groups, and for the skill, which verdicts require. If `is_independent`, every
+    /// sample is its own cluster. Every row has `fields`. Angles repeat after `periods`, in degrees.
     #[new]
     fn new(
         channels: Vec<(String, String)>,
@@ -144,8 +144,8 @@ impl Sums {
         })
     }
 
-    /// Adds rows. Returns false if a number is not finite, unless `allows_invalid`. No row is then added; with `apart`, the caller discards the sums
-    /// instead.
+    /// Adds rows. Returns false if a number is not finite, unless `allows_invalid`, and then adds no row. With `apart`, some rows may be added, and
+    /// the caller discards the sums.
     #[expect(clippy::too_many_arguments, reason = "what one row carries")]
     fn update(
         &self,
@@ -183,7 +183,7 @@ impl Sums {
                 )));
             }
         }
-        // A single block is checked as a whole before it is added.
+        // Several blocks are checked before any of them is added.
         if !allows_invalid && !apart && rows > BLOCK_ROWS {
             for table in [&truth, &prediction] {
                 if !table.is_finite(py) {
@@ -214,23 +214,24 @@ impl Sums {
         Ok(true)
     }
 
-    /// Merges the sums of another object.
+    /// Merges the sums of another object into these.
     fn merge(&self, py: Python<'_>, other: &Sums) -> PyResult<()> {
         let states = other.states()?;
         py.detach(|| self.evaluator().merge_states(&states))
             .map_err(value_error)
     }
 
-    /// The states as bytes.
+    /// Serialized states.
     fn states_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let bytes = serde_json::to_vec(&self.states()?).map_err(value_error)?;
         Ok(PyBytes::new(py, &bytes))
     }
 
-    /// Merges the result of `states_bytes`.
+    /// Merges a result of `states_bytes`.
     fn merge_bytes(&self, bytes: &[u8]) -> PyResult<()> {
-        let states: Vec<State> = serde_json::from_slice(bytes)
-            .map_err(|error| value_error(format_args!("no state of taceva's metrics: {error}")))?;
+        let states: Vec<State> = serde_json::from_slice(bytes).map_err(|error| {
+            value_error(format_args!("not a state of taceva's metrics: {error}"))
+        })?;
         self.evaluator().merge_states(&states).map_err(value_error)
     }
 
@@ -239,7 +240,7 @@ impl Sums {
         *self.evaluator() = Evaluator::new(&self.plan);
     }
 
-    /// The scores so far, as the text of a results file. `paired_by` names the keys that paired rows of named columns; `""` means by order.
+    /// Scores so far, as the text of a results file. `paired_by` names the keys that paired rows of named columns; `""` means by order.
     fn compute(&self, py: Python<'_>, paired_by: Vec<String>) -> PyResult<String> {
         py.detach(|| {
             let evaluation = self.evaluator().score().map_err(value_error)?;
@@ -254,7 +255,7 @@ impl Sums {
     }
 }
 
-/// The pairing of rows, from its form in Python.
+/// Pairing of rows, from its Python form.
 fn paired(key: String) -> PairedBy {
     match key.as_str() {
         "" => PairedBy::Order,
@@ -272,7 +273,7 @@ pub(crate) fn channels_of(channels: &[(String, String)]) -> PyResult<Channels> {
     Channels::new(channels.collect::<PyResult<Vec<_>>>()?).map_err(value_error)
 }
 
-/// The channel `name` in `unit`; the six have a fixed unit.
+/// Channel `name` in `unit`; the six have a fixed unit.
 fn channel(name: &str, unit: &str) -> PyResult<Channel> {
     let unit = Unit::from_symbol(unit).ok_or_else(|| {
         let known: Vec<&str> = Unit::ALL.iter().map(|unit| unit.symbol()).collect();

@@ -1,7 +1,7 @@
 //! Plugins written in Python: Python objects as devices and estimators, and the process that serves them.
 //!
-//! The objects implement the traits of core like the devices of a library. The child process offers them to the host through the tables of
-//! the interface. All plugins thus share one wire, one sandbox and one set of checks, whatever their language.
+//! The objects implement the traits of core, like the devices of a library. The child process offers them to the host through the tables of the
+//! interface. All plugins thus share one protocol, one sandbox and one set of checks, whatever their language.
 
 mod changer;
 mod drivers;
@@ -34,8 +34,8 @@ pub(crate) use self::waiting::{Deadline, Interrupted};
 /// True in the process of a plugin.
 static SERVES: AtomicBool = AtomicBool::new(false);
 
-/// Becomes the process of a plugin: confines it, calls `import_module(folder, name, preload)` for the plugin, serves it until the host
-/// ends, and returns the exit code. Must be called first, before any import that starts threads.
+/// Runs the process of a plugin: confines it, calls `import_module(folder, name, preload)` for the plugin, serves it until the host ends, and returns
+/// the exit code. Call it first, before any import that starts threads.
 #[pyfunction]
 pub(crate) fn serve_plugin(py: Python<'_>, import_module: Py<PyAny>) -> i32 {
     SERVES.store(true, Ordering::Relaxed);
@@ -64,7 +64,7 @@ fn imported(
     Ok(Offered::of(plugin.bind(py))?.linked(folder.clone()))
 }
 
-/// The text of a manifest of `plugin` from the module `name`: `text`, updated with the data of the plugin.
+/// Manifest of `plugin` from the module `name`: `text`, updated with the data of the plugin.
 #[pyfunction]
 #[pyo3(signature = (plugin, name, text, license = None))]
 pub(crate) fn plugin_manifest(
@@ -97,10 +97,10 @@ pub(crate) fn plugin_log(level: &str, message: &str) -> PyResult<()> {
     Ok(())
 }
 
-/// Makes this interpreter, with its installed package `taceva`, run the processes of plugins.
+/// Uses this interpreter, with its installed package `taceva`, for the processes of plugins.
 ///
 /// # Errors
-/// `ValueError` in the process of a plugin, which could start itself without end.
+/// `ValueError` in the process of a plugin, which could otherwise start itself without end.
 pub(crate) fn within(py: Python<'_>) -> PyResult<()> {
     if SERVES.load(Ordering::Relaxed) {
         return Err(value_error(
@@ -115,7 +115,7 @@ pub(crate) fn within(py: Python<'_>) -> PyResult<()> {
     Ok(())
 }
 
-/// The version of the protocol between a host and the process of a plugin.
+/// Version of the protocol between a host and the process of a plugin.
 #[pyfunction]
 pub(crate) fn wire() -> u32 {
     taceva_host::WIRE

@@ -1,4 +1,4 @@
-//! Recordings made from arrays, and from folders of other programs.
+//! Recordings from arrays, and from folders of other programs.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -170,7 +170,7 @@ pub(crate) fn record(
     })?
 }
 
-/// Format of one frame of `[rows, height, width, samples]`, or of `[height, width, samples]`.
+/// Format of one frame of `[rows, height, width, samples]` or `[height, width, samples]`.
 fn frame_info(pixels: &Pixels) -> PyResult<FrameInfo> {
     let [height, width, samples] = pixels.frame_shape();
     let format = match (samples, pixels.is_deep()) {
@@ -192,7 +192,7 @@ fn frame_info(pixels: &Pixels) -> PyResult<FrameInfo> {
     })
 }
 
-/// Imports the folder `source` by the map at `map` to `out`.
+/// Imports the folder `source` to `out`, with the map at `map`.
 #[pyfunction]
 #[pyo3(signature = (source, map, out, replace, ffmpeg, jobs, bar = None))]
 #[expect(clippy::too_many_arguments, reason = "the Python side names them")]
@@ -207,7 +207,7 @@ pub(crate) fn import_recording(
     bar: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<()> {
     let imported = watched::run(py, bar, |progress: &dyn Progress| {
-        // Recovers an interrupted replacement first: a dataset that was set aside is restored.
+        // Recovers an interrupted replacement first, which restores the earlier dataset.
         settle(&out)?;
         let decoders = Decoders { ffmpeg, av1: None };
         let plan = ImportPlan::with_decoders(&source, &ImportMap::read(&map)?, &decoders)?;

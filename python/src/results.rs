@@ -1,4 +1,4 @@
-//! Results files: sealed text, tables of them, comparisons.
+//! Results files: sealed text, score tables, comparisons.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use taceva_results::{Interval, Score, Value};
 
 use crate::errors::value_error;
 
-/// `report` as the text of a results file, as the program writes it with `--format json`.
+/// Text of `report` as a results file, as written with `--format json`.
 pub(crate) fn sealed(report: &impl Serialize) -> PyResult<String> {
     let sealed = taceva_results::sealed(report).map_err(value_error)?;
     Ok(sealed + "\n")
@@ -61,7 +61,7 @@ impl From<Score> for ReadScore {
     }
 }
 
-/// Reads the results file of one evaluation; rejects one that was changed after it was sealed.
+/// Reads the results file of one evaluation; rejects a file that was edited after it was sealed.
 #[pyfunction]
 pub(crate) fn read_result(text: &str) -> PyResult<ReadResult> {
     let mut reports = taceva_results::read(text).map_err(value_error)?;
@@ -77,7 +77,7 @@ pub(crate) fn read_result(text: &str) -> PyResult<ReadResult> {
     })
 }
 
-/// A table of the scores in `texts` of results files; `form` is `text`, `csv`, `md`, `tex` or `html`. A note names what is left out.
+/// Table of the scores in `texts` of results files; `form` is `text`, `csv`, `md`, `tex` or `html`. A note names omitted channels.
 #[pyfunction]
 pub(crate) fn score_table(texts: Vec<String>, form: &str) -> PyResult<String> {
     let scores = ScoreTable::of(&studies(&texts)?);
@@ -95,7 +95,7 @@ pub(crate) fn score_table(texts: Vec<String>, form: &str) -> PyResult<String> {
     }
 }
 
-/// A sentence on the channels whose scores only `scores` has, since `shown` has those of their planes; `None` if there are none.
+/// Sentence on channels with scores only in `scores`, because `shown` has those of their planes; `None` if there are none.
 fn left_out(scores: &ScoreTable, shown: &ScoreTable) -> Option<String> {
     let mut channels: Vec<&str> = Vec::new();
     for row in scores.rows.iter().filter(|row| row.is_headline) {
@@ -148,13 +148,13 @@ pub(crate) fn figure_pdf(texts: Vec<String>, name: &str) -> PyResult<Vec<u8>> {
     Ok(figure.pdf())
 }
 
-/// The sentence that every output about samples of these origins states, if one was not measured.
+/// Sentence for every output about samples of these origins, if some were not measured.
 #[pyfunction]
 pub(crate) fn not_measured(sources: Vec<String>) -> Option<String> {
     taceva_results::not_measured(sources.iter().map(String::as_str))
 }
 
-/// The comparison of two or more results: `json` besides the forms of `score_table`.
+/// Comparison of two or more results. `form` may also be `json`, in addition to the forms of `score_table`.
 #[pyfunction]
 pub(crate) fn comparison(
     texts: Vec<String>,

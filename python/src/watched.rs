@@ -1,4 +1,4 @@
-//! Long work for a Python program: on its own thread, while the calling thread handles Ctrl-C and updates the caller's progress bar.
+//! Runs long work on its own thread, while the calling thread handles Ctrl-C and updates the progress bar.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -11,7 +11,7 @@ use taceva_core::Progress;
 
 use crate::errors::value_error;
 
-/// Interval of signal checks and updates of the bar; Ctrl-C takes at most twice as long.
+/// Interval of signal checks and bar updates; Ctrl-C takes at most twice as long.
 const PERIOD: Duration = Duration::from_millis(50);
 
 /// Event of a stage.
@@ -21,7 +21,7 @@ enum Event {
     Ended,
 }
 
-/// The worker's side: records events, and checks for cancellation.
+/// Worker side: records events, and checks for cancellation.
 struct Noted<'a> {
     events: Mutex<Vec<Event>>,
     is_stopped: &'a AtomicBool,
@@ -59,10 +59,10 @@ impl Progress for Noted<'_> {
     }
 }
 
-/// The result of `work`, run without the interpreter lock. `bar` has `begin(stage, steps or None)`, `advance(steps)` and `end()`.
+/// Result of `work`, run without the interpreter lock. `bar` has `begin(stage, steps or None)`, `advance(steps)` and `end()`.
 ///
 /// # Errors
-/// Exceptions of a signal handler or the bar, such as `KeyboardInterrupt` at Ctrl-C; the work has then been cancelled and has ended.
+/// Exceptions of a signal handler or the bar, such as `KeyboardInterrupt` at Ctrl-C. The work has been cancelled and has ended then.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     bar: Option<&Bound<'_, PyAny>>,
@@ -80,7 +80,7 @@ pub(crate) fn run<T: Send>(
         let worker = {
             let noted = &noted;
             scope.spawn(move || {
-                // Dropped also if the work panics.
+                // Dropped even if the work panics.
                 let _done: Sender<()> = done;
                 work(noted)
             })

@@ -1,4 +1,4 @@
-"""What the tests share: the command within Python, and a recording that it imported."""
+"""Shared parts of the tests: the command within Python, and a recording that it imported."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from pathlib import Path
 
 import pytest
 
-# A shell ignores Ctrl-C for what it starts in the background, and Python then raises nothing.
+# A shell ignores Ctrl-C for background processes, and Python then raises nothing.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 RECORDINGS = Path(__file__).resolve().parents[2] / "tests" / "recordings"
 
 
 def taceva(*arguments: str | os.PathLike[str], cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-    """Run the command as a process of its own; a test that expects a failure looks at the exit code."""
+    """Run the command in its own process; tests of failures check the exit code."""
     words = [sys.executable, "-m", "taceva", *map(os.fspath, arguments)]
     return subprocess.run(words, cwd=cwd, capture_output=True, text=True, check=False)
 
 
 @pytest.fixture(scope="session")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Pictures and labels of the recording `names`, imported."""
+    """Frames and labels of the recording `names`, imported."""
     out = tmp_path_factory.mktemp("recordings") / "names"
     source = RECORDINGS / "names"
     done = taceva("import", source, "--map", source / "map.toml", "--out", out)

@@ -1,4 +1,4 @@
-"""An environment whose plugins can run in the sandbox, and the program that finds them."""
+"""An environment whose plugins can run in the sandbox, and a program that finds them."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from pathlib import Path
 
 import pytest
 
-# How often a check is made again that failed by these words, of a time that was measured.
+# Number of tries of a check that fails with this text because of a measured time.
 TRIES, LATE = 6, "it took"
 
-# Any interpreter whose compiled modules are those of this one.
+# Interpreters that may have the same compiled modules as this one.
 _CANDIDATES = ["/usr/bin/python3", "/usr/local/bin/python3"]
 
 
 def _is_open(path: str) -> bool:
-    """Whether a user who owns nothing may go to `path`: as root, that is who a plugin runs as."""
+    """Return whether an unprivileged user can enter `path`; under root, plugins run as such a user."""
     real = Path(path).resolve()
     return all(part.stat().st_mode & 0o001 for part in [*real.parents, real] if part.is_dir())
 
 
 def base_interpreter() -> str:
-    """An interpreter of this version that the user of the sandbox may read; skips the test where there is none."""
+    """Return an interpreter of this version that the sandbox user can read; skip the test if there is none."""
     if os.geteuid() != 0:
         return sys.executable
     packages = sysconfig.get_paths()["purelib"]
@@ -44,17 +44,17 @@ def base_interpreter() -> str:
 
 
 def make_environment(folder: Path) -> Path:
-    """Make an environment that has the packages of this one; return its interpreter."""
+    """Create an environment with the packages of this one; return its interpreter."""
     subprocess.run([base_interpreter(), "-m", "venv", "--without-pip", str(folder)], check=True)
     packages = folder / "lib" / f"python{sys.version_info[0]}.{sys.version_info[1]}" / "site-packages"
-    # A path alone would not be looked at for further paths, of which an editable installation is one.
+    # A plain path would not be searched for further path files, such as that of an editable installation.
     beside = sysconfig.get_paths()["purelib"]
     (packages / "of_the_tests.pth").write_text(f"import site; site.addsitedir({beside!r})\n")
     return folder / "bin" / "python"
 
 
 def add_package(python: Path, source: Path, module: str, entry: str, value: str | None = None) -> None:
-    """Install a package as an editable installation does: by a path, and with its entry point."""
+    """Install a package like an editable installation: by a path file, and with its entry point."""
     packages = next((python.parent.parent / "lib").glob("python3*")) / "site-packages"
     (packages / f"{module}.pth").write_text(f"{source}\n")
     about = packages / f"{module}-1.0.0.dist-info"
@@ -64,7 +64,7 @@ def add_package(python: Path, source: Path, module: str, entry: str, value: str 
 
 
 class Program:
-    """The program `taceva` with settings and plugins of its own."""
+    """The program `taceva` with its own settings and plugins."""
 
     def __init__(self, home: Path, python: Path) -> None:
         self.home = home
@@ -82,7 +82,7 @@ class Program:
         return subprocess.run(command, capture_output=True, text=True, check=False, env=self.variables, timeout=500)
 
     def allow(self, id: str, *needs: str) -> None:
-        """Allow a plugin what it needs; what was allowed to it before is not any more."""
+        """Allow a plugin these needs only."""
         self.allowed[id] = needs
         file = self.home / ".config/taceva/config.toml"
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -90,7 +90,7 @@ class Program:
         file.write_text("[plugins.allow]\n" + "".join(lines))
 
     def check(self, id: str, folder: Path, *arguments: str) -> dict[str, list[str]]:
-        """Check a plugin; the lines by their outcome. What only came too late is checked again: the machine may be busy."""
+        """Check a plugin; return the lines by outcome. Repeats a check that was only late, because the machine may be busy."""
         given = ["plugin", "check", id, "--plugin-dir", str(folder), "--format", "json", *arguments]
         outcomes = self._outcomes(given)
         for _ in range(TRIES):
@@ -113,7 +113,7 @@ class Program:
 
 
 def _without(arguments: list[str], option: str) -> list[str]:
-    """The arguments without an option and its value."""
+    """Return the arguments without an option and its value."""
     if option not in arguments:
         return arguments
     at = arguments.index(option)

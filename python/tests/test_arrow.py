@@ -1,4 +1,4 @@
-"""The table of a recording for readers of Arrow, for pandas and for Hugging Face, with units."""
+"""Table of a recording for readers of Arrow, for pandas and for Hugging Face, with units."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import taceva
 
 
 def made(path: Path, rows: int = 40) -> taceva.Dataset:
-    """A recording with absent labels, points that some rows lack nothing of, times and pictures, from a fixed seed."""
+    """A recording with missing labels, contact points, times and frames, from a fixed seed."""
     generator = np.random.default_rng(3)
     labels = generator.uniform(size=(rows, 2))
     labels[3, 0] = np.nan
@@ -95,7 +95,7 @@ def test_many_streams_leave_no_memory_behind(tmp_path: Path) -> None:
 
     read(20)
     before = resident()
-    # A table of 2,000 rows is about 0.4 MB: kept, two hundred of them would be 80 MB and more.
+    # A table of 2,000 rows is about 0.4 MB, so a leak of two hundred tables would be 80 MB or more.
     read(200)
     assert resident() - before < 30_000_000
 

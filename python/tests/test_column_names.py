@@ -1,4 +1,4 @@
-"""Columns matched by name and rows by key, wherever labelled data comes from."""
+"""Columns matched by name and rows by key, for all kinds of labelled data."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ERROR = 0.1
 
 
 def frames() -> tuple[Any, Any]:
-    """Truth and predictions that are 0.1 off everywhere."""
+    """Truth, and predictions with an error of 0.1 everywhere."""
     generator = np.random.default_rng(3)
     truth = pd.DataFrame({name: generator.normal(size=ROWS) for name in ("Px", "Fz")})
     return truth, truth + ERROR

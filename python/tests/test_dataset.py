@@ -1,4 +1,4 @@
-"""Recordings and models: equal to what the command says of them."""
+"""Recordings and models, with the same results as the command."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ def test_control_c_ends_long_work_at_once(recording: Path) -> None:
         interrupt.start()
         settings = {"size": "32x24", "epochs": 100_000, "batch": 8}
         taceva.evaluate(recording, "cnn", split="random 60/0/40", settings=settings)
-    # The bound is wide: what is looked at is that work ends, not how loaded the machine is.
+    # A wide bound: the work must end, however loaded the machine is.
     assert time.monotonic() - begun < 10
 
 
@@ -174,7 +174,7 @@ def test_a_recording_of_labels_alone_is_refused_as_a_torch_dataset_whether_or_no
 
 
 def drawn(rows: int = 24) -> tuple[np.ndarray, np.ndarray, list[str]]:
-    """Frames whose brightness follows the force, labels and points, from a fixed seed."""
+    """Frames whose brightness follows the force, with labels and points, from a fixed seed."""
     generator = np.random.default_rng(5)
     labels = generator.uniform(size=(rows, 2))
     pixels = generator.integers(0, 40, size=(rows, 12, 16, 3))
@@ -210,7 +210,7 @@ def test_arrays_become_a_recording_that_gives_them_back(tmp_path: Path, kind: st
         assert np.array_equal(dataset.frames(), expected)
         reference = dataset.reference()
         assert reference is not None and np.array_equal(reference, expected[0])
-    # Width and height are given, halves of them are stored.
+    # Width and height are given; their halves are stored.
     header = (path / "dataset.toml").read_text()
     assert "half_x_mm = 8.0" in header and "half_y_mm = 6.0" in header, header
     with pytest.raises(taceva.DatasetError):

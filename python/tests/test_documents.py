@@ -1,4 +1,4 @@
-"""What the documents say to paste: pasted."""
+"""Runs the Python code of the documents."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ WORKSPACE = Path(__file__).resolve().parents[2]
 
 
 def blocks(path: Path) -> list[str]:
-    """Blocks of Python that are no dialogues."""
+    """Return Python blocks that are not interactive sessions."""
     found = re.findall(r"^```python\n(.*?)^```", path.read_text(), re.MULTILINE | re.DOTALL)
     return [block for block in found if ">>>" not in block]
 

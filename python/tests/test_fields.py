@@ -1,4 +1,4 @@
-"""Scenes, repeats, phases and units beside arrays: scored as the command scores tables that have these columns."""
+"""Scenes, repeats, phases and units beside arrays, scored like tables with these columns."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ POINTS, STEPS, REPEATS = 12, 3, 4
 
 
 def presses() -> tuple[Any, Any, dict[str, Any], Any]:
-    """Truth, prediction, what rows say, and points: loaded and unloaded presses under two lights, from a fixed seed."""
+    """Truth, prediction, fields and points: loading and unloading presses under two lights, from a fixed seed."""
     generator = np.random.default_rng(8)
     point, step, repeat, phase = (
         axis.reshape(-1) for axis in np.meshgrid(range(POINTS), range(STEPS), range(REPEATS), range(2), indexing="ij")

@@ -1,7 +1,7 @@
 """Results from Python against golden numbers, and against the command on golden sets and real recordings, bit for bit.
 
-`TACEVA_GOLDEN` names a folder with another `pairs.json`; `TACEVA_DATA` the folder of the recordings of others, which are not part of the project and
-may lie beside it. `TACEVA_GOLDEN_ALL=1` takes every golden set through the command and every recording; without, a few sets and the smallest recording.
+`TACEVA_GOLDEN` names a folder with another `pairs.json`. `TACEVA_DATA` names the folder of external recordings, which are not part of the
+project. `TACEVA_GOLDEN_ALL=1` tests every golden set and every recording; otherwise a few sets and the smallest recording.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ MANTISSA = np.uint64(2**52 - 1)
 
 
 def draws(seed: int, count: int) -> Any:
-    """Numbers of splitmix64, in their order."""
+    """Return numbers of splitmix64, in order."""
     with np.errstate(over="ignore"):
         state = np.uint64(seed) + np.arange(1, count + 1, dtype=np.uint64) * np.uint64(GAMMA)
         state = (state ^ (state >> np.uint64(30))) * np.uint64(FIRST)
@@ -39,7 +39,7 @@ def unit(drawn: Any) -> Any:
 
 
 def normal(drawn: Any) -> Any:
-    """Twelve draws a row, summed from left to right."""
+    """Use twelve draws per row, summed from left to right."""
     total = unit(drawn[..., 0])
     for at in range(1, 12):
         total = total + unit(drawn[..., at])
@@ -47,20 +47,20 @@ def normal(drawn: Any) -> Any:
 
 
 def wide(drawn: Any, low: int, high: int) -> Any:
-    """Two draws a row: sign and significand, then the exponent."""
+    """Use two draws per row: sign and significand, then the exponent."""
     significand = 1.0 + (drawn[..., 0] & MANTISSA).astype(np.float64) * 2.0**-52
     exponent = low + (drawn[..., 1] % np.uint64(high - low + 1)).astype(np.int64)
     return np.where(drawn[..., 0] >> np.uint64(63), -1.0, 1.0) * np.ldexp(significand, exponent)
 
 
 def tiny(drawn: Any) -> Any:
-    """Two draws a row: the significand, then the sign."""
+    """Use two draws per row: the significand, then the sign."""
     sign = (drawn[..., 1] >> np.uint64(63)) << np.uint64(63)
     return ((drawn[..., 0] & MANTISSA) | sign).view(np.float64)
 
 
 def generated(case: dict[str, Any]) -> tuple[Any, Any]:
-    """Truth and prediction of a recipe, as the file describes it."""
+    """Return truth and prediction of a recipe, as described in the file."""
     kind, rows, parameters = case["kind"], case["n"], case.get("p", {})
     a, b, s = (parameters.get(name, 0.0) for name in "abs")
     low, high = (parameters.get(name, 0) for name in ("lo", "hi"))
@@ -140,11 +140,11 @@ def arrays(case: dict[str, Any]) -> tuple[Any, Any]:
 
 
 def root_mean_square(truth: Any, prediction: Any) -> float | None:
-    """The exact root of the exact mean square of finite pairs, rounded once; `None` where it is no binary64."""
+    """Return the exact root of the exact mean square of finite pairs, rounded once; `None` if it exceeds binary64."""
     pairs = [pair for pair in zip(truth.tolist(), prediction.tolist(), strict=True) if all(map(math.isfinite, pair))]
     if not pairs:
         return None
-    # Every binary64 is a whole number of 2^-1074; 128 more bits and the last one, set where something is left, decide any rounding.
+    # Every binary64 is a whole multiple of 2^-1074. 128 more bits and a sticky last bit for any remainder decide every rounding.
     whole = [[top * (2**1074 // bottom) for top, bottom in map(float.as_integer_ratio, pair)] for pair in pairs]
     square, rest = divmod(sum((one - other) ** 2 for one, other in whole) << 256, len(pairs))
     root = math.isqrt(square)

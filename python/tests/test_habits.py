@@ -1,4 +1,4 @@
-"""What people who live in notebooks type first: it works, or is refused in words."""
+"""Common first attempts in notebooks: each works, or is rejected with a clear message."""
 
 from __future__ import annotations
 
@@ -211,7 +211,7 @@ def test_a_function_is_a_metric_with_intervals_by_point() -> None:
         assert score.interval.high == pytest.approx(mae.interval.high, abs=0.3 * width)
     again = taceva.score_function(mean_error, truth, prediction, points=points)
     assert again == scores
-    # Samples of one point that agree widen the interval, as if each point were one sample.
+    # Equal samples of one point widen the interval, as if each point were one sample.
     level = np.repeat(np.random.default_rng(3).normal(size=100), 6)[:, None]
     by_point, by_sample = (
         taceva.score_function(lambda true, found: (found - true).mean(), truth[:, :1], truth[:, :1] + level, channels=["Px"], **how)["Px"].interval
@@ -242,7 +242,7 @@ def test_a_function_that_gives_no_number_is_refused_and_what_it_raises_comes_out
 def test_labels_with_names_are_recorded_by_name(tmp_path: Path) -> None:
     columns = {"Fz": [1.0, 2.0, 3.0], "point_id": ["a", "a", "b"], "Px": [0.0, 0.1, 0.2]}
     dataset = taceva.from_arrays(tmp_path / "dict", columns, sensor="gel", source="synthetic")
-    # A dataset has its channels in one order, whatever the order of the columns.
+    # A dataset has a fixed order of channels, whatever the order of the columns.
     assert dataset.channels == ("Px", "Fz") and dataset.points() == ["a", "a", "b"]
     assert dataset.labels().tolist() == [[0.0, 1.0], [0.1, 2.0], [0.2, 3.0]]
     plain = taceva.from_arrays(tmp_path / "plain", [[1.0, 0.0], [2.0, 0.1]], channels=["Fz", "Px"], sensor="gel", source="synthetic")

@@ -1,4 +1,4 @@
-"""Arrays as nobody should pass them: each is taken for what it says, or refused in words before anything of it is copied."""
+"""Unusual arrays: each is read correctly, or rejected with a message before anything is copied."""
 
 from __future__ import annotations
 

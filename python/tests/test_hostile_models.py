@@ -1,4 +1,4 @@
-"""Models that do what models must not: what they raise comes out unchanged, and nothing of theirs hangs or spoils a result."""
+"""Misbehaving models: their exceptions are raised unchanged, and they neither hang nor spoil a result."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def drawn(tmp_path_factory: pytest.TempPathFactory) -> taceva.Dataset:
 
 
 class Mean:
-    """Predicts the mean of what it has learnt; what it is given to do before that is done first."""
+    """A model that predicts the mean of its training labels, after running a given function."""
 
     def __init__(self, before: Callable[[Any], Any] = len) -> None:
         self._before = before
@@ -53,7 +53,7 @@ KINDS = [pytest.param(Mean, id="fitted"), pytest.param(called, id="called")]
 
 
 class OwnError(Exception):
-    """An error that only its model knows."""
+    """An error class of the model."""
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -182,7 +182,7 @@ def test_control_c_ends_a_model_that_hangs_and_the_next_one_is_scored(drawn: tac
 
     def hangs(frames: Any) -> Any:
         begun.set()
-        # In pieces: a signal that comes just before one long sleep begins would be seen only after it.
+        # Short sleeps: a signal just before one long sleep would be handled only after it.
         for _ in range(12_000):
             time.sleep(0.05)
 
@@ -197,7 +197,7 @@ def test_control_c_ends_a_model_that_hangs_and_the_next_one_is_scored(drawn: tac
     with pytest.raises(KeyboardInterrupt):
         presser.start()
         taceva.evaluate(drawn, hangs)
-    # On a machine at rest it is 0.1 s at most (benches/peers/python_update.py prints it); what is asked here is that it ends.
+    # On an idle machine it is 0.1 s at most (see benches/peers/python_update.py). Here it only has to end.
     assert time.monotonic() - pressed[0] < 30
     presser.join()
     assert taceva.evaluate(drawn, lambda frames: np.zeros((len(frames), 3)))["mae", "Fz"].n == ROWS

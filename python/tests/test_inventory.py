@@ -1,4 +1,4 @@
-"""Models, metrics and plugins by name: Python finds what the command beside it finds, and gives the same bytes."""
+"""Models, metrics and plugins by name: Python finds the same as the command, and returns the same bytes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Scores of arrays: equal to the command's, whatever the form, the order and the division of the arrays."""
+"""Scores of arrays equal those of the command, whatever the form, order and division of the arrays."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def metrics_of(result: taceva.Result) -> dict[str, Any]:
 
 
 def write_tables(folder: Path, truth: Any, prediction: Any, points: Any) -> tuple[Path, Path]:
-    """Write the arrays as the tables that `taceva score` reads."""
+    """Write the arrays as tables for `taceva score`."""
     tables = folder / "truth.csv", folder / "prediction.csv"
     for path, values in zip(tables, (truth, prediction), strict=True):
         with path.open("w") as file:

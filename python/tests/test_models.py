@@ -1,4 +1,4 @@
-"""Models that Python holds: fitted and scored by the rules that hold for ours."""
+"""Models in Python: fitted and scored by the same rules as built-in models."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SMALL = {"size": "8x6"}
 
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory: pytest.TempPathFactory) -> taceva.Dataset:
-    """Frames of which position and force can be read, drawn from a fixed seed."""
+    """Frames that show position and force, drawn from a fixed seed."""
     generator = np.random.default_rng(11)
     rows, height, width = 160, 24, 32
     labels = generator.uniform([-4, -3, 0.2], [4, 3, 2.0], size=(rows, 3))
@@ -31,7 +31,7 @@ def drawn(tmp_path_factory: pytest.TempPathFactory) -> taceva.Dataset:
 
 
 class Mean:
-    """Predicts the mean of what it has learnt."""
+    """A model that predicts the mean of its training labels."""
 
     def fit(self, seen: Any, labels: Any) -> None:
         self.mean = labels.mean(axis=0)

@@ -1,4 +1,4 @@
-"""The notebook of the examples, executed by a real kernel, and what a reader of it sees."""
+"""The example notebook, executed by a real kernel, and its output."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ NOTEBOOKS = Path(__file__).resolve().parents[2] / "examples" / "notebooks"
 
 
 def executed(name: str, monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, list[dict[str, str]]]]:
-    """Each cell of code, and what it shows by type."""
+    """Return each code cell, and its output by type."""
     nbclient = pytest.importorskip("nbclient")
     nbformat = pytest.importorskip("nbformat")
     pytest.importorskip("ipykernel")
@@ -35,7 +35,7 @@ def test_the_notebook_opens_a_recording_compares_three_models_and_ends_with_a_ta
 
     def of(part: str) -> dict[str, str]:
         (found,) = [outputs for source, outputs in outputs.items() if part in source]
-        # Bars and messages of libraries are no results.
+        # Progress bars and messages of libraries are not results.
         return [output for output in found if set(output) != {"text/plain"} or "Error" not in output["text/plain"]][-1]
 
     assert "240 rows of drawn gel, synthetic" in of("drawn(folder)")["text/plain"]

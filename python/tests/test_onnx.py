@@ -1,4 +1,4 @@
-"""Models in files of ONNX, run by a real onnxruntime."""
+"""Models in ONNX files, run by a real onnxruntime."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def drawn(tmp_path_factory: pytest.TempPathFactory) -> taceva.Dataset:
 
 
 def file_of(path: Path, axes: list[Any], kind: str = "FLOAT", *, outputs: int = 1, scale: float = 10.0) -> Path:
-    """A model that gives `scale` times the mean of each picture, as `[rows, 1]`."""
+    """A model that returns `scale` times the mean of each frame, as `[rows, 1]`."""
     onnx = pytest.importorskip("onnx")
     pytest.importorskip("onnxruntime")
     helper, number = onnx.helper, getattr(onnx.TensorProto, kind)

@@ -1,4 +1,4 @@
-"""The packages in `examples/python-plugins` keep every promise in the sandbox, where their libraries are installed."""
+"""The packages in `examples/python-plugins` pass all checks in the sandbox, if their libraries are installed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The guide to plugins in Python, followed to the letter."""
+"""Follows the guide to Python plugins step by step."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Plugins in Python: found without being imported, confined, and refused in words where something is wrong."""
+"""Python plugins: found without import, confined, and rejected with a message if something is wrong."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def environment(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def opened(folder: Path) -> Path:
-    """The folder, where every user may go to it: pytest closes its own."""
+    """Return the folder, made accessible for every user; pytest closes its own."""
     for above in [folder, folder.parent, folder.parent.parent]:
         if above.stat().st_uid == os.geteuid():
             above.chmod(above.stat().st_mode | 0o055)
@@ -75,7 +75,7 @@ def package(folder: Path, code: str = SCALE, manifest: str = MANIFEST, name: str
 
 
 def failure(program: Program, made: Path, only: str, *more: str) -> str:
-    """Why the checks of a plugin fail."""
+    """Return the reason why the checks of a plugin fail."""
     done = program.check(KEY, made, "--only", only, *more)
     assert done["failed"], done
     return "\n".join(done["failed"])
@@ -337,7 +337,7 @@ def test_code_that_comes_too_late_is_refused_and_the_remedy_is_named(tmp_path: P
 
 
 def new(folder: Path, kind: str, name: str) -> Path:
-    """Begin a project as its author does; return its package."""
+    """Create a project like its author would; return its package."""
     command = [sys.executable, "-m", "taceva", "plugin", "new", kind, name, "--language", "python"]
     subprocess.run(command, cwd=folder, check=True, capture_output=True)
     return folder / name / "src" / name.replace("-", "_")
@@ -440,7 +440,7 @@ def test_a_signal_against_a_silent_fit_is_answered_at_once_and_ends_it_in_second
             answered = next((line for line in running.stderr if f"stopping the fit of {key}" in line), None)
             assert answered is not None and time.monotonic() - begun < 5, answered
             assert running.wait(timeout=30) != 0
-            # Five seconds; the bound is wide, since the machine may be busy, but far from the thirty of other calls.
+            # The limit is five seconds. The bound is wide for a busy machine, but far from the thirty seconds of other calls.
             assert time.monotonic() - begun < 20
         finally:
             running.kill()
@@ -489,7 +489,7 @@ def test_an_estimator_that_asks_for_plugins_fails_in_words_and_starts_none(tmp_p
     assert "a plugin cannot use plugins or the command" in why, why
 
 
-# The study of the guide.
+# Scene of the guide.
 SCENE = re.findall(r"^```toml eye.toml\n(.*?)^```$", (Path(__file__).parents[2] / "docs/python-plugins.md").read_text(), re.MULTILINE | re.DOTALL)[0]
 
 
@@ -505,7 +505,7 @@ def test_a_sensor_in_python_is_measured_by_a_whole_run_of_the_command(tmp_path: 
         assert done.returncode == 0, done.stderr
         studies.append(json.loads(done.stdout)["studies"][0])
     assert studies[0]["subject"]["source"] == "simulated"
-    # Its pictures come a hundred times a second by its own clock.
+    # Frames come a hundred times a second by the clock of the plugin.
     assert abs(studies[0]["metrics"]["intrinsic"]["frame_rate"]["value"] - 100) < 0.1
     assert studies[0]["metrics"]["mae"]["Fz"]["value"] > 0
     assert studies[0]["provenance"]["dataset"] == studies[1]["provenance"]["dataset"]

@@ -21,7 +21,7 @@ ROWS = 4_000
 
 
 def shard(seed: int) -> taceva.TactileMetrics:
-    """The sums of one part of what `whole` has seen."""
+    """Sums of one part of the samples of `whole`."""
     generator = np.random.default_rng(seed)
     truth = generator.normal(size=(ROWS, 6))
     metrics = taceva.TactileMetrics()
@@ -37,7 +37,7 @@ def whole(shards: int) -> str:
 
 
 def evaluated(path: str) -> str:
-    """A model that needs threads for its frames and for its fit."""
+    """Result of a model that needs threads for its frames and its fit."""
     return taceva.evaluate(path, "ridge", split="random 60/0/40", settings={"size": "8x6"}, jobs=2).text
 
 
@@ -63,7 +63,7 @@ def test_sums_of_other_processes_merge_to_the_same_bytes(way: str) -> None:
 
 
 def test_a_process_forked_after_threads_were_at_work_reads_and_fits_as_its_parent(drawn: str) -> None:
-    # Whatever threads the parent started are gone in the child: what waits for one of them would wait for ever.
+    # Threads of the parent do not exist in the child, so waiting for one would never end.
     expected = evaluated(drawn)
     with multiprocessing.get_context("fork").Pool(2) as pool:
         assert pool.map_async(evaluated, [drawn, drawn]).get(timeout=240) == [expected, expected]
@@ -96,7 +96,7 @@ def test_what_travels_arrives_equal(drawn: str) -> None:
 
 
 def of_another_version(sent: Any) -> bytes:
-    """What an object would have sent if its package had version 99."""
+    """Pickle of an object as if its package had version 99."""
 
     class Sent:
         def __reduce__(self) -> Any:

@@ -1,4 +1,4 @@
-"""Bars of long work: shown where somebody sees them, and never in the way of a result."""
+"""Progress bars: shown only where visible, without effect on a result."""
 
 from __future__ import annotations
 

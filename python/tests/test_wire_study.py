@@ -1,6 +1,6 @@
-"""The packages in `examples/python-plugins` in a whole study on the wire bench: an emulated arm, camera and gel, none of them in this process.
+"""The packages in `examples/python-plugins` in a whole study on the wire bench, with an emulated arm, camera and gel in other processes.
 
-`TACEVA_WIRE` names the program that serves them, `taceva-wire`; `TACEVA_WIRE_PRESSES` how many presses there are, ten where it does not.
+`TACEVA_WIRE` names the program `taceva-wire`, which serves them; `TACEVA_WIRE_PRESSES` sets the number of presses, by default ten.
 """
 
 from __future__ import annotations
@@ -34,19 +34,19 @@ MODELS = {
 
 @contextmanager
 def wire_bench(rig: Path) -> Iterator[str]:
-    """Emulated devices, and the text of the rig file that reaches them."""
+    """Emulated devices, and the text of their rig file."""
     program = os.environ.get("TACEVA_WIRE")
     if program is None:
         pytest.skip("TACEVA_WIRE names no program that serves emulated devices")
     served = subprocess.Popen([program, "--quiet", "--seed", "7", "--write", rig], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     assert served.stdin is not None and served.stdout is not None
     try:
-        # It has written the file when it says until when it runs.
+        # The file is complete once the program prints its end time.
         while not (line := served.stdout.readline()).startswith("# It runs"):
             assert line, served.wait()
         yield rig.read_text()
     finally:
-        # It ends with its standard input.
+        # The program ends with its standard input.
         served.stdin.close()
         served.stdout.close()
         assert served.wait(timeout=30) == 0
@@ -54,7 +54,7 @@ def wire_bench(rig: Path) -> Iterator[str]:
 
 @contextmanager
 def serial_port(control: str) -> Iterator[str]:
-    """A serial port on which the normal force of the bench comes, N, a line every 5 ms, with noise of 1 mN: one that repeats itself is taken for frozen."""
+    """A serial port with the normal force of the bench in N, one line every 5 ms. Noise of 1 mN avoids the detection of a frozen signal."""
     ours, theirs = os.openpty()
     port = os.ttyname(theirs)
     os.chmod(port, 0o666)
@@ -72,7 +72,7 @@ def serial_port(control: str) -> Iterator[str]:
                 try:
                     os.write(ours, f"{force:.6f}\n".encode())
                 except BlockingIOError:
-                    # Nobody reads.
+                    # The port has no reader.
                     pass
                 time.sleep(0.005)
 
@@ -94,7 +94,7 @@ def found(text: str, pattern: str) -> str:
 
 
 def with_plugins(rig: str, camera: str, transducer: str) -> str:
-    """The rig file with another camera and another transducer, of which the one over the gel measures along its normal alone."""
+    """Rig file with another camera and another transducer, which measures only the normal force."""
     sections = re.split(r"\n(?=\[)", rig)
     kept = [section for section in sections if not section.startswith(("[force]", "[sensor]"))]
     kept.append(f'[force]\ndriver = "{transducer}"\naxes = ["x", "y", "z"]\nlatency_ms = 0.0\n')
@@ -105,7 +105,7 @@ def with_plugins(rig: str, camera: str, transducer: str) -> str:
 @pytest.mark.parametrize("model", MODELS)
 def test_the_example_packages_measure_in_a_whole_study_on_the_wire_bench(model: str, tmp_path: Path) -> None:
     for library in ["cv2", "serial", *(["torch"] if model == "torch" else [])]:
-        # Not imported here: what torch brings along has its own warnings.
+        # Not imported here, because torch causes its own warnings.
         if importlib.util.find_spec(library) is None:
             pytest.skip(f"no {library}")
     for above in [tmp_path, tmp_path.parent, tmp_path.parent.parent]:
@@ -137,11 +137,11 @@ def test_the_example_packages_measure_in_a_whole_study_on_the_wire_bench(model: 
     assert recording.frame_shape == (240, 320, 3)
     assert len(recording) == 2 * PRESSES
     labels = dict(zip(recording.channels, recording.labels().T, strict=True))
-    # What the arm pressed, the transducer measured: a gel is the harder the deeper it is pressed.
+    # The transducer measured the presses of the arm; force grows with depth.
     assert labels["Fz"].max() > 0.1
     deepest, shallowest = labels["Pz"].argmax(), labels["Pz"].argmin()
     assert labels["Fz"][deepest] > labels["Fz"][shallowest]
-    # The pictures are those of the bench: of a press they are others than without.
+    # The frames come from the bench: a press changes them.
     assert recording.frame(int(deepest)).std() > 0
     assert not (recording.frame(int(deepest)) == recording.frame(int(shallowest))).all()
 

@@ -1,6 +1,6 @@
 """How well does a vision-based tactile sensor measure?
 
-Exact metrics with intervals over arrays, recordings on disk, and models, fitted and scored as the command ``taceva`` does.
+Exact metrics with intervals over arrays, recordings on disk, and models, with the same results as the command ``taceva``.
 
 >>> import numpy as np
 >>> import taceva

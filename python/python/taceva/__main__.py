@@ -4,7 +4,7 @@ import sys
 
 
 def main() -> int:
-    """Carry out the command that ``sys.argv`` says; return its exit code."""
+    """Run the command in ``sys.argv``; return its exit code."""
     from taceva._taceva import command
 
     sys.stdout.flush()

@@ -1,4 +1,4 @@
-"""Arrays as people have them, brought to native float32 or float64 in the order of C."""
+"""Conversion of arrays to native float32 or float64 in C order."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from taceva import _taceva
 
 Numbers = npt.NDArray[np.float32] | npt.NDArray[np.float64]
 
-#: The most rows of one call. An array of more is one that was made by broadcasting, or a mistake; it is refused before anything of it is copied.
+#: Greatest number of rows in one call. Larger arrays come from broadcasting or a mistake; they are rejected before anything is copied.
 MOST_ROWS = 2**31 - 1
 
-#: Rows that are brought to the form of the sums at once, so that no array is copied as a whole.
+#: Number of rows converted at a time, so that no array is copied as a whole.
 BLOCK_ROWS = 65_536
 
 
 def real(array: Any, name: str) -> npt.NDArray[Any]:
-    """Return ``array`` as an array of real numbers, in whatever form they lie; nothing is copied of an array of numpy or of a tensor on the CPU.
+    """Return ``array`` as an array of real numbers, in any memory layout. Does not copy numpy arrays or tensors on the CPU.
 
     Raises
     ------
@@ -40,13 +40,13 @@ def real(array: Any, name: str) -> npt.NDArray[Any]:
 
 
 def require_rows(array: npt.NDArray[Any], name: str) -> None:
-    """Refuse more rows than are taken in one call."""
+    """Reject more rows than one call accepts."""
     if array.ndim and len(array) > MOST_ROWS:
         raise ValueError(f"{name} has {len(array)} rows, expected at most {MOST_ROWS} in one call: update with one part after another")
 
 
 def native(array: npt.NDArray[Any], name: str, *, allow_invalid: bool = False) -> Numbers:
-    """Return an array of real numbers as native float32 or float64 in the order of C, copied only where it must be."""
+    """Return an array of real numbers as native float32 or float64 in C order; copies only if necessary."""
     is_single = array.dtype.kind == "f" and array.dtype.itemsize == 4
     found: Numbers = np.ascontiguousarray(array, dtype=np.float32) if is_single else np.ascontiguousarray(array, dtype=np.float64)
     if not allow_invalid:
@@ -63,7 +63,7 @@ def with_units(channels: Sequence[str], units: Mapping[str, str]) -> list[tuple[
 
 
 def column_order(channels: list[tuple[str, str]]) -> list[int] | None:
-    """Return the columns of ``channels`` in the order that sums and recordings have; ``None`` if they are in it.
+    """Return the positions of ``channels`` in the order of sums and recordings; ``None`` if they are already in that order.
 
     >>> column_order([("Fz", "N"), ("Px", "mm")]), column_order([("Px", "mm"), ("Fz", "N")])
     ([1, 0], None)
@@ -73,12 +73,12 @@ def column_order(channels: list[tuple[str, str]]) -> list[int] | None:
 
 
 def in_order(table: npt.NDArray[Any], order: list[int] | None) -> npt.NDArray[Any]:
-    """Return the columns of ``table`` in ``order``; a table of another width is returned as it is, and refused later."""
+    """Return the columns of ``table`` in ``order``. A table of another width is returned unchanged, and rejected later."""
     return table if order is None or table.shape[1:] != (len(order),) else table[:, order]
 
 
 def require_finite(array: Numbers, name: str, first: int = 0) -> None:
-    """Refuse NaN and infinite numbers; ``first`` is the place of the first row, for messages."""
+    """Reject NaN and infinite numbers; ``first`` is the number of the first row, for messages."""
     if not np.isfinite(array).all():
         row, *column = (int(at[0]) for at in np.nonzero(~np.isfinite(array)))
         raise ValueError(
@@ -88,14 +88,14 @@ def require_finite(array: Numbers, name: str, first: int = 0) -> None:
 
 
 def numbers(array: Any, name: str, *, allow_invalid: bool = False) -> Numbers:
-    """Return ``array`` as native float32 or float64, C-contiguous, copied only where it must be.
+    """Return ``array`` as native float32 or float64, C-contiguous; copies only if necessary.
 
-    Arrays of numpy and torch (any device), lists, and whatever has ``__array__`` are taken; whole numbers are converted.
+    Accepts arrays of numpy and torch (any device), lists, and objects with ``__array__``; converts whole numbers.
 
     Raises
     ------
     TypeError, ValueError
-        As of `real`, and for NaN or an infinite number, unless ``allow_invalid``.
+        As `real`, and for NaN or an infinite number, unless ``allow_invalid``.
     """
     return native(real(array, name), name, allow_invalid=allow_invalid)
 
@@ -122,11 +122,11 @@ def points(names: Any, name: str = "points") -> npt.NDArray[np.int64] | list[str
 
 
 def _in_memory(array: Any, name: str) -> Any:
-    """Return a tensor of torch without its gradient and its device; anything else as it is."""
+    """Return a torch tensor on the CPU without its gradient; any other object unchanged."""
     if not (hasattr(array, "detach") and hasattr(array, "cpu")):
         return array
     if getattr(array, "is_meta", False):
         raise ValueError(f"{name}: a tensor on the device meta, which holds no numbers; expected one with memory")
     tensor = array.detach().cpu()
-    # bfloat16 is not known to numpy.
+    # numpy does not know bfloat16.
     return tensor.float() if str(tensor.dtype) == "torch.bfloat16" else tensor

@@ -1,4 +1,4 @@
-"""Progress of long work: a bar of tqdm where tqdm is installed and a terminal or a notebook shows it, else nothing."""
+"""Progress bars of tqdm for long work, if tqdm is installed and a terminal or a notebook shows them."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from typing import Any, Protocol
 
 
 class Bar(Protocol):
-    """What is informed of the progress of long work."""
+    """Receiver of the progress of long work."""
 
     def begin(self, stage: str, steps: int | None) -> None:
-        """A stage begins, of so many steps where that is known."""
+        """Begin a stage of ``steps`` steps, or of unknown length."""
 
     def advance(self, steps: int) -> None:
-        """So many more steps are done."""
+        """Count ``steps`` more steps."""
 
     def end(self) -> None:
-        """The stage is over."""
+        """End the stage."""
 
 
 class _Tqdm:
@@ -49,14 +49,14 @@ def progress(shown: bool | None) -> None:
 
 
 def _is_notebook() -> bool:
-    """Whether a kernel of Jupyter runs here, which is more than that somebody imported it."""
+    """Return whether a Jupyter kernel runs this process; importing IPython alone is not enough."""
     interactive = sys.modules.get("IPython")
     shell = interactive.get_ipython() if interactive is not None else None
     return type(shell).__module__.startswith("ipykernel.")
 
 
 def bar() -> Bar | None:
-    """Return a bar for the work that begins now, if one is to be shown and tqdm is installed."""
+    """Return a bar for the work that begins now, if bars are shown and tqdm is installed."""
     if _shown is False or (_shown is None and not _is_notebook() and not sys.stderr.isatty()):
         return None
     try:

@@ -1,6 +1,6 @@
-"""Arrays whose columns or rows have names: pandas, polars, Arrow, xarray, structured arrays of numpy and dicts of arrays.
+"""Arrays with named columns or rows: pandas, polars, Arrow, xarray, structured numpy arrays and dicts of arrays.
 
-Columns are matched by name and rows by key, as ``taceva score`` does with files; what disagrees is refused.
+Columns are matched by name and rows by key, like files in ``taceva score``; disagreeing values are rejected.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-#: Columns that name rows, in the order in which they are tried: those of the command.
+#: Columns that identify rows, in the order of trial; the same as for the command.
 KEYS = ("sample", "id", "sample_id", "index")
 
-#: Columns in which paired rows must agree, with how far apart numbers may lie.
+#: Columns in which paired rows must agree, with the tolerance of numbers.
 _AGREE = {"point_id": 0.0, "frame_sha256": 0.0, "t_s": 0.0005}
 
 #: Columns that are no channels.
@@ -23,18 +23,18 @@ _BESIDE = {*KEYS, *_AGREE, "scene", "unit_id", "repeat", "depth_step", "phase", 
 
 _SIX = ("Px", "Py", "Pz", "Fx", "Fy", "Fz")
 
-#: What a caller does whose index means nothing.
+#: Remedy for an index without meaning.
 _REMEDY = "pass .to_numpy() where the order of rows is what counts, or reset_index(drop=True)"
 
 
 @dataclass
 class NamedColumns:
-    """Columns by name, and the index of their rows where they have one."""
+    """Columns by name, and the index of their rows, if any."""
 
     columns: dict[str, Any]
-    #: Of pandas; ``None`` where rows have no names.
+    #: Index of pandas; ``None`` if rows have no names.
     index: npt.NDArray[Any] | None = None
-    #: Whether the index is the count from 0 that pandas gives rows by itself.
+    #: True if the index is the default count from 0 of pandas.
     is_counted: bool = True
 
     def channels(self) -> list[str]:
@@ -47,7 +47,7 @@ class NamedColumns:
         Raises
         ------
         ValueError
-            For a channel that is no column.
+            For a missing channel.
         """
         missing = [channel for channel in channels if channel not in self.columns]
         if missing:
@@ -66,21 +66,21 @@ class PairedArrays:
 
     truth: Any
     prediction: Any
-    #: Contact points that the columns name, if nobody gave others.
+    #: Contact points in the columns, if the caller gave none.
     points: Any
-    #: How rows were paired: the name of a key, ``index``, or ``""`` for by order.
+    #: Pairing of rows: the name of a key, ``the index``, or ``""`` for order.
     paired_by: str | None
-    #: The rows of the truth, where they have names, for what comes beside them.
+    #: Names of the rows of the truth, if any, to align further columns.
     index: npt.NDArray[Any] | None = field(default=None)
 
 
 def named_columns(table: Any, name: str) -> NamedColumns | None:
-    """Return the columns of what has names for them; ``None`` of a plain array or tensor.
+    """Return the columns of a table with names; ``None`` for a plain array or tensor.
 
     Raises
     ------
     ValueError
-        For a name that comes twice.
+        For a repeated name.
     """
     if hasattr(table, "dims") and hasattr(table, "coords"):
         return _of_xarray(table, name)
@@ -98,7 +98,7 @@ def named_columns(table: Any, name: str) -> NamedColumns | None:
 
 
 def _of_pandas(table: Any, name: str) -> NamedColumns:
-    """Return the columns of a data frame, or the one of a series under the empty name."""
+    """Return the columns of a data frame; for a series, its only column, with the name of the series or ``""``."""
     index = table.index
     is_counted = bool(getattr(index, "start", None) == 0 and getattr(index, "step", None) == 1)
     rows = index.to_numpy()
@@ -107,7 +107,7 @@ def _of_pandas(table: Any, name: str) -> NamedColumns:
         return NamedColumns({called: _of_extension(table)}, rows, is_counted)
     names = list(table.columns)
     if not all(isinstance(key, str) for key in names):
-        # Columns that are counted have no names: they are an array with an index.
+        # Numbered columns have no names; they are an array with an index.
         return NamedColumns({"": np.column_stack([_of_extension(table.iloc[:, at]) for at in range(len(names))])}, rows, is_counted)
     for key in names:
         if names.count(key) > 1:
@@ -116,7 +116,7 @@ def _of_pandas(table: Any, name: str) -> NamedColumns:
 
 
 def _of_xarray(table: Any, name: str) -> NamedColumns | None:
-    """Return the variables of a data set, the columns of a table with names, or a single column; ``None`` of any other array."""
+    """Return the variables of a data set, the columns of a named table, or a single column; ``None`` for any other array."""
     if hasattr(table, "data_vars"):
         dims = list(dict.fromkeys(dim for column in table.data_vars.values() for dim in column.dims))
         if len(dims) != 1:
@@ -141,9 +141,9 @@ def _of_xarray(table: Any, name: str) -> NamedColumns | None:
 
 
 def _with_rows(table: Any, rows: Any, columns: dict[str, npt.NDArray[Any]]) -> NamedColumns:
-    """Return ``columns`` with the names of their rows, and with coordinates of the rows that say what a row is."""
+    """Return ``columns`` with the names of their rows, and with row coordinates that must agree."""
     beside_rows = {key: np.asarray(table.coords[key].values) for key in _AGREE if key in table.coords and table.coords[key].dims == (rows,)}
-    # A lone column without a name stays one.
+    # A single unnamed column stays unnamed.
     columns = columns if "" in columns else beside_rows | columns
     if rows not in table.coords:
         return NamedColumns(columns)
@@ -152,7 +152,7 @@ def _with_rows(table: Any, rows: Any, columns: dict[str, npt.NDArray[Any]]) -> N
 
 
 def _of_extension(column: Any) -> npt.NDArray[Any]:
-    """Return a series of pandas as an array; numbers that may be absent as float64 with NaN."""
+    """Return a pandas series as an array; nullable numbers as float64 with NaN."""
     if hasattr(column.dtype, "na_value") and getattr(column.dtype, "kind", "O") in "iuf":
         return np.asarray(column.to_numpy(dtype="float64", na_value=np.nan))
     return np.asarray(column.to_numpy())
@@ -166,14 +166,14 @@ def _numbers(column: Any) -> npt.NDArray[Any]:
 
 
 def pair(truth: Any, prediction: Any, channels: Sequence[str] | None) -> tuple[Sequence[str] | None, PairedArrays]:
-    """Return the channels that both have, and both as arrays with the rows of the truth.
+    """Return the common channels, and both arrays with the rows of the truth.
 
-    Plain arrays are returned as they are, with ``channels``.
+    Plain arrays are returned unchanged, with ``channels``.
 
     Raises
     ------
     ValueError
-        For other columns, and for rows that cannot be paired or disagree.
+        For different columns, and for rows that cannot be paired or disagree.
     """
     of_truth, of_prediction = named_columns(truth, "truth"), named_columns(prediction, "prediction")
     if of_truth is None and of_prediction is None:
@@ -185,7 +185,7 @@ def pair(truth: Any, prediction: Any, channels: Sequence[str] | None) -> tuple[S
         if columns is None:
             arrays.append(given)
         elif list(columns.columns) == [""] or (len(columns.columns) == 1 and len(wanted or _SIX) == 1 and not _is_known(columns, wanted)):
-            # One column, or counted ones: their place says what they are.
+            # A single column, or numbered columns, are matched by position.
             arrays.append(next(iter(columns.columns.values())))
         else:
             arrays.append(columns.array(wanted or _SIX, name))
@@ -202,13 +202,13 @@ def pair(truth: Any, prediction: Any, channels: Sequence[str] | None) -> tuple[S
 
 
 def _is_known(columns: NamedColumns, wanted: Sequence[str] | None) -> bool:
-    """Tell whether the one column is called like a channel."""
+    """Return whether the only column has the name of a channel."""
     (name,) = columns.columns
     return name in (*_SIX, *(wanted or ()))
 
 
 def _channels(truth: NamedColumns | None, prediction: NamedColumns | None, given: Sequence[str] | None) -> Sequence[str] | None:
-    """Return the channels: those given, else the columns of the prediction, which the truth must have."""
+    """Return the given channels, or else the columns of the prediction, which the truth must also have."""
     if given is not None:
         return given
     found = [columns.channels() for columns in (prediction, truth) if columns is not None]
@@ -226,7 +226,7 @@ def _channels(truth: NamedColumns | None, prediction: NamedColumns | None, given
 
 
 def _order(truth: NamedColumns | None, prediction: NamedColumns | None) -> tuple[npt.NDArray[np.intp] | None, str | None]:
-    """Return for each row of the truth that of the prediction, or ``None`` for the same, and by what they were paired."""
+    """Return the row of the prediction for each row of the truth, ``None`` for the same order, and the name of the key."""
     if truth is None or prediction is None:
         return None, None
     for key in KEYS:
@@ -243,7 +243,7 @@ def _order(truth: NamedColumns | None, prediction: NamedColumns | None) -> tuple
 
 
 def _check_index(truth: NamedColumns, prediction: NamedColumns, order: npt.NDArray[np.intp] | None, key: str) -> None:
-    """Refuse rows of one key whose indices differ, where both have one that says something."""
+    """Reject rows with equal keys but different indices, if both have a meaningful index."""
     if truth.index is None or prediction.index is None or truth.is_counted or prediction.is_counted:
         return
     other = prediction.index if order is None else prediction.index[order]
@@ -254,12 +254,12 @@ def _check_index(truth: NamedColumns, prediction: NamedColumns, order: npt.NDArr
 
 
 def aligned(own: Any, other: Any, what: str, remedy: str) -> npt.NDArray[np.intp] | None:
-    """Return for each of the names ``own`` its place among ``other``, or ``None`` where they are the same row by row.
+    """Return the position of each of the names ``own`` in ``other``, or ``None`` if both are equal row by row.
 
     Raises
     ------
     ValueError
-        For a name that comes twice, or that one of both lacks.
+        For a repeated name, or a name that only one of them has.
     """
     wanted, found = list(np.asarray(own).tolist()), list(np.asarray(other).tolist())
     if wanted == found and len(set(map(_hashable, found))) == len(found):
@@ -283,12 +283,12 @@ def aligned(own: Any, other: Any, what: str, remedy: str) -> npt.NDArray[np.intp
 
 
 def _hashable(name: Any) -> Any:
-    """Return a whole number written as a decimal as that number, since pandas makes one of the other."""
+    """Return a whole number in decimal form as an integer, because pandas converts one into the other."""
     return int(name) if isinstance(name, float) and name.is_integer() else name
 
 
 def _check_agreement(truth: NamedColumns, prediction: NamedColumns, order: npt.NDArray[np.intp] | None, paired_by: str | None) -> None:
-    """Refuse pairs of rows that differ in a column that both have and that names the row."""
+    """Reject pairs of rows that differ in a common column that identifies the row."""
     for name, tolerance in _AGREE.items():
         own, other = truth.column(name), prediction.column(name)
         if own is None or other is None or len(own) != len(other):
@@ -308,7 +308,7 @@ def _check_agreement(truth: NamedColumns, prediction: NamedColumns, order: npt.N
 
 
 def beside(values: Any, index: npt.NDArray[Any] | None, name: str) -> Any:
-    """Return what stands beside the rows of the truth in their order, where it is a series with an index of its own.
+    """Return ``values`` in the order of the rows of the truth, if they are a series with its own index.
 
     Raises
     ------
@@ -327,12 +327,12 @@ def beside(values: Any, index: npt.NDArray[Any] | None, name: str) -> Any:
 
 
 def predicted(table: Any, channels: Sequence[str], name: str) -> Any:
-    """Return what a model predicted as a plain array with ``channels`` as columns and rows as they were handed to it.
+    """Return a prediction as a plain array with ``channels`` as columns, in the order of the rows given to the model.
 
     Raises
     ------
     ValueError
-        For other columns, or an index of other rows.
+        For different columns, or an index of other rows.
     """
     columns = named_columns(table, name)
     if columns is None:

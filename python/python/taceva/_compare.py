@@ -1,4 +1,4 @@
-"""Which of two or more results is better, and whether tests show it."""
+"""Comparison of two or more results, with tests of the differences."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from taceva._result import Result
 
 
 class Comparison:
-    """What `compare` returns: differences between results with intervals and p-values, adjusted by Holm for the number of comparisons."""
+    """Result of `compare`: differences between results with intervals, and p-values adjusted by Holm for the number of comparisons."""
 
     def __init__(self, results: Sequence[Result], metrics: Sequence[str], margins: Mapping[str, float], seed: int) -> None:
         self._asked = ([result.text for result in results], list(metrics), dict(margins), seed)
@@ -29,7 +29,7 @@ class Comparison:
         return self._form("tex")
 
     def figures(self) -> list[Figure]:
-        """Return every figure that shows the results together."""
+        """Return all figures that show the results together."""
         return figures_of(self._asked[0])
 
     def __str__(self) -> str:
@@ -52,11 +52,11 @@ def compare(
     results
         Of the same metrics, such as of two models on one recording. Results that scored the same samples are compared in pairs.
     metrics
-        Metrics and groups by name; all that the results share, if empty.
+        Results with common metrics, such as of two models on one recording. Results that scored the same samples are compared in pairs.
     margins
         The largest difference that still counts as equal, in the unit of the metric: ``{"mae.Fz": 0.05}``, or ``{"mae": 0.05}`` for every channel.
     seed
-        Of the random signs of the sign-flip test.
+        Seed of the random signs of the sign-flip test.
 
     Raises
     ------

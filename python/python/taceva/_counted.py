@@ -1,4 +1,4 @@
-"""Numbers of things in words, as the command prints them."""
+"""Counts with their nouns, as the command prints them."""
 
 from __future__ import annotations
 

@@ -20,38 +20,38 @@ from taceva._settings import setting_words
 
 IntArray = npt.NDArray[np.intp]
 
-#: Rows as numpy takes them: whole numbers, of which negative ones count from the end, a mask of truth values, or a slice.
+#: Row indices as in numpy: whole numbers, with negative ones from the end, a boolean mask, or a slice.
 RowIndex = Sequence[int] | Sequence[bool] | npt.NDArray[Any] | slice
 
 
 @dataclass(frozen=True)
 class Rows:
-    """Rows of a recording by part, from 0, as ``taceva evaluate`` divides them."""
+    """Row numbers from 0 of each part, divided like ``taceva evaluate``."""
 
     train: IntArray
     validation: IntArray
     test: IntArray
-    #: How the rows were divided, in the words of ``--split``.
+    #: Method of the division, in the format of ``--split``.
     split: str
 
 
 class Samples(NamedTuple):
-    """What the sensor gave in some rows, and their labels. One row has no axis of rows."""
+    """Frames or signals of some rows, with their labels. A single row has no row axis."""
 
-    #: Frames ``[rows, height, width, samples]``, with one sample per pixel (gray) or three (red, green, blue). Else signals ``[rows, values]``;
+    #: Frames ``[rows, height, width, samples]``, with one sample per pixel (gray) or three (red, green, blue); or signals ``[rows, values]``.
     #: ``None`` in a recording of labels alone.
     seen: npt.NDArray[Any] | None
-    #: ``[rows, channels]``; NaN for an absent label.
+    #: ``[rows, channels]``; NaN for a missing label.
     labels: npt.NDArray[np.float64]
 
 
 class Dataset:
     """A recording: labels of every sample, and frames or signals. `open` opens one, `from_arrays` writes one.
 
-    ``dataset[3]``, ``dataset[-1]``, ``dataset[10:20]`` and ``dataset[mask]`` are `Samples`; ``frames``, ``features`` and the other methods take
-    the same kinds of rows.
+    ``dataset[3]``, ``dataset[-1]``, ``dataset[10:20]`` and ``dataset[mask]`` are `Samples`. ``frames``, ``features`` and the other methods
+    accept the same kinds of rows.
 
-    It is pickled as its path and its digest; unpickling raises `DatasetError` if the recording at that path has another digest.
+    A recording is pickled as its path and digest. Unpickling raises `DatasetError` if the recording at that path has another digest.
     """
 
     def __init__(self, path: str | os.PathLike[str], view: str | None = None) -> None:
@@ -60,27 +60,27 @@ class Dataset:
 
     @property
     def path(self) -> str:
-        """The folder."""
+        """Folder of the recording."""
         return str(self._inner.path())
 
     @property
     def views(self) -> tuple[str, ...]:
-        """The views, if each sample has several pictures: ``("left", "right")``; empty otherwise."""
+        """Names of the views, if each sample has several pictures: ``("left", "right")``; empty otherwise."""
         return tuple(self._inner.views())
 
     @property
     def view(self) -> str | None:
-        """The view whose pictures are the frames, as it was named: ``left``, or ``left+right`` side by side."""
+        """Selected view of the frames: ``left``, or ``left+right`` side by side."""
         return self._inner.view()
 
     @property
     def digest(self) -> str:
-        """The digest of the content of the recording."""
+        """Digest of the content of the recording."""
         return self._inner.digest()
 
     @property
     def sensor(self) -> str:
-        """The sensor model."""
+        """Sensor model."""
         return self._inner.sensor()
 
     @property
@@ -119,7 +119,7 @@ class Dataset:
         return Samples(np.asarray(self._inner.signals(wanted)) if has_signals else None, self._labels[wanted])
 
     def labels(self) -> npt.NDArray[np.float64]:
-        """Return ``[rows, channels]``, float64 in `units`, read-only; NaN for an absent label."""
+        """Return ``[rows, channels]``, float64 in `units`, read-only; NaN for a missing label."""
         return np.asarray(self._inner.labels())
 
     def points(self) -> list[str | None]:
@@ -147,17 +147,17 @@ class Dataset:
         return found
 
     def frame(self, row: int) -> npt.NDArray[Any]:
-        """Return ``[height, width, samples]`` of one row, as `frames` does."""
+        """Return ``[height, width, samples]`` of one row, as in `frames`."""
         found: npt.NDArray[Any] = self.frames([row], jobs=1)[0]
         return found
 
     def frames(self, rows: RowIndex | None = None, *, jobs: int = 0) -> npt.NDArray[Any]:
-        """Return ``[rows, height, width, samples]`` of some rows, in their order, or of all: uint8 or uint16, read-only, decoded on ``jobs`` threads.
+        """Return ``[rows, height, width, samples]`` of some or all rows, in order: uint8 or uint16, read-only, decoded on ``jobs`` threads.
 
         Raises
         ------
         DatasetError
-            For a row without a frame, or a frame that is damaged.
+            For a row without a frame, or a damaged frame.
         """
         return np.asarray(self._inner.frames(self._rows(rows), jobs, bar()))
 
@@ -170,7 +170,7 @@ class Dataset:
             yield np.asarray(self._inner.frames(wanted[first : first + size], jobs, None))
 
     def reference(self) -> npt.NDArray[Any] | None:
-        """Return the picture of the untouched gel, if the recording has one."""
+        """Return the reference frame of the untouched gel, if any."""
         found = self._inner.reference()
         return None if found is None else np.asarray(found)[0]
 
@@ -181,9 +181,9 @@ class Dataset:
         settings: Mapping[str, Any] | None = None,
         jobs: int = 0,
     ) -> npt.NDArray[np.float32]:
-        """Return ``[rows, values]``: the features that a named model gets from frames or signals, 32×32 gray by default.
+        """Return ``[rows, values]``: features of frames or signals for a model, 32×32 gray by default.
 
-        ``settings`` are those of ``--set``: ``{"size": "16x16", "color": "rgb", "difference": "true"}``.
+        ``settings`` are as in ``--set``: ``{"size": "16x16", "color": "rgb", "difference": "true"}``.
         """
         words = setting_words(settings)
         found, _, _ = _taceva.features(self._inner, words, self._rows(rows), jobs, bar())
@@ -194,28 +194,28 @@ class Dataset:
         return np.asarray(self._inner.signals(self._rows(rows)))
 
     def split(self, split: str | None = None, seed: int = 0) -> Rows:
-        """Divide the rows as ``taceva evaluate --split`` does: ``by-point 70/15/15``, ``random 80/0/20``, ``chronological 90/0/10`` and others.
+        """Divide the rows like ``taceva evaluate --split``: ``by-point 70/15/15``, ``random 80/0/20``, ``chronological 90/0/10`` and others.
 
         The numbers are percentages of training, validation and test. ``by-point`` keeps the samples of one contact point together. ``None``
-        divides as ``taceva evaluate`` does without ``--split``.
+        selects the default of ``taceva evaluate``.
 
         Raises
         ------
         ValueError
-            For a split that does not exist, or that the recording does not allow.
+            For an unknown split, or one that does not fit the recording.
         """
         parts, name = self._inner.split(split, seed)
         return _rows_by_part(parts, name)
 
     def folds(self, split: str = "cv:5", seed: int = 0) -> list[Rows]:
-        """Divide the rows once for each fold of a cross-validation, as ``taceva evaluate --split cv:5`` does; each row is tested in one fold.
+        """Divide the rows once for each fold of a cross-validation, like ``taceva evaluate --split cv:5``; each row is tested in one fold.
 
         ``split`` may be ``cv:10``, ``cv:5 by-point``, ``loo by-column:object``, ``leave-one-recording-out`` and others.
 
         Raises
         ------
         ValueError
-            For a split that makes one division, and for more folds than groups.
+            For a split with a single division, and for more folds than groups.
         """
         folds, name = self._inner.folds(split, seed)
         return [_rows_by_part(parts, name) for parts in folds]
@@ -225,7 +225,7 @@ class Dataset:
         return dict(json.loads(self._inner.check(jobs, bar())))
 
     def to_pandas(self) -> Any:
-        """Return labels and columns of the table as a ``pandas.DataFrame``, one row per sample; ``attrs["units"]`` holds units by column."""
+        """Return labels and table columns as a ``pandas.DataFrame``, one row per sample; ``attrs["units"]`` has the units by column."""
         import pandas
 
         frame = pandas.DataFrame(np.array(self.labels()), columns=list(self.channels))
@@ -260,25 +260,25 @@ class Dataset:
         return {name: units[name] for name in columns if name in units}
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        """Return the table as a stream of Arrow, which pyarrow, polars, DuckDB and others read: ``pyarrow.table(dataset)``.
+        """Return the table as an Arrow stream, which pyarrow, polars, DuckDB and others read: ``pyarrow.table(dataset)``.
 
-        A label that is absent is null. The metadata of a column holds its ``unit``, that of the table ``taceva.sensor`` and ``taceva.source``.
-        ``requested_schema`` is not regarded, as the interface allows: the table is given in its own types.
+        A missing label is null. The metadata of a column has its ``unit``, the metadata of the table ``taceva.sensor`` and ``taceva.source``.
+        ``requested_schema`` is ignored, as the interface allows: the table keeps its own types.
         """
         return self._inner.arrow_stream()
 
     def export(self, out: str | os.PathLike[str], form: str = "csv", *, jobs: int = 0) -> list[str]:
-        """Write the new folder ``out`` in a form that other programs read, as ``taceva export --format`` does: ``csv``, ``huggingface``, ``hdf5`` or ``lerobot``.
+        """Export to the new folder ``out`` for other programs, like ``taceva export --format``: ``csv``, ``huggingface``, ``hdf5`` or ``lerobot``.
 
-        `import_recording` with the ``map.toml`` in it restores the recording. Returns a list of everything that the format cannot store.
+        `import_recording` with the exported ``map.toml`` restores the recording. Returns a list of everything that the format cannot store.
         """
         return self._inner.export(form, os.fspath(out), jobs, bar())
 
     def to_huggingface(self, folder: str | os.PathLike[str], *, jobs: int = 0) -> Any:
-        """Export to the new ``folder`` and return it as a ``datasets.Dataset`` of Hugging Face: pictures as ``Image``, labels as numbers.
+        """Export to the new ``folder`` and return it as a ``datasets.Dataset`` of Hugging Face: frames as ``Image``, labels as numbers.
 
-        Units survive ``save_to_disk`` and ``map``: ``info.description`` is JSON of sensor, source, digest and units by column.
-        The metadata of the Parquet file has them too, as ``unit.Fz``.
+        Units survive ``save_to_disk`` and ``map``: ``info.description`` is JSON with sensor, source, digest and units by column.
+        The metadata of the Parquet file also have them, as ``unit.Fz``.
         """
         try:
             import datasets
@@ -299,7 +299,7 @@ class Dataset:
         Raises
         ------
         DatasetError
-            For a recording that has neither frames nor signals.
+            For a recording without frames and signals.
         """
         wanted = self._rows(rows)
         has_frames = self.frame_shape is not None
@@ -345,14 +345,14 @@ def _rows_by_part(parts: list[list[int]], split: str) -> Rows:
 
 
 def open(path: str | os.PathLike[str], view: str | None = None) -> Dataset:
-    """Open the recording in the folder ``path``, which ``taceva import``, ``run`` or ``capture`` wrote.
+    """Open the recording in the folder ``path``, from ``taceva import``, ``run`` or ``capture``.
 
     If each sample has several pictures, ``view`` selects one (``"left"``) or several side by side (``"left+right"``).
 
     Raises
     ------
     DatasetError
-        For a folder that is not a recording, or was changed after it was sealed.
+        For a folder that is not a recording, or was edited after it was sealed.
     """
     return Dataset(path, view)
 

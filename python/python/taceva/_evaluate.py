@@ -1,4 +1,4 @@
-"""Models on recordings, by the pipeline of the command."""
+"""Evaluation of models on recordings, by the pipeline of the command."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from taceva._predictions import prediction_rows
 from taceva._result import Result
 from taceva._settings import metric_names, setting_words
 
-#: Number of models that are evaluated now, each called by the one before it.
+#: Current depth of nested model evaluations.
 _DEPTH: ContextVar[int] = ContextVar("_DEPTH", default=0)
-#: Most of them: a model may evaluate others, but one that evaluates itself would never end.
+#: Greatest depth. A model may evaluate others, but one that evaluates itself would never end.
 _DEEPEST = 8
 
 
@@ -38,7 +38,7 @@ def evaluate(
     batch: int = 64,
     jobs: int = 0,
 ) -> Result:
-    """Score the predictions of a model on samples that it has not seen. A model that can learn is first fitted on the training part.
+    """Score the predictions of a model on samples that it has not seen. A model that can be fitted is first fitted on the training part.
 
     Parameters
     ----------
@@ -46,46 +46,46 @@ def evaluate(
         One of
 
         - a name, such as ``"ridge"``, ``"fast"``, ``"cnn"``, ``"auto"`` or ``"linfa/elastic-net"``, or the key of a plugin: fitted here; see `models`;
-        - the file of a model that ``taceva fit`` wrote, which brings its own split;
-        - an object with ``fit(X, y)`` and ``predict(X)``, as scikit-learn's: fitted here on ``X``, float32 ``[rows, features]`` (see
-          `Dataset.features`, 32×32 gray by default), and ``y``, float64 ``[rows, channels]`` in their units, or ``[rows]`` of one channel.
+        - the file of a model from ``taceva fit``, which has its own split;
+        - an object with ``fit(X, y)`` and ``predict(X)``, as in scikit-learn: fitted here on ``X``, float32 ``[rows, features]`` (see
+          `Dataset.features`, 32×32 gray by default), and ``y``, float64 ``[rows, channels]`` in their units, or ``[rows]`` for one channel.
           The object stays fitted;
-        - `onnx` of a file;
+        - a model from `onnx`;
         - a ``torch.nn.Module``: called in ``eval`` mode without gradients, on its own device and in its own precision, with
           ``[rows, samples, height, width]`` from 0 to 1;
         - any other callable: called with frames ``[rows, height, width, samples]``, uint8 or uint16.
 
-        Modules and callables are used without fitting and return ``[rows, channels]`` in the units of the channels. Give the ``split`` that they
-        were fitted with. Without it every sample is scored, and a note says that the training samples of the model are unknown.
+        Modules and callables are used without fitting and return ``[rows, channels]`` in the units of the channels. Give the ``split`` of their
+        fit. Without it, every sample is scored, and a note states that the training samples of the model are unknown.
     settings
-        By name: of a named model and its features, ``{"size": "16x16"}``; of features alone for an object with ``fit``.
+        Settings by name: for a named model and its features, ``{"size": "16x16"}``; for an object with ``fit``, only of the features.
     channels
-        Channels to predict, in the order in which the model has them; all labels in the order of `Dataset.channels`, if empty.
+        Channels to predict, in the order of the model; if empty, all labels in the order of `Dataset.channels`.
     split, seed
-        As of `Dataset.split`.
+        As in `Dataset.split`.
     part
-        ``test`` by default; ``train``, ``validation`` or ``all`` are not a test, and a note says so.
+        ``test`` by default. The parts ``train``, ``validation`` and ``all`` are not a test, and a note states so.
     bounded
-        ``False`` scores the predictions of an object with ``fit`` unchanged, and a note says so. Otherwise they are clamped to the range of its
-        training labels plus a quarter of that range, as for every model that is fitted here.
+        ``False`` scores the predictions of an object with ``fit`` unchanged, and a note states so. Otherwise they are clipped to the range of its
+        training labels plus a quarter of that range on each side, as for every model that is fitted here.
     metrics
-        Metrics and groups by name; ``all`` scores every metric that the recording supports, and the result names those that were skipped.
+        Metrics and groups by name; ``all`` selects every metric that the recording supports, and the result lists the skipped ones.
     batch
         Number of frames in one call of a module or a callable.
     jobs
-        Number of threads, all cores if 0; results do not depend on it.
+        Number of threads; all cores if 0. Results do not depend on it.
 
     Returns
     -------
     Result
-        Of a name or a file: what ``taceva evaluate DATASET --model NAME --format json`` writes, byte for byte.
+        For a name or a file, the same bytes as ``taceva evaluate DATASET --model NAME --format json``.
 
     Raises
     ------
     ModelError
-        For a model that does not match the recording, and for one that calls or evaluates itself without end (`RecursionError`).
+        For a model that does not fit the recording, and for one that calls or evaluates itself without end (`RecursionError`).
     ValueError
-        For a model, a setting or a split that does not exist, and for predictions of another shape or that are not finite. Other exceptions
+        For an unknown model, setting or split, and for predictions of a wrong shape or with non-finite numbers. Other exceptions
         of your model are raised unchanged.
     """
     recording = dataset if isinstance(dataset, Dataset) else Dataset(dataset)
@@ -114,7 +114,7 @@ def evaluate(
         raise ValueError(f"settings {', '.join(words)}: a model used as given has none")
     reads_frames = recording.frame_shape is not None
     given = _taceva.Given(recording._inner, list(channels), learns, split, seed, part, reads_frames, not bounded)
-    # The model has the channels in the order of the caller, a recording in its own.
+    # The model uses the channel order of the caller, the recording its own.
     names = list(channels) or given.channels()
     described = model.settings if isinstance(model, OnnxModel) else _settings_of(model) if learns else {}
 
@@ -131,7 +131,7 @@ def evaluate(
 
 
 def _ending(name: str, work: Callable[[], Any]) -> Any:
-    """Return what ``work`` gives, which runs the model ``name``; a recursion without end is an error of that model."""
+    """Return the result of ``work``, which runs the model ``name``. An endless recursion becomes an error of that model."""
     depth = _DEPTH.get()
     if depth >= _DEEPEST:
         raise RecursionError(f"{depth} evaluations of models lie within one another")
@@ -142,12 +142,12 @@ def _ending(name: str, work: Callable[[], Any]) -> Any:
         why = f"{error}{_place_of(error)}"
     finally:
         _DEPTH.reset(token)
-    # Raised out here: its context would keep every call of the recursion, and the arrays that these hold.
+    # Raised here, because its context would otherwise keep every call of the recursion and their arrays.
     raise _taceva.ModelError(f"{name} calls itself without end: {why}")
 
 
 def _place_of(error: BaseException) -> str:
-    """Return the innermost file and line outside of this package that ``error`` passed."""
+    """Return the innermost file and line outside of this package in the traceback of ``error``."""
     own = os.path.dirname(__file__)
     place, trace = "", error.__traceback__
     while trace is not None:
@@ -161,12 +161,12 @@ def _place_of(error: BaseException) -> str:
 def _fitted(
     recording: Dataset, model: Any, given: Any, names: list[str], words: list[str], described: dict[str, str], jobs: int
 ) -> Any:
-    """Return the predictions of a model that learns the training part."""
+    """Return the predictions of a model that is fitted on the training part."""
     seen, name, _ = _taceva.features(recording._inner, words, given.train(), jobs, bar())
     labels = np.asarray(given.labels(recording._inner))
     if names != given.channels():
         labels = np.ascontiguousarray(labels[:, [given.channels().index(name) for name in names]])
-    # Models may write to what they are given.
+    # Models may write to their arguments.
     model.fit(np.array(seen), np.array(labels if labels.shape[1] > 1 else labels[:, 0]))
     described["features"] = name
     unseen, _, _ = _taceva.features(recording._inner, words, given.target(), jobs, bar())
@@ -174,7 +174,7 @@ def _fitted(
 
 
 def _called(recording: Dataset, model: Any, given: Any, names: list[str], batch: int, jobs: int) -> Any:
-    """Return the predictions of a model that is taken as it is."""
+    """Return the predictions of a model that is used without fitting."""
     rows = given.target()
     call = _module(model) if _is_module(model) else model
     shown = bar()
@@ -207,7 +207,7 @@ def _module(model: Any) -> Callable[[npt.NDArray[Any]], Any]:
 
     weights = next(iter(model.parameters()), None)
     device = torch.device("cpu") if weights is None else weights.device
-    # A module of double or half precision takes pictures of its own precision.
+    # A module of double or half precision receives frames of its own precision.
     number = weights.dtype if weights is not None and weights.is_floating_point() else torch.float32
 
     def call(frames: npt.NDArray[Any]) -> Any:
@@ -232,7 +232,7 @@ def _name_of(model: Any) -> str:
 
 
 def _settings_of(model: Any) -> dict[str, str]:
-    """Return what a model of scikit-learn says of its settings."""
+    """Return the settings of a scikit-learn model."""
     if not callable(getattr(model, "get_params", None)):
         return {}
     return {str(name): repr(value) for name, value in model.get_params(deep=False).items()}

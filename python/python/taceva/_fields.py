@@ -1,4 +1,4 @@
-"""What a row says beside its numbers and its contact point: the scene, the unit of the sensor, the repeat and so on."""
+"""Fields of a row other than its numbers and contact point: scene, unit of the sensor, repeat and others."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ import numpy as np
 from taceva._arrays import native, points, real
 from taceva._counted import counted
 
-#: Fields that are texts, and those that are numbers, of which some count.
+#: Fields with texts, and fields with numbers, some of which are counts.
 _TEXTS = ("scene", "unit_id", "phase")
 _COUNTS = ("depth_step", "repeat")
 
 
 def columns(fields: Mapping[str, Any], expected: Sequence[str], rows: int) -> list[tuple[str, Any]]:
-    """Return each of the ``expected`` fields as an array or a list of texts, one a row.
+    """Return each of the ``expected`` fields as an array or a list of texts, one value per row.
 
     Raises
     ------
     ValueError
-        For a field that is missing or that nobody expects, of another length, with a phase that is none, or with a number that is not finite.
+        For a missing or undeclared field, a wrong length, an unknown phase, or a number that is not finite.
     TypeError
-        For counts that are no whole numbers.
+        For counts that are not whole numbers.
     """
     require_unweighted(fields)
     for name in expected:
@@ -46,7 +46,7 @@ def columns(fields: Mapping[str, Any], expected: Sequence[str], rows: int) -> li
 
 
 def require_unweighted(fields: Iterable[str]) -> None:
-    """Refuse weights, which no metric has.
+    """Reject weights, which no metric supports.
 
     >>> require_unweighted(["weights"])
     Traceback (most recent call last):

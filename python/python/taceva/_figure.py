@@ -1,4 +1,4 @@
-"""Figures of results, as the reports of the command draw them."""
+"""Figures of results, as in the reports of the command."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from taceva import _taceva
 
 
 class Figure:
-    """A figure of one or more results: shown by a notebook, saved as SVG or PDF for a paper."""
+    """A figure of one or more results, for notebooks, or saved as SVG or PDF for a paper."""
 
     def __init__(self, texts: Sequence[str], drawn: dict[str, str]) -> None:
         self._texts = list(texts)
@@ -25,7 +25,7 @@ class Figure:
 
     @property
     def title(self) -> str:
-        """What it is."""
+        """Title."""
         return self._drawn["title"]
 
     @property
@@ -35,12 +35,12 @@ class Figure:
 
     @property
     def description(self) -> str:
-        """What the figure shows, in words."""
+        """Description of the content, for screen readers."""
         return self._drawn["description"]
 
     @property
     def svg(self) -> str:
-        """The drawing, complete, on white."""
+        """Complete SVG drawing, on white."""
         return self._drawn["svg"]
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -60,7 +60,7 @@ class Figure:
         return self.svg
 
     def _repr_html_(self) -> str:
-        # As a picture: its style and its names stay apart from those of the page.
+        # Embedded as an image, to separate its style and names from those of the page.
         address = base64.b64encode(self.svg.encode()).decode()
         return (
             f'<figure style="margin: 1em 0"><img src="data:image/svg+xml;base64,{address}" alt="{html.escape(self.description)}"'
@@ -69,5 +69,5 @@ class Figure:
 
 
 def figures_of(texts: Sequence[str]) -> list[Figure]:
-    """Return every figure that the results have data for, in the order of reports."""
+    """Return all figures for which the results have data, in the order of reports."""
     return [Figure(texts, drawn) for drawn in _taceva.figures(list(texts))]

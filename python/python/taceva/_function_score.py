@@ -19,13 +19,13 @@ from taceva._result import Interval, Score
 
 Numbers = npt.NDArray[np.float64]
 
-#: A metric: truth and prediction of some rows in, a number out.
+#: Metric: a function from truth and prediction of some rows to a number.
 Metric = Callable[[Numbers, Numbers], Any]
 
-#: Contact points below which no interval is given.
+#: Least number of contact points for an interval.
 _LEAST_POINTS = 6
 
-#: Parts of the points that are left out in turn for the skewness; of fewer points, each one.
+#: Number of parts of the points that are left out in turn for the skewness; with fewer points, each point is left out.
 _MOST_PARTS = 200
 
 
@@ -43,32 +43,32 @@ def score_function(
     draws: int = 1000,
     seed: int = 0,
 ) -> dict[str, Score]:
-    """Return by channel the number that ``function`` gives for truth and prediction, with an interval by contact point.
+    """Return the value of ``function`` for truth and prediction by channel, with an interval by contact point.
 
-    The interval of 95 % is BCa: the function is called again for ``draws`` samples of whole points, drawn with replacement, and once without each
-    point, or each two-hundredth of them. The same ``seed`` gives the same interval. Fewer than six points give none.
+    The 95 % interval is BCa. The function is called again for ``draws`` samples of whole points, drawn with replacement, and once without each
+    point, or each two-hundredth of them. The same ``seed`` gives the same interval. Fewer than six points give no interval.
 
     Parameters
     ----------
     function
-        Called with truth and prediction of some rows, float64 ``[rows]`` of one channel; it returns a number.
+        Receives truth and prediction of some rows, float64 ``[rows]`` of one channel, and returns a number.
     truth, prediction, points, channels
-        As of `score`. NaN is refused.
+        As in `score`. NaN is rejected.
     name
-        The name of the metric; that of the function by default.
+        Name of the metric; by default that of the function.
     unit
-        The unit of the number, also by channel; by default that of the channel, or ``1``.
+        Unit of the number, optionally by channel; by default that of the channel, or ``1``.
     together
         True to call the function with ``[rows, channels]`` once for all channels. The result has one score, of the channels joined by ``+``.
     independent
-        True if each row is a point of its own.
+        True if each row counts as one contact point.
     draws
         Number of samples of an interval, at least 100; 0 for no interval.
 
     Raises
     ------
     ValueError, TypeError
-        As of `TactileMetrics.update`, and for a function that does not return a number. Its own exceptions are raised unchanged.
+        As `TactileMetrics.update`, and for a function that does not return a number. Its own exceptions are raised unchanged.
 
     >>> import numpy as np
     >>> import taceva
@@ -125,7 +125,7 @@ def _table(array: Any, name: str, width: int) -> Numbers:
 
 
 def _clusters(points: Any, rows: int, independent: bool) -> list[npt.NDArray[np.intp]]:
-    """Return the rows of each contact point, in the order of their first rows; none without points."""
+    """Return the rows of each contact point, in the order of their first rows; empty without points."""
     if independent:
         return [np.asarray([row], dtype=np.intp) for row in range(rows)]
     if points is None:
@@ -156,7 +156,7 @@ def _interval(
     draws: int,
     seed: int,
 ) -> Interval | None:
-    """Return the BCa interval of Efron (1987) over clusters; ``None`` for too few of them, and where the function is not finite."""
+    """Return the BCa interval of Efron (1987) over clusters; ``None`` for too few clusters, or a non-finite function value."""
     count = len(clusters)
     if count < _LEAST_POINTS:
         return None
@@ -174,7 +174,7 @@ def _interval(
     if not (np.isfinite(value) and np.isfinite(drawn).all() and np.isfinite(without).all()):
         return None
     normal = NormalDist()
-    # Half of the ties count as below. A share of 0 or 1 has no quantile, so it is moved by half a draw.
+    # Half of the ties count as below. A share of 0 or 1 has no quantile, so it is shifted by half a draw.
     below = (np.count_nonzero(drawn < value) + 0.5 * np.count_nonzero(drawn == value)) / draws
     shift = normal.inv_cdf(min(max(below, 0.5 / draws), 1 - 0.5 / draws))
     lean = without.mean() - without

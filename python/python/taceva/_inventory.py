@@ -1,4 +1,4 @@
-"""Names that the functions of this package take: models, metrics and plugins."""
+"""Names of models, metrics and plugins for the functions of this package."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ class FoundPlugin:
     id: str
     name: str
     version: str
-    #: The kind of place where it was found, such as ``user`` or ``environment``.
+    #: Kind of location, such as ``user`` or ``environment``.
     place: str
-    #: The folder of its manifest.
+    #: Folder of its manifest.
     folder: Path
-    #: Keys of its devices, as scenes name them.
+    #: Keys of its devices, for scenes.
     drivers: list[str]
-    #: Keys of its models, as `evaluate` takes them.
+    #: Keys of its models, for `evaluate`.
     estimators: list[str]
 
 
 def models() -> dict[str, str]:
-    """Return the names of models and presets that `evaluate` takes, each with a description; those of plugins come last.
+    """Return the names of models and presets for `evaluate`, each with a description; those of plugins come last.
 
     >>> import taceva
     >>> "ridge" in taceva.models() and "fast" in taceva.models()
@@ -37,7 +37,7 @@ def models() -> dict[str, str]:
 
 
 def metrics() -> dict[str, str]:
-    """Return the names of metrics with their titles, and those of groups with their members.
+    """Return the names of metrics with their titles, and the names of groups with their members.
 
     >>> import taceva
     >>> taceva.metrics()["accuracy"]
@@ -47,9 +47,9 @@ def metrics() -> dict[str, str]:
 
 
 def plugins() -> list[FoundPlugin]:
-    """Return the plugins that the command ``taceva`` finds: in the folders and the settings of the user, and in this environment.
+    """Return the plugins that the command ``taceva`` finds, in the folders and settings of the user and in this environment.
 
-    A plugin that cannot be used raises a warning with the reason.
+    A plugin that cannot be used causes a warning with the reason.
     """
     found, refused = _taceva.found_plugins()
     for reason in refused:

@@ -19,35 +19,35 @@ from taceva._result import Result
 from taceva._settings import metric_names
 from taceva._states import gathered, opened, sealed
 
-#: The channels of the TacEva paper: place and depth in mm, forces in N.
+#: Channels of the TacEva paper: position and depth in mm, forces in N.
 SIX = ("Px", "Py", "Pz", "Fx", "Fy", "Fz")
 
-#: The metrics of arrays by default: MAE, R² and sMAPE, which are the group ``accuracy`` of the command, with RMSE and bias.
+#: Default metrics of arrays: MAE, R² and sMAPE, which are the group ``accuracy`` of the command, and RMSE and bias.
 DEFAULT_METRICS = ("accuracy", "rmse", "bias")
 
 
 class TactileMetrics:
-    """Streams pairs of truth and prediction into exact sums, and gives their scores at any time.
+    """Accumulates pairs of truth and prediction into exact sums, and returns their scores at any time.
 
-    The scores depend only on the set of samples: not on their order, on their division into updates, or on which of several merged objects
-    got them. The object stores sums, never samples.
+    The scores depend only on the set of samples. Their order, their division into updates, and their distribution over merged objects do not
+    matter. The object stores sums, not samples.
 
     Parameters
     ----------
     channels
         Names of the columns of the arrays; by default the six, ``Px Py Pz`` in mm and ``Fx Fy Fz`` in N.
     metrics
-        Metrics and groups by name, which `metrics` lists; by default MAE, RMSE, bias, R² and sMAPE. ``accuracy`` is MAE, R² and sMAPE, ``all`` is every metric.
+        Metrics and groups by name (see `metrics`); by default MAE, RMSE, bias, R² and sMAPE. ``accuracy`` is MAE, R² and sMAPE.
     units
-        Units of channels besides the six, such as ``{"Mz": "N·mm"}``; ``1`` by default.
+        Units of channels other than the six, such as ``{"Mz": "N·mm"}``; ``1`` by default.
     periods
         Periods of angles in degrees, such as ``{"yaw": 360}``: 359 and 1 are 2 apart. A channel named only here is in degrees.
-        The period of a channel of unit ``rad`` is stated in degrees too.
+        The period of a channel with unit ``rad`` is in degrees too.
     independent
-        True for independent samples, whose intervals are by sample. If false and without points there are no intervals.
+        True for independent samples, with intervals by sample. If false and without points, there are no intervals.
     fields
-        Additional fields of every row, of ``scene``, ``unit_id``, ``phase``, ``depth_step``, ``repeat``, ``t_s`` and ``intensity``; metrics that
-        need one of them are skipped without it.
+        Additional fields of every row, among ``scene``, ``unit_id``, ``phase``, ``depth_step``, ``repeat``, ``t_s`` and ``intensity``. Metrics
+        that need a missing field are skipped.
 
     >>> import numpy as np
     >>> import taceva
@@ -84,10 +84,10 @@ class TactileMetrics:
         self._paired: set[str] = set()
 
     def _begin(self, asked: tuple[list[tuple[str, str]], list[str], bool, list[str], dict[str, int]]) -> None:
-        """Make empty sums of what was ``asked`` for."""
+        """Create empty sums for the request ``asked``."""
         self._asked = asked
         self._sums = _taceva.Sums(*asked)
-        #: Columns of arrays in the order of the sums; ``None`` if it is theirs.
+        #: Positions of the columns in the order of the sums; ``None`` if already in that order.
         self._order = column_order(asked[0])
 
     @property
@@ -104,17 +104,17 @@ class TactileMetrics:
         allow_invalid: bool = False,
         **fields: Any,
     ) -> None:
-        """Add samples; none is added if one is rejected, or if Ctrl-C interrupts.
+        """Add samples. Adds none if one is rejected or Ctrl-C interrupts.
 
         Parameters
         ----------
         truth, prediction
-            ``[rows, channels]``, or ``[rows]`` of one channel: arrays of numpy or tensors of torch, float32 or float64, in the unit of their
-            channel; whole numbers are converted. Data with named columns (pandas, polars, Arrow, a dict of arrays) are matched by these
-            names, and rows by a column ``sample``, ``id``, ``sample_id`` or ``index`` of both, else by the index of pandas.
+            ``[rows, channels]``, or ``[rows]`` for one channel: numpy arrays or torch tensors, float32 or float64, in the unit of their channel.
+            Whole numbers are converted. Named columns (pandas, polars, Arrow, a dict of arrays) are matched by name. Rows are matched by a
+            common column ``sample``, ``id``, ``sample_id`` or ``index``, else by the pandas index.
         points
-            The contact point of each row, a whole number or a text: intervals treat the samples of one point as dependent. A column
-            ``point_id`` is used by default.
+            Contact point of each row, a whole number or a text. Intervals treat the samples of one point as dependent. By default a column
+            ``point_id`` is used.
         allow_invalid
             True to count and skip rows with NaN or an infinite number instead of rejecting them.
         fields
@@ -123,9 +123,9 @@ class TactileMetrics:
         Raises
         ------
         ValueError
-            For arrays of other shapes or lengths, for NaN, and for rows that cannot be paired.
+            For arrays of wrong shapes or lengths, for NaN, and for rows that cannot be paired.
         TypeError
-            For arrays of anything but real numbers.
+            For arrays of other types than real numbers.
         """
         _, both = pair(truth, prediction, self.channels)
         points = beside(both.points if points is None else points, both.index, "points")
@@ -142,7 +142,7 @@ class TactileMetrics:
             if column is not None and len(column) != rows:
                 raise ValueError(f"{name} has {counted(len(column), 'row')}, truth has {rows}")
         said = columns(fields, self._asked[3], rows)
-        # Of several blocks one may be refused, or Ctrl-C may come: they are summed apart, and joined when all of them are in.
+        # A later block may be rejected or interrupted, so several blocks are summed separately and merged at the end.
         sums = self._sums if rows <= BLOCK_ROWS else _taceva.Sums(*self._asked)
         for first in range(0, rows, BLOCK_ROWS):
             block = slice(first, first + BLOCK_ROWS)
@@ -167,7 +167,7 @@ class TactileMetrics:
         allow_invalid: bool = False,
         **fields: Any,
     ) -> Result:
-        """Add samples as `update` does, and return the scores of these samples alone. An object that is called does the same.
+        """Add samples like `update`, and return the scores of these samples alone. Calling the object does the same.
 
         >>> import taceva
         >>> metrics = taceva.TactileMetrics(["Fz"])
@@ -182,10 +182,10 @@ class TactileMetrics:
     __call__ = forward
 
     def sync(self, gather: Callable[[bytes], Sequence[bytes]] | None = None) -> TactileMetrics:
-        """Return the samples of every process in a new object, the same in each process; this object keeps its own samples alone.
+        """Return the samples of all processes in a new object, equal in each process. This object keeps only its own samples.
 
-        ``gather`` passes bytes to every process and returns those of all, as ``allgather`` of mpi4py. The default is that of ``torch.distributed``,
-        if it was initialised. Every process calls this method, and all have the same channels and metrics.
+        ``gather`` passes bytes to every process and returns those of all, like ``allgather`` of mpi4py. The default is ``torch.distributed``,
+        if initialised. Every process must call this method, with the same channels and metrics.
         """
         whole = self._emptied()
         for states in (gather or gathered)(self.states()):
@@ -193,18 +193,18 @@ class TactileMetrics:
         return whole
 
     def _emptied(self) -> TactileMetrics:
-        """Return an object of the same channels and metrics without samples."""
+        """Return an object with the same channels and metrics but without samples."""
         found = TactileMetrics.__new__(TactileMetrics)
         found._begin(self._asked)
         found._paired = set()
         return found
 
     def compute(self) -> Result:
-        """Return the scores of all samples so far; more samples may follow. Without samples the scores are undefined."""
+        """Return the scores of all samples so far; more samples may follow. Without samples, the scores are undefined."""
         return Result(self._sums.compute(sorted(self._paired)))
 
     def merge(self, other: TactileMetrics) -> None:
-        """Add the samples of ``other``, which stays as it is.
+        """Add the samples of ``other``, which does not change.
 
         Raises
         ------
@@ -215,17 +215,17 @@ class TactileMetrics:
         self._paired |= other._paired
 
     def reset(self) -> None:
-        """Forget all samples."""
+        """Remove all samples."""
         self._sums.reset()
         self._paired.clear()
 
     def states(self) -> bytes:
-        """Return the sums of all samples and the keys that paired their rows, with a digest, a few kB, for ``merge_states`` in another process."""
-        # A list of keys has no line break.
+        """Return the sums of all samples and their keys, with a digest, a few kB, for ``merge_states`` in another process."""
+        # A JSON list of keys has no line break.
         return sealed(json.dumps(sorted(self._paired)).encode() + b"\n" + self._sums.states_bytes())
 
     def merge_states(self, states: bytes) -> None:
-        """Add the samples behind the ``states`` of another process; changed bytes are refused."""
+        """Add the samples in the ``states`` of another process; edited bytes are rejected."""
         paired, _, sums = opened(states).partition(b"\n")
         self._sums.merge_bytes(sums)
         self._paired |= set(json.loads(paired))
@@ -261,18 +261,18 @@ def score(
     Parameters
     ----------
     truth, prediction, points, allow_invalid
-        As of `TactileMetrics.update`: ``[rows, channels]`` in the unit of each channel, and the contact point of each row.
+        As in `TactileMetrics.update`: ``[rows, channels]`` in the unit of each channel, and the contact point of each row.
     channels
         Names of the columns; by default the columns of data frames, or the six, ``Px Py Pz`` in mm and ``Fx Fy Fz`` in N.
     metrics, units, periods, independent
-        As of `TactileMetrics`.
+        As in `TactileMetrics`.
     fields
         Additional fields of the rows, such as ``scene=["dark", …]``.
 
     Raises
     ------
     ValueError, TypeError
-        As of `TactileMetrics.update`.
+        As `TactileMetrics.update`.
 
     >>> import numpy as np
     >>> import taceva
@@ -302,20 +302,20 @@ def score_tables(
     allow_invalid: bool = False,
     jobs: int = 0,
 ) -> Result:
-    """Return the scores of two CSV tables, byte for byte as ``taceva score --truth … --pred …`` writes them.
+    """Return the scores of two CSV tables, with the same bytes as ``taceva score --truth … --pred …``.
 
     Parameters
     ----------
     truth, prediction
         Files with a header, one row per sample and one column per channel, in mm and N.
     sensor
-        A TOML file with facts of the sensor, as of ``taceva score --sensor``.
+        TOML file with facts of the sensor, as in ``taceva score --sensor``.
     key
-        The column of both tables by which rows are paired, or ``"order"``. By default a column ``sample``, ``id``, ``sample_id`` or ``index``.
+        Common column that pairs rows, or ``"order"``. By default a column ``sample``, ``id``, ``sample_id`` or ``index``.
     allow_invalid
         True to count and skip rows with NaN or an infinite number instead of rejecting them.
     jobs
-        Number of threads, all cores if 0; results do not depend on it.
+        Number of threads; all cores if 0. Results do not depend on it.
     """
     text = _taceva.score_tables(
         os.fspath(truth),

@@ -1,4 +1,4 @@
-"""Models in files of ONNX, run by the caller's onnxruntime."""
+"""Models in ONNX files, run by the installed onnxruntime."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from taceva._arrays import numbers
 from taceva._counted import counted
 from taceva._pickles import PICKLE_VERSION, require_version
 
-#: Types of the input, by their names in onnxruntime, and whether pixels are brought to 0…1.
+#: Input types by their names in onnxruntime, with the numpy type and whether pixels are scaled to 0…1.
 _INPUTS = {
     "tensor(float)": (np.float32, True),
     "tensor(float16)": (np.float16, True),
@@ -25,7 +25,7 @@ _INPUTS = {
 
 
 class OnnxModel:
-    """A model of an ONNX file, as `evaluate` takes it: called with frames, it returns ``[rows, channels]``; see `onnx`."""
+    """A model of an ONNX file for `evaluate`. Calling it with frames returns ``[rows, channels]``; see `onnx`."""
 
     def __init__(self, path: str | os.PathLike[str], providers: list[str] | None, order: str | None) -> None:
         try:
@@ -41,7 +41,7 @@ class OnnxModel:
         options = onnxruntime.SessionOptions()
         options.log_severity_level = 3
         try:
-            # By its path, since weights may lie in files beside it.
+            # Opened by path, because weights may be in files beside it.
             self._session = onnxruntime.InferenceSession(
                 os.fspath(path), options, providers=providers or onnxruntime.get_available_providers()
             )
@@ -77,7 +77,7 @@ class OnnxModel:
         return {"digest": self._digest, "runtime": f"onnxruntime {onnxruntime.__version__}"}
 
     def __call__(self, frames: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        """Return ``[rows, channels]`` of ``[rows, height, width, samples]``, uint8 or uint16."""
+        """Return ``[rows, channels]`` for ``[rows, height, width, samples]``, uint8 or uint16."""
         number, is_scaled = _INPUTS[self._input.type]
         pictures = frames if self._wants(frames) == "nhwc" else frames.transpose(0, 3, 1, 2)
         if is_scaled:
@@ -91,7 +91,7 @@ class OnnxModel:
             batch = pictures[first : first + size]
             missing = size - len(batch)
             if missing:
-                # A model of a fixed batch gets the last picture again; what it says of that is left out.
+                # A model with a fixed batch size receives the last frame again; its additional predictions are dropped.
                 batch = np.concatenate([batch, np.repeat(batch[-1:], missing, axis=0)])
             (predicted,) = self._session.run(None, {self._input.name: batch})
             found.append(self._rows(predicted, size)[: size - missing])
@@ -104,7 +104,7 @@ class OnnxModel:
         return seen
 
     def _wants(self, frames: npt.NDArray[Any]) -> str:
-        """Return the order of axes in which the frames fit the input."""
+        """Return the axis order in which the frames fit the input."""
         _, height, width, samples = frames.shape
         orders = {"nchw": (samples, height, width), "nhwc": (height, width, samples)}
         fit = [
@@ -128,16 +128,16 @@ class OnnxModel:
 
 
 def onnx(path: str | os.PathLike[str], *, providers: list[str] | None = None, order: str | None = None) -> OnnxModel:
-    """Return the model in an ONNX file for `evaluate`, run by the onnxruntime that is installed: ``pip install 'taceva[onnx]'``.
+    """Return the model in an ONNX file for `evaluate`, run by the installed onnxruntime: ``pip install 'taceva[onnx]'``.
 
-    It has one input of four axes: ``[rows, samples, height, width]``, as torch exports it, or ``[rows, height, width, samples]``. A floating-point
-    input gets pixels from 0 to 1, a whole-number input the original pixels. A fixed number of rows is respected. Its one output is
-    ``[rows, channels]`` in their units.
+    It has one input of four axes: ``[rows, samples, height, width]``, as exported by torch, or ``[rows, height, width, samples]``. A
+    floating-point input receives pixels from 0 to 1, a whole-number input the original pixels. A fixed number of rows is supported. Its only
+    output is ``[rows, channels]`` in their units.
 
     Parameters
     ----------
     providers
-        Those of onnxruntime, such as ``["CUDAExecutionProvider"]``; all that it has, if ``None``.
+        Providers of onnxruntime, such as ``["CUDAExecutionProvider"]``; all available ones if ``None``.
     order
         ``nchw`` or ``nhwc``; ``None`` chooses the one that matches the frames, ``nchw`` if both do.
 
@@ -146,7 +146,7 @@ def onnx(path: str | os.PathLike[str], *, providers: list[str] | None = None, or
     ImportError
         Without onnxruntime.
     FileNotFoundError
-        If there is no such file.
+        If the file does not exist.
     ValueError
         For a file that is not a model, or a model with other inputs and outputs.
     """

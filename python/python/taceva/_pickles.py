@@ -1,13 +1,13 @@
-"""Objects that travel between processes, and what is said where two of them have another taceva."""
+"""Version check of objects that are pickled between processes."""
 
 from __future__ import annotations
 
-#: What a pickle of this package holds; another number is refused in words instead of misread.
+#: Version of the pickles of this package; another version is rejected.
 PICKLE_VERSION = 2
 
 
 def require_version(found: object) -> None:
-    """Refuse a pickle that another version of this package wrote.
+    """Reject a pickle of another version of this package.
 
     >>> require_version(99)
     Traceback (most recent call last):

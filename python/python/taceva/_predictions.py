@@ -1,4 +1,4 @@
-"""The gate through which predictions come in, of models in this process and of plugins."""
+"""Checks of predictions, from models in this process and from plugins."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from taceva._column_names import predicted
 
 
 def prediction_rows(predictions: Any, name: str, rows: int, channels: list[str]) -> Any:
-    """Return predictions as an array of ``[rows, channels]`` of float32 or float64; named columns are matched by name.
+    """Return predictions as an array ``[rows, channels]`` of float32 or float64; named columns are matched by name.
 
-    ``name`` is that of the model, for messages. NaN is let through, for whoever knows the samples by name.
+    ``name`` is the name of the model, for messages. NaN is accepted; callers that know the samples check for it.
 
     Raises
     ------
     TypeError
         For complex numbers, texts and objects.
     ValueError
-        For another shape, and for other columns.
+        For a wrong shape, or other columns.
     """
     width = len(channels)
     found = numbers(predicted(predictions, channels, f"what {name} predicted"), f"what {name} predicted", allow_invalid=True)

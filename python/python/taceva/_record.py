@@ -37,34 +37,34 @@ def from_arrays(
     clock: str = "unknown",
     footprint_mm: tuple[float, float] | None = None,
 ) -> Dataset:
-    """Write arrays as a recording, which every command and function reads, and open it.
+    """Write arrays as a recording for all commands and functions, and open it.
 
     Parameters
     ----------
     path
-        The folder, without a recording. An interrupted recording cannot be opened: remove its folder.
+        New folder. An interrupted recording cannot be opened: remove its folder.
     labels
-        ``[rows, channels]`` in the units of the channels; NaN for an absent label. Named columns (pandas, polars, Arrow, xarray, a dict of arrays)
-        are matched by these names.
+        ``[rows, channels]`` in the units of the channels; NaN for a missing label. Named columns (pandas, polars, Arrow, xarray, a dict of
+        arrays) are matched by name.
     frames
         ``[rows, height, width]`` (gray) or ``[rows, height, width, 3]`` (red, green, blue), uint8 or uint16, stored without loss; ``None`` for no frames.
     sensor, serial, gel
-        The sensor model, the serial number of the unit, and the id of its gel.
+        Sensor model, serial number of the unit, and id of its gel.
     source
         ``recorded`` by a real sensor, ``simulated``, or ``synthetic``: every output states it.
     channels
-        Names of the labels; by default the columns that have names, or else the six of the paper. The recording has the six first, then others by
+        Names of the labels; by default the named columns, or else the six of the paper. The recording has the six first, then others by
         name: see `Dataset.channels`.
     units
-        Units of channels besides the six, such as ``{"Mz": "N·mm"}``; ``1`` by default.
+        Units of channels other than the six, such as ``{"Mz": "N·mm"}``; ``1`` by default.
     points, times, scenes
-        The contact point, the time in seconds and the scene of each row. A column ``point_id`` of the labels is used by default.
+        Contact point, time in seconds and scene of each row. By default a column ``point_id`` of the labels is used.
     reference
-        The picture of the untouched gel: one frame, of the size and type of ``frames``.
+        Reference frame of the untouched gel, with the size and type of ``frames``.
     opaque
-        True if the gel lets no light through; ``None`` if that is unknown.
+        True if the gel lets no ambient light through; ``None`` if unknown.
     clock
-        The clock of ``times``, as in the header of a recording: ``unix``, ``monotonic`` or ``unknown``.
+        Clock of ``times``, as in the header of a recording: ``unix``, ``monotonic`` or ``unknown``.
     footprint_mm
         Width along x and height along y of the sensing surface, in mm.
 
@@ -73,7 +73,7 @@ def from_arrays(
     DatasetError
         If ``path`` has a recording, or the disk is full.
     ValueError, TypeError
-        For arrays of unequal lengths or of other shapes.
+        For arrays of unequal lengths or wrong shapes.
 
     >>> import tempfile
     >>> import numpy as np
@@ -94,7 +94,7 @@ def from_arrays(
         if not channels:
             raise ValueError(f"labels: no column is a channel: its columns are {', '.join(named.columns)}")
         points = named.column("point_id") if points is None else points
-        # The place of a lone column says what it is, unless it is called like another channel.
+        # A single column is matched by position, unless it has the name of another channel.
         is_lone = len(named.columns) == 1 and len(channels) == 1 and next(iter(named.columns)) not in SIX
         labels = next(iter(named.columns.values())) if is_lone else named.array(channels, "labels")
     channels = list(SIX if channels is None else channels)
@@ -102,7 +102,7 @@ def from_arrays(
     if not channels and frames is None:
         raise ValueError("no channels and no frames: nothing to record, expected one of them")
     points, times, scenes = beside(points, index, "points"), beside(times, index, "times"), beside(scenes, index, "scenes")
-    # Before anything is copied.
+    # Checked before anything is copied.
     rows = len(real(labels, "labels"))
     for name, column in {"frames": frames, "points": points, "times": times, "scenes": scenes}.items():
         if column is not None and len(column) != rows:
@@ -145,15 +145,15 @@ def import_recording(
     ffmpeg: str | os.PathLike[str] | None = None,
     jobs: int = 0,
 ) -> Dataset:
-    """Import a folder of another program by a map, as ``taceva import SOURCE --map MAP --out OUT`` does, and open the recording.
+    """Import a folder of another program by a map, like ``taceva import SOURCE --map MAP --out OUT``, and open the recording.
 
-    ``taceva import SOURCE --draft`` writes a first map, a TOML file. ``replace`` replaces the recording at ``out`` once the new one is complete;
-    ``ffmpeg`` is a program that decodes clips with unsupported codecs, such as AV1.
+    ``taceva import SOURCE --draft`` writes a first map, a TOML file. ``replace`` replaces the recording at ``out`` once the new one is
+    complete. ``ffmpeg`` is a program that decodes clips with unsupported codecs.
 
     Raises
     ------
     DatasetError
-        For a map or a file of the folder that is wrong, and if ``out`` exists without ``replace``.
+        For an invalid map or file, and if ``out`` exists without ``replace``.
     """
     _taceva.import_recording(
         os.fspath(source),
@@ -168,7 +168,7 @@ def import_recording(
 
 
 def _pixels(frames: Any, gray_axes: int) -> Any:
-    """Return pictures with an axis of samples, native and in the order of C."""
+    """Return frames with an axis of samples, in native byte order and C order."""
     if hasattr(frames, "detach") and hasattr(frames, "cpu"):
         frames = frames.detach().cpu()
     found = np.asarray(frames)

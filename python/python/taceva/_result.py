@@ -17,7 +17,7 @@ from taceva._pickles import PICKLE_VERSION, require_version
 
 @dataclass(frozen=True)
 class Interval:
-    """A confidence interval of 95 %: both ends in the unit of its score, and the method it comes from."""
+    """A 95 % confidence interval: both ends in the unit of its score, and its method."""
 
     low: float
     high: float
@@ -26,10 +26,10 @@ class Interval:
 
 @dataclass(frozen=True)
 class Score:
-    """A score of one metric and channel. Where it is undefined, ``value`` is ``None`` and ``reason`` says why.
+    """A score of one metric and channel. If it is undefined, ``value`` is ``None`` and ``reason`` states why.
 
-    It is a number in its unit: ``float``, ``round``, ``format``, ``<``, ``<=``, ``>`` and ``>=`` take it, and raise ``ValueError`` where it is
-    undefined. ``==`` compares whole scores: compare ``value`` with a number.
+    A score acts as a number in its unit: ``float``, ``round``, ``format``, ``<``, ``<=``, ``>`` and ``>=`` accept it, and raise ``ValueError``
+    if it is undefined. ``==`` compares whole scores: compare ``value`` with a number.
 
     >>> import taceva
     >>> mae = taceva.score([[0.0], [1.0]], [[0.5], [1.0]], channels=["Fz"])["mae", "Fz"]
@@ -39,19 +39,19 @@ class Score:
 
     metric: str
     channel: str
-    #: In ``unit``; ``None`` where the score is undefined.
+    #: Value in ``unit``; ``None`` if the score is undefined.
     value: float | None
     #: ``1`` for a score without a unit, such as R².
     unit: str
-    #: ``None`` where there is none, as of samples without contact points.
+    #: ``None`` without an interval, as for samples without contact points.
     interval: Interval | None
     #: Number of samples that were scored.
     n: int
-    #: Number of samples that were left out, since a value was NaN or infinite.
+    #: Number of samples that were skipped because a value was NaN or infinite.
     n_invalid: int
-    #: Why the score is undefined; ``None`` where it is defined.
+    #: Reason why the score is undefined; ``None`` if it is defined.
     reason: str | None
-    #: Why the score takes part in no verdict, where it does not, as files say it: ``no skill``, ``skill unknown``, ``bounded``, …
+    #: Reason why the score is excluded from verdicts, if it is, as in files: ``no skill``, ``skill unknown``, ``bounded``, …
     standing: str | None
 
     def __float__(self) -> float:
@@ -90,9 +90,9 @@ class Score:
 
 
 class Result(Mapping[tuple[str, str], Score]):
-    """The scores of an evaluation: what ``taceva evaluate`` and ``taceva score`` write as JSON.
+    """Scores of an evaluation, from the JSON of ``taceva evaluate`` or ``taceva score``.
 
-    A mapping of scores by metric and channel, in the order of reports. A metric alone gives its scores by channel.
+    A mapping of scores by metric and channel, in the order of reports. A metric alone returns its scores by channel.
 
     >>> import taceva
     >>> result = taceva.score([[0.0], [1.0]], [[0.5], [1.0]], channels=["Fz"])
@@ -109,17 +109,17 @@ class Result(Mapping[tuple[str, str], Score]):
 
     @property
     def text(self) -> str:
-        """The JSON, sealed, byte for byte as ``save`` writes it."""
+        """Sealed JSON, with the same bytes as ``save`` writes."""
         return self._text
 
     @property
     def metrics(self) -> list[str]:
-        """Names of the metrics that have scores."""
+        """Names of the metrics with scores."""
         return list(dict.fromkeys(score.metric for score in self._scores))
 
     @property
     def notes(self) -> list[str]:
-        """Notes for readers of the scores."""
+        """Notes for the reader of the scores."""
         return list(self._report["notes"])
 
     @property
@@ -129,7 +129,7 @@ class Result(Mapping[tuple[str, str], Score]):
 
     @property
     def source(self) -> str:
-        """Origin of the samples: ``recorded``, ``simulated``, ``synthetic``, or ``unknown`` of arrays."""
+        """Origin of the samples: ``recorded``, ``simulated``, ``synthetic``; ``unknown`` for arrays."""
         return str(self._report["source"])
 
     @overload
@@ -166,7 +166,7 @@ class Result(Mapping[tuple[str, str], Score]):
         return len(self._scores)
 
     def scores(self) -> list[Score]:
-        """Every score, in the order of reports."""
+        """All scores, in the order of reports."""
         return list(self._scores)
 
     def to_dict(self) -> dict[str, Any]:
@@ -176,7 +176,7 @@ class Result(Mapping[tuple[str, str], Score]):
     def to_frame(self) -> Any:
         """Return a ``pandas.DataFrame``, one row per score.
 
-        Its columns are the fields of `Score`, with the interval as ``ci95_low``, ``ci95_high`` and ``method``. ``attrs`` holds the source of the
+        Its columns are the fields of `Score`, with the interval as ``ci95_low``, ``ci95_high`` and ``method``. ``attrs`` has the source of the
         samples and the notes.
         """
         import pandas
@@ -194,12 +194,12 @@ class Result(Mapping[tuple[str, str], Score]):
         return frame
 
     def to_latex(self) -> str:
-        """Return a table for a paper, in the symbols of the field; it needs ``booktabs``."""
+        """Return a LaTeX table for a paper; it needs ``booktabs``."""
         said = "".join(f"% {line}\n" for line in self._said())
         return said + _taceva.score_table([self._text], "tex")
 
     def figures(self) -> list[Figure]:
-        """Return every figure that the scores have data for, as in the report of the command."""
+        """Return all figures for which the scores have data, as in the report of the command."""
         return figures_of([self._text])
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -208,12 +208,12 @@ class Result(Mapping[tuple[str, str], Score]):
             file.write(self._text)
 
     def _said(self) -> list[str]:
-        """Return what a reader must know first: that nothing was measured, and the notes."""
+        """Return the most important notes: that samples were not measured, and the notes of the result."""
         unmeasured = _taceva.not_measured([self.source])
         return [*([unmeasured] if unmeasured else []), *self.notes]
 
     def _absent(self) -> list[str]:
-        """Return what a reader misses: metrics that were skipped, and intervals of arrays."""
+        """Return notes on missing items: skipped metrics, and intervals of arrays."""
         skipped = [what.removeprefix("metric:") for what in self.skipped]
         lines = [f"Skipped: {', '.join(skipped)}. The reasons: skipped."] if skipped else []
         has_values = any(score.value is not None for score in self._scores)
@@ -249,7 +249,7 @@ def load(path: str | os.PathLike[str]) -> Result:
     FileNotFoundError
         If there is no such file.
     ValueError
-        For a file that was changed after it was written, or that is no result of one evaluation.
+        For a file that was edited after it was written, or is not the result of one evaluation.
     """
     return Result(Path(path).read_text(encoding="utf-8"))
 

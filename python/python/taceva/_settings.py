@@ -1,4 +1,4 @@
-"""Settings and names of metrics as the command writes them."""
+"""Settings and names of metrics in the format of the command."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 
 def setting_words(settings: Mapping[str, Any] | None) -> list[str]:
-    """Return settings by name in the form of ``--set``: truth values are ``true`` and ``false``.
+    """Return settings by name in the format of ``--set``; booleans are ``true`` and ``false``.
 
     >>> setting_words({"size": "16x16", "difference": True})
     ['size=16x16', 'difference=true']
@@ -17,7 +17,7 @@ def setting_words(settings: Mapping[str, Any] | None) -> list[str]:
 
 
 def metric_names(metrics: str | Sequence[str]) -> list[str]:
-    """Return names of metrics and groups as a list; a single name may stand alone.
+    """Return names of metrics and groups as a list; accepts a single name.
 
     >>> metric_names("mae"), metric_names(("mae", "r2"))
     (['mae'], ['mae', 'r2'])
@@ -25,7 +25,7 @@ def metric_names(metrics: str | Sequence[str]) -> list[str]:
     Raises
     ------
     TypeError
-        For functions and for anything else that is no name.
+        For functions and any other type than names.
     """
     if isinstance(metrics, str):
         return [metrics]

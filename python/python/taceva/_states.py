@@ -1,4 +1,4 @@
-"""States of metrics as bytes, with a digest by which a changed one is refused, and their exchange between processes."""
+"""States of metrics as bytes with a digest, which detects edits, and their exchange between processes."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def sealed(content: bytes) -> bytes:
 
 
 def opened(states: bytes) -> bytes:
-    """Return the content of what `sealed` returned.
+    """Return the content of a result of `sealed`.
 
     >>> opened(sealed(b"[1]").replace(b"1]", b"2]"))
     Traceback (most recent call last):
@@ -28,7 +28,7 @@ def opened(states: bytes) -> bytes:
     Raises
     ------
     ValueError
-        For bytes that are no states, and for states of which any byte was changed.
+        For bytes that are not states, and for edited states.
     """
     head, _, content = bytes(states).partition(b"\n")
     if not head.startswith(_HEAD):
@@ -39,7 +39,7 @@ def opened(states: bytes) -> bytes:
 
 
 def gathered(own: bytes) -> list[bytes]:
-    """Return what every process of ``torch.distributed`` has passed, or ``own`` alone where it was not initialised."""
+    """Return the bytes of every process of ``torch.distributed``, or only ``own`` if it is not initialised."""
     torch = sys.modules.get("torch")
     if torch is None or not torch.distributed.is_available() or not torch.distributed.is_initialized():
         return [own]

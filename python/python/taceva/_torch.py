@@ -1,4 +1,4 @@
-"""A recording as torch sees it; imported where torch is asked for."""
+"""A recording as a torch dataset; imported only for torch."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Labelled(torch.utils.data.Dataset):  # type: ignore[misc, type-arg, unused-ignore]
-    """What the sensor gave in each row, with labels; each worker opens the recording anew, so any number of workers may read."""
+    """Frames or signals of each row, with labels. Each worker reopens the recording, so any number of workers may read."""
 
     def __init__(self, dataset: Dataset, rows: list[int]) -> None:
         self._dataset = dataset
@@ -33,7 +33,7 @@ class Labelled(torch.utils.data.Dataset):  # type: ignore[misc, type-arg, unused
 
 
 class Frames(Labelled):
-    """Pictures, ``[samples, height, width]`` from 0 to 1."""
+    """Frames, ``[samples, height, width]`` from 0 to 1."""
 
     def _seen(self, row: int) -> npt.NDArray[np.float32]:
         frame = self._dataset.frame(row)

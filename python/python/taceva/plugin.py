@@ -16,8 +16,8 @@ source = "real"
 axes = ["Fz"]
 rate_hz = 10
 
-``python -m taceva.plugin manifest MODULE --write`` writes its manifest beside ``__init__.py``. A plugin runs in its own process, which has
-access only to the needs of the manifest that the user allows.
+``python -m taceva.plugin manifest MODULE --write`` writes its manifest beside ``__init__.py``. A plugin runs in its own process, with access
+only to those needs of the manifest that the user allows.
 """
 
 from __future__ import annotations
@@ -60,16 +60,16 @@ _FAULTS = ("emergency stop", "collision", "boundary", "servo fault")
 
 
 class Failure(Exception):
-    """Failure of a device, of a kind without an exception in Python.
+    """Failure of a device, for error kinds without a Python exception.
 
     Parameters
     ----------
     kind : str
-        Such as ``"not found"``, ``"busy"``, ``"disconnected"``, ``"out of range"`` or ``"device fault"``.
+        Error kind, such as ``"not found"``, ``"busy"``, ``"disconnected"``, ``"out of range"`` or ``"device fault"``.
     message : str
-        What failed, and the remedy.
+        Failure and remedy.
     fault : str, optional
-        Why a robot stopped by itself; nothing moves until a person has checked it: ``"emergency stop"``, ``"collision"``, ``"boundary"`` or
+        Reason why a robot stopped itself; nothing moves until an operator has checked it: ``"emergency stop"``, ``"collision"``, ``"boundary"`` or
         ``"servo fault"``.
     """
 
@@ -115,18 +115,18 @@ def log(message: str, level: str = "info") -> None:
 
 
 class Plugin:
-    """Content of a plugin: its id, its version, and its devices and estimators by key.
+    """A plugin: its id, its version, and its devices and estimators by key.
 
     Parameters
     ----------
     id : str
-        Reverse DNS, such as ``"org.example.eye"``.
+        Id in reverse DNS notation, such as ``"org.example.eye"``.
     version : str
         Version of the plugin.
     provides : mapping of str to class
         Subclasses of `Sensor`, `Robot`, `Force`, `Lighting`, `Changer` and `Estimator`.
     needs : sequence of str
-        Access that it needs outside its process, such as ``"camera"`` or ``"serial:{port}"``.
+        Access outside its process, such as ``"camera"`` or ``"serial:{port}"``.
     """
 
     def __init__(
@@ -152,7 +152,7 @@ class Plugin:
         self.needs = list(needs)
 
     def tables(self) -> list[tuple[str, type[Device | Estimator]]]:
-        """Return what a manifest says of each class, and the class."""
+        """Return the manifest table of each class, and the class."""
         return [(table(key, given), given) for key, given in self.provides.items()]
 
     def __repr__(self) -> str:
@@ -160,7 +160,7 @@ class Plugin:
 
 
 def load(name: str, folder: str | None = None) -> Plugin:
-    """Import the package ``name``, from ``folder`` where one is given, and return its plugin."""
+    """Import the package ``name``, from ``folder`` if given, and return its plugin."""
     import importlib
     import importlib.util
     import os

@@ -1,7 +1,7 @@
-"""The process of a plugin: the host starts it, and nobody else.
+"""Process of a plugin; only the host starts it.
 
-The interpreter comes here before it has looked at its environment (``-I -S``), so that no code of anybody ran before the process is
-confined, and no thread began that would not be. What the environment has is found after that.
+The interpreter starts this file before it reads its environment (``-I -S``). No foreign code runs, and no thread starts, before the process
+is confined. The packages of the environment are found afterwards.
 """
 
 from __future__ import annotations
@@ -10,15 +10,15 @@ import sys
 
 _NAME = "taceva._taceva"
 
-# Deepest recursion that a plugin may ask for: its calls fit into the stack of its threads, and their memory into its limit.
+# Greatest recursion limit that a plugin may set; its calls fit into the stack of its threads, and their memory into its limit.
 _DEEPEST = 5_000
 
-# What numpy, which every plugin has, imports only when it is asked for: too late for compiled code.
+# Modules that numpy imports only on first use, which would be too late for compiled code.
 _LATE = ["numpy.fft", "numpy.random"]
 
 
 def _extension() -> object:
-    """The compiled part of the package, without the package: what that imports begins threads."""
+    """Return the compiled part of the package without importing the package, whose imports start threads."""
     import os
     from importlib.machinery import EXTENSION_SUFFIXES, ExtensionFileLoader
     from importlib.util import module_from_spec, spec_from_file_location
@@ -41,7 +41,7 @@ def _extension() -> object:
 
 
 def _bound_recursion() -> None:
-    """Keep endless recursion an error, whatever limit the plugin sets: it would fill the stack or the memory first."""
+    """Limit the recursion depth, so that endless recursion raises an error before it fills the stack or the memory."""
     given = sys.setrecursionlimit
 
     def bounded(limit: int) -> None:
@@ -51,17 +51,17 @@ def _bound_recursion() -> None:
 
 
 def _say_what_is_not_there() -> None:
-    """Say that no program can be run and no file written, to libraries that would only find out by failing."""
+    """Declare that programs cannot be run and files cannot be written, for libraries that would otherwise try."""
     import os
     import tempfile
 
-    # By which `ctypes.util.find_library` looks for compilers, which then want a file.
+    # Otherwise `ctypes.util.find_library` would search for compilers, which need a file.
     os.environ["PATH"] = ""
     tempfile.tempdir = "/tmp"
 
 
 def _write_no_code() -> None:
-    """Tell torch, where the plugin has imported it, to compute without libraries that write code, or look at the machine, while they run."""
+    """Make torch, if imported, compute without libraries that generate code or inspect the machine at run time."""
     backends = getattr(sys.modules.get("torch"), "backends", None)
     for name in ("mkldnn", "nnpack"):
         set_flags = getattr(getattr(backends, name, None), "set_flags", None)
@@ -70,14 +70,14 @@ def _write_no_code() -> None:
 
 
 def _import_plugin(folder: str, name: str, preload: list[str]) -> object:
-    """Import the package ``name`` that lies at ``folder``, and give its plugin."""
+    """Import the package ``name`` from ``folder``, and return its plugin."""
     import site
     from importlib import import_module
 
     _bound_recursion()
     site.main()
     _say_what_is_not_there()
-    # Where this package lies, if that is none of the places of the environment.
+    # Folder of this package, if it is not in the environment.
     above = __file__.rsplit("/", 2)[0]
     if above not in sys.path:
         sys.path.append(above)
@@ -91,7 +91,7 @@ def _import_plugin(folder: str, name: str, preload: list[str]) -> object:
 
 
 def main() -> None:
-    """Serve until the host is gone."""
+    """Serve until the host ends."""
     import os
 
     code = 70
@@ -100,7 +100,7 @@ def main() -> None:
         code = extension.serve_plugin(_import_plugin)  # type: ignore[attr-defined]
     except BaseException as error:
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
-    # What is registered for the end of an interpreter is not run: threads of a plugin may hang.
+    # Skips exit handlers of the interpreter, because threads of a plugin may hang.
     os._exit(code)
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Arg:
-    """Properties of an argument besides its type and its default, in ``Annotated[int, Arg(range=(0, 9))]``."""
+    """Properties of an argument other than its type and default, in ``Annotated[int, Arg(range=(0, 9))]``."""
 
     help: str = ""
     unit: str | None = None
@@ -27,7 +27,7 @@ class Arg:
 
 
 class _Provided:
-    """Facts from the keyword arguments of a class, in the words of the manifest."""
+    """Facts from the keyword arguments of a class, with the names of the manifest."""
 
     kind: ClassVar[str] = ""
     said: ClassVar[dict[str, Any]] = {}
@@ -67,10 +67,10 @@ class Sensor(_Streaming):
     kind = "sensor"
 
     def capture(self, into: npt.NDArray[Any], deadline: Deadline) -> float | tuple[float, float]:
-        """Wait for the next picture, write it into ``into`` and return its time, on the clock of ``taceva.plugin.now``.
+        """Wait for the next frame, write it into ``into`` and return its time, on the clock of ``taceva.plugin.now``.
 
         ``into`` is ``[height, width]`` or ``[height, width, 3]`` in the order red, green, blue. Assign to its elements (``into[:] = …``), which
-        rejects a picture of another size. Wait with ``deadline.rest(seconds)``.
+        rejects a frame of another size. Wait with ``deadline.rest(seconds)``.
         """
         raise NotImplementedError(f"{type(self).__name__} has no capture(into, deadline)")
 
@@ -79,13 +79,13 @@ class Force(_Streaming):
     """Force transducer.
 
     Its class declares at least ``source`` and ``axes``: ``class Scale(Force, source="real", axes=["Fz"], rate_hz=100)``. With ``tare=True`` it
-    has a method ``zero(deadline)`` that sets the present load to zero.
+    also has a method ``zero(deadline)`` that sets the present load to zero.
     """
 
     kind = "force"
 
     def read(self, deadline: Deadline) -> Reading:
-        """Wait for the next reading, with ``deadline.rest(seconds)``, and return it in N and N·mm; Fz is above 0 where the gel is pressed."""
+        """Wait for the next reading with ``deadline.rest(seconds)``, and return it in N and N·mm; Fz above 0 presses into the gel."""
         raise NotImplementedError(f"{type(self).__name__} has no read(deadline)")
 
 
@@ -96,8 +96,8 @@ class Robot(Device):
     ``limits={"speed_max_mm_s": 50.0}``, which are checked before each call. Poses are in mm and degrees in the frame of the sensor, z into the gel.
 
     With ``guarded_motion=True`` it has a method ``move_guarded(target, speed, force, deadline)`` that stops by itself at ``force`` (N). It
-    returns ``(pose, time)`` of that stop, or only the time if it reached the target. A robot that stops within 0.2 s when its program stops
-    sending has a method ``move_expiring(target, speed, deadline)``, which is used for motions towards a surface.
+    returns ``(pose, time)`` of that stop, or only the time if it reached the target. A robot that stops within 0.2 s after its program stops
+    sending has a method ``move_expiring(target, speed, deadline)`` for motions towards a surface.
     """
 
     kind = "robot"
@@ -109,7 +109,7 @@ class Robot(Device):
     def move_to(self, target: Pose, speed: float, deadline: Deadline) -> float | tuple[float, float]:
         """Move the tip to ``target`` along a straight line at ``speed`` (mm/s), wait until it rests there, and return the time of arrival.
 
-        Wait with ``deadline.rest(seconds)``, which raises as soon as the robot is halted. After any exception of this method `halt` is called.
+        Wait with ``deadline.rest(seconds)``, which raises as soon as the robot is halted. After any exception of this method, `halt` is called.
         """
         raise NotImplementedError(f"{type(self).__name__} has no move_to(target, speed, deadline)")
 
@@ -121,7 +121,7 @@ class Robot(Device):
         raise NotImplementedError(f"{type(self).__name__} has no halt()")
 
     def clear_halt(self, deadline: Deadline) -> None:
-        """Make the device ready to move after a halt, without moving. A fault of the device itself stays until a person acknowledges it."""
+        """Make the device ready to move after a halt, without moving. A fault of the device stays until an operator acknowledges it."""
 
 
 class Lighting(Device):
@@ -135,12 +135,12 @@ class Lighting(Device):
 
 
 class Changer(Device):
-    """Device that brings specimens or units of a sensor into place. Its class declares at least ``source`` and ``holds``, their names."""
+    """Device that brings specimens or units of a sensor into place. Its class declares at least ``source`` and ``holds``, the names of the items."""
 
     kind = "changer"
 
     def bring(self, name: str, deadline: Deadline) -> str | None:
-        """Bring ``name`` into place. Return the name that the signals of the device report, or ``None`` if it has no such signal.
+        """Bring ``name`` into place. Return the name that the device senses, or ``None`` if it cannot sense it.
 
         The robot is halted meanwhile. Return once all motion has ended.
         """
@@ -151,8 +151,8 @@ class Changer(Device):
 class Samples:
     """Samples that an estimator is fitted on.
 
-    ``features`` is ``[samples, height, width, depth]``, float32; ``targets`` is ``[samples, channels]``, float64, in mm and N; ``channels``
-    are the names of its columns; ``groups`` are numbers of contact points, if known.
+    ``features`` is ``[samples, height, width, depth]``, float32. ``targets`` is ``[samples, channels]``, float64, in mm and N. ``channels``
+    has the names of its columns. ``groups`` has the number of the contact point of each sample, if known.
     """
 
     features: npt.NDArray[np.float32]
@@ -162,7 +162,7 @@ class Samples:
 
     @classmethod
     def of(cls, features: Any, targets: Any, channels: Sequence[str], groups: Any = None) -> Samples:
-        """Make samples from buffers."""
+        """Create samples from buffers."""
         return cls(
             np.asarray(features),
             np.asarray(targets),
@@ -172,12 +172,12 @@ class Samples:
 
 
 class Estimator(_Provided):
-    """Model that predicts labels from pictures. The parameters of its constructor are its settings."""
+    """Model that predicts labels from frames. The parameters of its constructor are its settings."""
 
     kind = "estimator"
 
     def fit(self, training: Samples, validation: Samples | None, progress: Training) -> None:
-        """Fit on ``training``. ``validation`` has samples to choose settings on, or is ``None``; ``progress.advance()`` raises if the fit should end."""
+        """Fit on ``training``. ``validation`` has samples for choosing settings, or is ``None``; ``progress.advance()`` raises on cancellation."""
         raise NotImplementedError(f"{type(self).__name__} has no fit(training, validation, progress)")
 
     def predict(self, features: npt.NDArray[np.float32]) -> npt.ArrayLike:
@@ -185,12 +185,12 @@ class Estimator(_Provided):
         raise NotImplementedError(f"{type(self).__name__} has no predict(features)")
 
     def save(self) -> bytes:
-        """Return the model as bytes, the same for the same model. Do not use pickle: loading one can run any code."""
+        """Return the model as bytes, equal for equal models. Do not use pickle: loading one can run any code."""
         raise NotImplementedError(f"{type(self).__name__} has no save()")
 
     @classmethod
     def load(cls, data: bytes, channels: list[str], shape: tuple[int, int, int]) -> Self:
-        """Return the model that `save` wrote as ``data``; raise for any other bytes."""
+        """Return the model that `save` wrote to ``data``; raise for any other bytes."""
         raise NotImplementedError(f"{cls.__name__} has no load(data, channels, shape)")
 
 

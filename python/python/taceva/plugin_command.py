@@ -8,7 +8,7 @@ import sys
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Carry out what ``arguments`` say; return the exit code."""
+    """Run the command in ``arguments``; return the exit code."""
     parser = argparse.ArgumentParser(prog="python -m taceva.plugin", description="For authors of plugins in Python.")
     commands = parser.add_subparsers(dest="command", required=True)
     manifest = commands.add_parser(

@@ -1,4 +1,4 @@
-"""A class of a plugin as the table that a manifest has of it."""
+"""Manifest tables of the classes of a plugin."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def _value(value: Any) -> str:
-    """A value of TOML."""
+    """Return ``value`` in TOML syntax."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
@@ -29,7 +29,7 @@ def _value(value: Any) -> str:
 
 
 def table(key: str, given: type[Device | Estimator]) -> str:
-    """Return what a manifest says of the class ``given``, called ``key``: the head of the class and the arguments of its constructor."""
+    """Return the manifest table of the class ``given`` with ``key``: the head of the class and the arguments of its constructor."""
     said = dict(given.said)
     documented = (inspect.getdoc(given) if "__doc__" in vars(given) and given.__doc__ else None) or key
     lines = {
@@ -48,7 +48,7 @@ def table(key: str, given: type[Device | Estimator]) -> str:
 
 
 def _arguments(given: type[Device | Estimator]) -> list[dict[str, Any]]:
-    """The arguments of the constructor, as a manifest declares them."""
+    """Return the arguments of the constructor as in a manifest."""
     if given.__init__ is object.__init__:
         return []
     hints = typing.get_type_hints(given.__init__, include_extras=True)
@@ -68,7 +68,7 @@ def _arguments(given: type[Device | Estimator]) -> list[dict[str, Any]]:
 
 
 def _type(given: type, name: str, hint: Any) -> dict[str, Any]:
-    """What a type says of an argument."""
+    """Return the manifest entries of an argument of type ``hint``."""
     from taceva.plugin_classes import Arg
 
     notes: list[Arg] = []

@@ -1,4 +1,4 @@
-"""Checks of a plugin, for the tests of its author."""
+"""Checks of a plugin for the tests of its author."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ def check(
     only: Sequence[str] = (),
     limit: float = 120,
 ) -> list[Checked]:
-    """Check the plugin ``module``, as ``taceva plugin check`` does, in confined processes.
+    """Check the plugin ``module`` like ``taceva plugin check``, in confined processes.
 
     Parameters
     ----------
     module : str
-        The package, by its import name. It is not imported here.
+        Import name of the package, which is not imported here.
     arguments : mapping of str to str, optional
         Arguments of drivers by their keys: ``{"org.example.eye/camera": "index=1"}``.
     only : sequence of str
-        Prefixes of the names of the checks to run; all, if empty.
+        Prefixes of the names of the checks to run; all if empty.
     limit : float
-        The time limit of each check, in whole seconds.
+        Time limit of each check, in whole seconds.
 
     Returns
     -------
@@ -49,7 +49,7 @@ def check(
     Raises
     ------
     AssertionError
-        If a check fails; the message lists each.
+        If a check fails; the message lists all failures.
     """
     import importlib.util
     import tomllib

@@ -1,13 +1,13 @@
-//! Structs of Arrow's C interface; only this file fills them.
+//! Structs of the Arrow C interface. Only this file fills them.
 //!
-//! A schema and a batch own their memory. Their release functions free it, in any order and on any thread.
+//! A schema and a batch own their memory. Their release functions free it in any order and on any thread.
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
 
 use super::{ArrowColumn, aligned};
 
-/// `ARROW_FLAG_NULLABLE` of the interface.
+/// `ARROW_FLAG_NULLABLE` of the Arrow C interface.
 const NULLABLE: i64 = 2;
 
 /// `struct ArrowSchema`.
@@ -62,8 +62,8 @@ impl Schema {
 
 #[expect(unsafe_code, reason = "the interface is C's")]
 unsafe extern "C" fn release_schema(schema: *mut Schema) {
-    // SAFETY: a reader calls it once, with the struct that `Schema::new` filled or a copy of it. The children are boxes of ours; those that
-    // the reader took over have no `release`.
+    // SAFETY: a reader calls it once, with the struct that `Schema::new` filled or a copy of it. The children are our boxes; children that the reader
+    // has moved out have no `release`.
     unsafe {
         let memory = Box::from_raw((*schema).private_data.cast::<SchemaMemory>());
         for child in memory.children {
@@ -100,7 +100,7 @@ struct ArrayMemory {
 }
 
 impl Array {
-    /// `values` of `rows` rows, with null where `is_there` is false; a struct has children and no values.
+    /// Creates `values` of `rows` rows, with null where `is_there` is false; a struct has children and no values.
     fn new(rows: usize, is_there: &[bool], values: Vec<Vec<u64>>, children: Vec<Array>) -> Array {
         let mut all = Vec::new();
         let nulls = is_there.iter().filter(|is_there| !**is_there).count();
@@ -180,7 +180,7 @@ struct StreamMemory {
 }
 
 impl Stream {
-    /// A stream that gives `batch` once.
+    /// A stream that returns `batch` once.
     pub(super) fn of(batch: Batch) -> Stream {
         let memory = Box::new(StreamMemory {
             batch,
@@ -207,7 +207,7 @@ impl Drop for Stream {
     #[expect(unsafe_code, reason = "the interface is C's")]
     fn drop(&mut self) {
         if let Some(release) = self.release {
-            // SAFETY: the stream was not taken over, since that clears `release`.
+            // SAFETY: the stream was not moved out, because that clears `release`.
             unsafe { release(self) };
         }
     }
@@ -260,7 +260,7 @@ unsafe extern "C" fn get_next(stream: *mut Stream, into: *mut Array) -> c_int {
 
 #[expect(unsafe_code, reason = "the interface is C's")]
 unsafe extern "C" fn get_last_error(_stream: *mut Stream) -> *const c_char {
-    // No call fails: all values are in memory.
+    // No call fails, because all values are in memory.
     ptr::null()
 }
 

@@ -22,7 +22,7 @@ pub(super) struct PythonDriver {
 }
 
 impl PythonDriver {
-    /// The driver of `class`; `None` for a kind newer than this version.
+    /// Driver of `class`; `None` for a kind that is newer than this version.
     pub(super) fn made(descriptor: Descriptor, class: Py<PyAny>) -> Option<Made> {
         let kind = descriptor.kind();
         let driver = PythonDriver { descriptor, class };
@@ -48,7 +48,7 @@ impl PythonDriver {
         })
     }
 
-    /// The devices that `discover` of the class finds, if it has that method.
+    /// Devices that `discover` of the class finds, if the class has that method.
     fn found(&self) -> Result<Vec<Found>, DriverError> {
         const DOING: Doing = Doing::Working("look for devices");
         let key = self.descriptor.key();

@@ -42,7 +42,7 @@ impl PythonEstimator {
     }
 }
 
-/// The exception as an error; the host adds the estimator and the operation.
+/// Converts the exception to an error; the host adds the estimator and the operation.
 fn model_error(py: Python<'_>, error: &PyErr) -> ModelError {
     ModelError::new(kind(py, error), short_words(py, error))
 }
@@ -68,7 +68,7 @@ fn samples<'py>(py: Python<'py>, set: &TrainingSet<'_>) -> PyResult<Bound<'py, P
         .call_method("of", (), Some(&given))
 }
 
-/// `[samples, height, width, depth]`, float32.
+/// Features as float32, `[samples, height, width, depth]`.
 fn features(py: Python<'_>, features: &Features) -> PyResult<Py<Buffer>> {
     let FeatureShape {
         height,
@@ -121,7 +121,7 @@ impl EstimatorFactory for PythonEstimator {
             let shape = (shape.height, shape.width, shape.depth);
             let bytes = PyBytes::new(py, saved.bytes);
             let loaded = self.class.call_method1(py, "load", (bytes, names, shape));
-            // Any exception means that the bytes are no model of this estimator.
+            // Any exception means that the bytes are not a model of this estimator.
             loaded.map_err(|error| ModelError::new(ErrorKind::Protocol, short_words(py, &error)))
         })?;
         Ok(Box::new(Fitted {
@@ -144,7 +144,7 @@ impl Fitted {
         let numpy = py.import("numpy")?;
         let seen = numpy.call_method1("asarray", (features(py, given)?,))?;
         let said = self.object.call_method1(py, "predict", (seen,))?;
-        // The gate of models outside of plugins: complex numbers are refused, and named columns matched by name.
+        // Applies the same checks as to models outside of plugins: rejects complex numbers and matches named columns by name.
         let names = self.channels.iter().map(|channel| channel.name());
         let names: Vec<&str> = names.collect();
         let rows = py.import("taceva._predictions")?.call_method1(

@@ -10,7 +10,7 @@ use taceva_core::{DriverError, DriverKey, ErrorKind, Fault};
 
 use super::waiting::Interrupted;
 
-/// The failed operation, in words that follow "cannot". While opening, an invalid value is the caller's argument.
+/// Failed operation, in words that follow "cannot". During opening, an invalid value is the caller's argument.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Doing {
     Opening(&'static str),
@@ -36,7 +36,7 @@ pub(super) fn device_error(
     }
 }
 
-/// The reason why a device stopped by itself, if the exception names one.
+/// Reason why a device stopped itself, if the exception names one.
 fn fault(py: Python<'_>, error: &PyErr) -> Option<Fault> {
     let named = error.value(py).getattr("fault").ok()?;
     let named: String = named.extract().ok()?;
@@ -48,7 +48,7 @@ fn is_of_value(py: Python<'_>, error: &PyErr) -> bool {
     error.is_instance_of::<PyValueError>(py) || error.is_instance_of::<PyTypeError>(py)
 }
 
-/// The kind of an exception: its own attribute, or the kind of its class.
+/// Kind of an exception: its own attribute, or the kind of its class.
 pub(super) fn kind(py: Python<'_>, error: &PyErr) -> ErrorKind {
     let named = error.value(py).getattr("kind").ok();
     let named = named.and_then(|kind| kind.extract::<String>().ok());
@@ -83,12 +83,12 @@ pub(super) fn kind(py: Python<'_>, error: &PyErr) -> ErrorKind {
     }
 }
 
-/// Maximum size of an error in the interface, bytes.
+/// Greatest size of an error in the interface, in bytes.
 const ERROR_MAX: usize = taceva_plugin::abi::MESSAGE_SIZE - 1;
-/// Size of a reply of the process that always fits, bytes.
+/// Size of a process reply that always fits, in bytes.
 const ANSWER_MAX: usize = 1_900;
 
-/// The exception in one line: class, message, remedy, and the innermost file and line.
+/// The exception on one line: class, message, remedy, and the innermost file and line.
 pub(super) fn words(py: Python<'_>, error: &PyErr) -> String {
     words_within(py, error, ANSWER_MAX)
 }
@@ -105,7 +105,7 @@ fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
     let message = message.map_or_else(|_| String::new(), |message| message.to_string());
     let (said, mut behind) = match message.trim() {
         "" => (name, String::new()),
-        // The loader's message for a library that is loaded too late.
+        // Message of the dynamic loader for a library that is loaded too late.
         message if message.contains(TOO_LATE) => {
             let module = error.value(py).getattr("name").ok();
             let module = module.and_then(|module| module.extract::<String>().ok());
@@ -127,15 +127,15 @@ fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
     if let Some(place) = place(py, error) {
         behind.push_str(&format!(" ({place})"));
     }
-    // A path that fills the whole space is shortened like the message.
+    // A path that fills the space is shortened like the message.
     let behind = shortened(&behind, room / 2);
     let said = shortened(&said, room - behind.len());
     said + &behind
 }
 
-/// `text` in at most `room` bytes: its beginning and its end, and between them the number of omitted bytes.
+/// Shortens `text` to `room` bytes: keeps beginning and end, and states the number of omitted bytes between them.
 fn shortened(text: &str, room: usize) -> String {
-    /// Maximum size of the text between them, bytes.
+    /// Greatest size of the text between them, in bytes.
     const BETWEEN: usize = 48;
     if text.len() <= room || room < 2 * BETWEEN {
         return text.to_owned();
@@ -156,19 +156,19 @@ fn shortened(text: &str, room: usize) -> String {
     )
 }
 
-/// Message of oneDNN, which writes code while it computes; a confined process may not run that.
+/// Message of oneDNN, which generates code at run time; a confined process cannot execute such code.
 const NO_PRIMITIVE: &str = "could not create a primitive";
 const ONEDNN: &str = "; oneDNN writes code: import torch at the top of the module, or call torch.backends.mkldnn.set_flags(False)";
 
 const TOO_LATE: &str = "failed to map segment";
 
-/// The file name in the message of the loader, without its folder.
+/// File name in the message of the loader, without its folder.
 fn library(message: &str) -> &str {
     let path = message.split(": ").next().unwrap_or(message);
     path.rsplit('/').next().unwrap_or(path)
 }
 
-/// The innermost file and line of the exception's traceback.
+/// Innermost file and line of the traceback of the exception.
 fn place(py: Python<'_>, error: &PyErr) -> Option<String> {
     let mut trace = error.traceback(py)?.into_any();
     while let Ok(next) = trace.getattr("tb_next")

@@ -14,7 +14,7 @@ use crate::errors::value_error;
 
 const READ: &str = "read the force";
 
-/// An object with `start`, `read(deadline)`, `stop` and, if it declares so, `zero(deadline)`.
+/// An object with `start`, `read(deadline)`, `stop` and, if declared, `zero(deadline)`.
 pub(super) struct PythonForce {
     object: Object,
     axes: Axes,
@@ -42,7 +42,7 @@ impl PythonForce {
     }
 }
 
-/// Parses the result of `read`: the force in N, its time, and the sequence number of the device.
+/// Parses the result of `read`: force in N, time, and sequence number of the device.
 fn reading(said: &Bound<'_, PyAny>) -> PyResult<(Wrench, Stamp, Option<u64>)> {
     let parts: Vec<Bound<'_, PyAny>> = said.extract().unwrap_or_default();
     let (force, time, number) = match parts.as_slice() {
@@ -58,7 +58,7 @@ fn reading(said: &Bound<'_, PyAny>) -> PyResult<(Wrench, Stamp, Option<u64>)> {
     Ok((wrench(force)?, stamp(time, "read")?, number))
 }
 
-/// One number is the force along z, three are the force, six the force and the torque.
+/// Parses one number as the force along z, three as the force, six as force and torque.
 fn wrench(said: &Bound<'_, PyAny>) -> PyResult<Wrench> {
     let mut wrench = Wrench::default();
     let numbers: Vec<f64> = match said.extract::<f64>() {

@@ -1,4 +1,4 @@
-//! A Python object that is a device: called by one thread at a time, and closed on drop.
+//! A Python device object. One thread at a time calls it, and dropping closes it.
 
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ impl Object {
         &self.key
     }
 
-    /// Calls `work` with the object and `deadline`; a Python exception becomes an error of the device with the operation `doing`.
+    /// Calls `work` with the object and `deadline`. A Python exception becomes a device error for the operation `doing`.
     pub(super) fn call<T>(
         &self,
         doing: &'static str,
@@ -43,7 +43,7 @@ impl Object {
         self.called(doing, Deadline::new(deadline, ends), work)
     }
 
-    /// As [`call`](Object::call), for a motion: a halt ends the waits of its deadline.
+    /// As [`call`](Object::call), for a motion. A halt ends waits for its deadline.
     pub(super) fn call_until_halted<T>(
         &self,
         doing: &'static str,
@@ -88,12 +88,12 @@ impl Object {
         })
     }
 
-    /// A handle that interrupts a call while it waits by its deadline.
+    /// Handle that interrupts a call during a wait by its deadline.
     pub(super) fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         self.interruption.handle()
     }
 
-    /// A handle that calls its method `halt` from any thread.
+    /// Handle that calls `halt` of the object from any thread.
     pub(super) fn stopper(&self) -> Stopper {
         Stopper {
             key: self.key.clone(),
@@ -107,7 +107,7 @@ impl Object {
     }
 }
 
-/// Stops the motion of an object, while another thread may be in a call of it.
+/// Stops the motion of an object while another thread may be calling it.
 pub(super) struct Stopper {
     key: DriverKey,
     object: Py<PyAny>,
@@ -118,7 +118,7 @@ impl Stopper {
         &self.key
     }
 
-    /// Calls `halt`; the error is the exception as text.
+    /// Calls `halt`; the error is the text of the exception.
     pub(super) fn stop(&self) -> Result<(), String> {
         Python::attach(|py| {
             let halted = self.object.call_method0(py, "halt").map(drop);
@@ -139,7 +139,7 @@ impl Drop for Object {
     }
 }
 
-/// The given arguments, by name.
+/// Given arguments by name.
 pub(super) fn keywords<'py>(
     py: Python<'py>,
     specs: &[ArgSpec],
@@ -156,7 +156,7 @@ pub(super) fn keywords<'py>(
                 given.set_item(&spec.key, path)?;
             }
             Some(value) => given.set_item(&spec.key, value.to_string())?,
-            // Python's own default applies.
+            // The default value of Python applies.
             None => {}
         }
     }

@@ -1,4 +1,4 @@
-//! A plugin in Python, and its interface table.
+//! A Python plugin and its interface table.
 
 use std::path::PathBuf;
 use std::sync::OnceLock;
@@ -12,10 +12,10 @@ use super::drivers::PythonDriver;
 use super::estimator::PythonEstimator;
 use crate::errors::value_error;
 
-/// The plugin of this process; there is only one.
+/// Plugin of this process; there is only one.
 static OFFERED: OnceLock<Offered> = OnceLock::new();
 
-/// A plugin in a Python module: its identity, and the classes of its devices.
+/// A plugin in a Python module: its identity and its device classes.
 pub(super) struct Offered {
     id: String,
     version: String,
@@ -24,7 +24,7 @@ pub(super) struct Offered {
 }
 
 impl Offered {
-    /// Reads an object of `taceva.plugin.Plugin`.
+    /// Reads an object of the class `taceva.plugin.Plugin`.
     pub(super) fn of(plugin: &Bound<'_, PyAny>) -> PyResult<Offered> {
         let id: String = plugin.getattr("id")?.extract()?;
         let parsed: PluginId = id.parse().map_err(value_error)?;
@@ -44,7 +44,7 @@ impl Offered {
         })
     }
 
-    /// The interface table, for the code at `path`. The first plugin of a process is the one that it serves.
+    /// Interface table for the code at `path`. A process serves the first plugin that is linked.
     pub(super) fn linked(self, path: PathBuf) -> Linked {
         let offered = OFFERED.get_or_init(|| self);
         let mut table: Plugin = plugin::<Offered>();
@@ -57,7 +57,7 @@ impl Offered {
 }
 
 impl Export for Offered {
-    /// Replaced by [`Offered::linked`], which knows both.
+    /// Replaced by [`Offered::linked`], which knows the id and the version.
     const ID: &'static str = "";
     const VERSION: &'static str = "";
 

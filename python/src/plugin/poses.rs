@@ -1,4 +1,4 @@
-//! Poses in Python: six numbers, mm and degrees.
+//! Poses in Python: six numbers in mm and degrees.
 
 use pyo3::prelude::*;
 use taceva_core::{Degree, Millimetre, Point, Pose, Rotation, Stamp};
@@ -16,7 +16,7 @@ pub(super) fn python_pose<'py>(py: Python<'py>, pose: &Pose) -> PyResult<Bound<'
     py.import("taceva.plugin")?.getattr("Pose")?.call1(numbers)
 }
 
-/// Parses the pose returned by `method`: three numbers are a position, six a position and an orientation of the tip.
+/// Parses the result of `method`: three numbers are a position, six a position and an orientation of the tip.
 pub(super) fn pose_of(said: &Bound<'_, PyAny>, method: &str) -> PyResult<Pose> {
     let numbers: Vec<f64> = said.extract().unwrap_or_default();
     let (place, turn) = match numbers.as_slice() {

@@ -1,4 +1,4 @@
-//! A Python robot. A latch halts it before Python is called, so that hanging code starts no further motion.
+//! A Python robot. A latch halts it before Python is called, so that hanging code cannot start another motion.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -46,14 +46,14 @@ impl PythonRobot {
         DriverError::new(kind, self.object.key(), MOVE).because(why.into())
     }
 
-    /// Runs a motion. A failed motion is stopped before its error is returned, and a motion that was halted on its way is an error.
+    /// Runs a motion. Stops a failed motion before returning its error. A motion that was halted on its way is an error.
     fn motion<T>(
         &self,
         deadline: Deadline,
         work: impl FnOnce(&Bound<'_, PyAny>, Bound<'_, super::waiting::Deadline>) -> PyResult<T>,
     ) -> Result<T, DriverError> {
         if self.is_halted() {
-            let why = "it was halted: clear the halt before it moves again";
+            let why = "the robot is halted: clear the halt before the next motion";
             return Err(self.failed(ErrorKind::Interrupted, why));
         }
         let moved = self
@@ -68,10 +68,10 @@ impl PythonRobot {
         }
     }
 
-    /// Error of a motion, after the robot was ordered to stop.
+    /// Stops the robot, and returns the error of the motion.
     fn stopped(&self, error: DriverError) -> DriverError {
         let kind = match self.is_halted() {
-            // Devices report a stopped motion by various kinds.
+            // Devices report a stopped motion with various error kinds.
             true if error.fault().is_none() => ErrorKind::Interrupted,
             _ => error.kind(),
         };
@@ -168,7 +168,7 @@ impl GuardedMotion for PythonRobot {
     }
 }
 
-/// Parses the result of `move_guarded`: a time on arrival, a pose and a time on a stop at the force.
+/// Parses the result of `move_guarded`: a time after arrival, or a pose and a time after a stop at the force.
 fn stop(said: &Bound<'_, PyAny>) -> PyResult<GuardedStop> {
     if let Ok((place, time)) = said.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>()
         && place.extract::<f64>().is_err()

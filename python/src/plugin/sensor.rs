@@ -1,4 +1,4 @@
-//! A Python sensor: it writes its frames into a numpy array, from which they are copied.
+//! A Python sensor. It writes frames into a numpy array, from which they are copied.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -19,7 +19,7 @@ const CAPTURE: &str = "capture a frame";
 pub(super) struct PythonSensor {
     object: Object,
     frame: FrameInfo,
-    /// The target array of frames, and its bytes; created for the first frame.
+    /// Target array of frames, and its bytes; created for the first frame.
     into: Option<(Py<PyAny>, PyBuffer<u8>)>,
 }
 
@@ -42,7 +42,7 @@ impl PythonSensor {
     }
 }
 
-/// An array for frames of `frame`, `[height, width]` or `[height, width, 3]`, and its bytes.
+/// Array for frames of `frame`, `[height, width]` or `[height, width, 3]`, and its bytes.
 fn array(py: Python<'_>, frame: FrameInfo) -> PyResult<(Py<PyAny>, PyBuffer<u8>)> {
     let number = match frame.format {
         PixelFormat::Gray8 | PixelFormat::Rgb8 => "uint8",
@@ -60,7 +60,7 @@ fn array(py: Python<'_>, frame: FrameInfo) -> PyResult<(Py<PyAny>, PyBuffer<u8>)
     Ok((array.unbind(), PyBuffer::get(&bytes)?))
 }
 
-/// The time of a frame or a reading: seconds of the host's clock, two of them if it was received later, or now.
+/// Time of a frame or reading: seconds on the host clock, a pair if it was received later; the current time if `None`.
 pub(super) fn stamp(said: &Bound<'_, PyAny>, method: &str) -> PyResult<Stamp> {
     let seconds = |number: f64| {
         Duration::try_from_secs_f64(number).map_err(|_| {

@@ -1,4 +1,4 @@
-//! A fit as seen by Python: progress, and cancellation.
+//! Progress and cancellation of a fit in Python.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,7 +13,7 @@ use super::waiting::Interrupted;
 /// Interval at which a fit checks for cancellation.
 const ASKED_EVERY: Duration = Duration::from_millis(20);
 
-/// Stack size of the thread, bytes, as in C programs: numpy needs more for a system of equations than the 2 MiB of Rust.
+/// Stack size of the thread in bytes, as in C programs. For linear systems, numpy needs more than the 2 MiB of Rust.
 const STACK: usize = 8 << 20;
 
 /// Event of a fit.
@@ -71,7 +71,7 @@ impl Training {
     }
 }
 
-/// Runs `fit` on its own thread, while this thread forwards its events to `progress`, which only this thread may call.
+/// Runs `fit` on its own thread. This thread forwards its events to `progress`, which no other thread may call.
 pub(super) fn watched<T: Send>(
     progress: &dyn Progress,
     fit: impl FnOnce(Training) -> T + Send,
@@ -86,7 +86,7 @@ pub(super) fn watched<T: Send>(
         let (done, is_done) = channel::<()>();
         let fitting = std::thread::Builder::new().stack_size(STACK);
         let fitting = fitting.spawn_scoped(scope, move || {
-            // Dropped at the end, also on a panic.
+            // Dropped at the end, also after a panic.
             let _done = done;
             fit(training)
         });
@@ -113,7 +113,7 @@ fn pass_on(
             Ok(Event::Advances(steps)) => progress.advance(steps),
             Ok(Event::Ends) => progress.end(),
             Err(RecvTimeoutError::Disconnected) => return,
-            // Python may keep the object, but the fit is over.
+            // Python may still hold the object, but the fit has ended.
             Err(RecvTimeoutError::Timeout) => {
                 if is_done.try_recv() == Err(std::sync::mpsc::TryRecvError::Disconnected) {
                     return;

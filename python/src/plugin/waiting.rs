@@ -12,14 +12,14 @@ use crate::errors::value_error;
 
 create_exception!(taceva, Interrupted, PyException, "The call was cancelled.");
 
-/// Longer than any call, s.
+/// Longer than any call, in s.
 const LONG_S: f64 = 1e9;
 
 /// Signal that ends a wait early.
 pub(super) enum Ends {
     /// An interrupt of the call.
     Interrupt(Arc<Interruption>),
-    /// A halt of the robot, before the call or during it.
+    /// A halt of the robot, before or during the call.
     Halt(Arc<HaltLatch>),
 }
 
@@ -58,12 +58,12 @@ impl Deadline {
 
 #[pymethods]
 impl Deadline {
-    /// Seconds left; 0 after the deadline.
+    /// Remaining time in s; 0 after the deadline.
     fn remaining(&self) -> f64 {
         self.left().as_secs_f64()
     }
 
-    /// Waits for `seconds`; raises `Interrupted` as soon as the call is interrupted, and `TimeoutError` at the deadline.
+    /// Waits for `seconds`. Raises `Interrupted` once the call is interrupted, and `TimeoutError` at the deadline.
     fn rest(&self, py: Python<'_>, seconds: f64) -> PyResult<()> {
         if seconds.is_nan() || seconds < 0.0 {
             return Err(value_error(format_args!(

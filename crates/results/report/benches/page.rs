@@ -11,7 +11,7 @@ fn main() {
     divan::main();
 }
 
-/// Whole page of one sensor.
+/// Renders the whole page of one sensor.
 #[divan::bench(args = [1_000, 100_000], sample_count = 5)]
 fn page(bencher: Bencher<'_, '_>, samples: usize) {
     let studies = [support::drawn("drawn", samples, 1.0)];
@@ -26,7 +26,7 @@ fn page(bencher: Bencher<'_, '_>, samples: usize) {
     });
 }
 
-/// Reading the table of samples.
+/// Reads the table of samples.
 #[divan::bench(args = [1_000, 100_000], sample_count = 5)]
 fn read_samples(bencher: Bencher<'_, '_>, samples: usize) {
     let table = support::samples("drawn", samples, 1.0);

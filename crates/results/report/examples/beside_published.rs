@@ -1,13 +1,13 @@
-//! Results of several seeds beside what was published of the same sensors: which numbers are at least as good, and whether the sensors
-//! come in the same order.
+//! Results of several seeds beside published numbers of the same sensors: which numbers are at least as good, and whether the order of the sensors
+//! agrees.
 //!
 //! ```text
 //! cargo run --release -p taceva-report --example beside_published -- runs/*/results.json
 //! ```
 //!
-//! The seed of a result is the one that its provenance names; a seed may be spread over several files. A cell says the mean over seeds, in
-//! brackets the least and the greatest, and then the published number. τ is Kendall's rank correlation of the sensors of a row with the
-//! published order, the mean over seeds and in brackets the range: a pair of sensors whose 95 % intervals overlap counts half.
+//! The seed of a result comes from its provenance; several files may share a seed. A cell has the mean over seeds, the least and the greatest in
+//! brackets, and the published number. τ is Kendall's rank correlation of the sensors in a row with the published order: the mean over seeds, and the
+//! range in brackets. A pair of sensors with overlapping 95 % intervals counts half.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -19,11 +19,11 @@ use taceva_report::{FormattedValue, Study, Table, catalogue};
 const METRICS: [&str; 3] = ["mae", "r2", "smape"];
 const CHANNELS: [&str; 4] = ["Pxy", "Pz", "Fxy", "Fz"];
 
-/// Approximate interval widths of an error and of a rank correlation. Numbers are printed to a twentieth of them.
+/// Approximate interval widths of an error and of a rank correlation. Numbers are rounded to a twentieth of them.
 const ERROR: f64 = 0.01;
 const TAU: f64 = 0.4;
 
-/// Number of a sensor: published, and found with one seed.
+/// Published number of a sensor, and the number with one seed.
 #[derive(Clone, Copy, Debug)]
 struct Number {
     published: f64,
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A table a metric, of results that were read from `texts`, each with the name of its file.
+/// One table for each metric, from results in `texts`, each with its file name.
 fn tables(texts: &[(String, String)]) -> Result<String, String> {
     let mut seeds = Seeds::new();
     for (file, text) in texts {
@@ -59,9 +59,7 @@ fn tables(texts: &[(String, String)]) -> Result<String, String> {
                 .insert(sensor.clone(), study)
                 .is_some()
             {
-                return Err(format!(
-                    "{file}: {sensor} with seed {seed} for the second time"
-                ));
+                return Err(format!("{file}: {sensor} with seed {seed} occurs twice"));
             }
         }
     }
@@ -82,7 +80,7 @@ fn seed(study: &Study) -> Option<u64> {
     text.parse().ok()
 }
 
-/// The table of one metric, a row a channel.
+/// Table of one metric, with one row for each channel.
 fn table(metric: &str, seeds: &Seeds) -> Table {
     let names: Vec<&str> = seeds.values().next().map_or_else(Vec::new, |studies| {
         studies.keys().map(String::as_str).collect()
@@ -140,7 +138,7 @@ fn number(name: &str, study: &Study, metric: &str, channel: &str) -> Option<Numb
     })
 }
 
-/// Cell for a sensor's number over all seeds. True if their mean is at least as good as the published number.
+/// Cell with the number of a sensor over all seeds. True if the mean is at least as good as the published number.
 fn cell(numbers: &[Number], better: Better) -> (String, bool) {
     let found: Vec<f64> = numbers.iter().map(|number| number.found).collect();
     let (mean, published) = (mean(&found), numbers[0].published);
@@ -158,7 +156,7 @@ fn cell(numbers: &[Number], better: Better) -> (String, bool) {
     (text, is_good)
 }
 
-/// The mean, and the least and the greatest where they are several, to a twentieth of `width`.
+/// Mean, and least and greatest if there are several values, rounded to a twentieth of `width`.
 fn spread(values: &[f64], width: f64) -> String {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let greatest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -177,10 +175,10 @@ fn short(value: f64, width: f64) -> String {
     FormattedValue::number(value, Some([value - width / 2.0, value + width / 2.0])).value
 }
 
-/// Kendall's rank correlation of found numbers with published ones; `None` of fewer than two sensors.
+/// Kendall's rank correlation of our numbers with published ones; `None` for fewer than two sensors.
 ///
-/// Σ wₚ sₚ / Σ wₚ over the pairs p of sensors: s is 1 where both are ordered alike, −1 where they are not and 0 where two numbers are
-/// equal, w is ½ where the intervals of what was found overlap and 1 elsewhere.
+/// Σ wₚ sₚ / Σ wₚ over the pairs p of sensors. s is 1 for the same order, −1 for the opposite order, and 0 if two numbers are equal. w is ½ if our
+/// intervals overlap, else 1.
 fn tau(row: &[Number]) -> Option<f64> {
     let (mut sum, mut weights) = (0.0, 0.0);
     for (position, left) in row.iter().enumerate() {
@@ -235,7 +233,7 @@ mod tests {
             (1.0, 40.0, 0.1),
         ]);
         close(tau(&opposite).expect("pairs"), -1.0);
-        // The last two are the wrong way round: 5 pairs against 1, as plain counts say ...
+        // The last two are swapped: 5 pairs against 1 by plain counts ...
         let swapped = [
             (1.0, 10.0, 0.1),
             (2.0, 20.0, 0.1),
@@ -243,18 +241,18 @@ mod tests {
             (3.0, 31.0, 0.1),
         ];
         close(tau(&row(swapped)).expect("pairs"), 4.0 / 6.0);
-        // ... and 5 against a half where their intervals overlap.
+        // ... and 5 against ½ if their intervals overlap.
         let overlapping = swapped.map(|(published, found, _)| (published, found, 1.0));
         close(tau(&row(overlapping)).expect("pairs"), 4.5 / 5.5);
         assert!(tau(&far[..1]).is_none());
     }
 
-    /// A result with one seed: the mean absolute error of Fz of the four sensors is what was published, times a factor each.
+    /// A result with one seed. The mean absolute error of Fz of each of four sensors is the published one times its factor.
     fn result(seed: u64, factors: [f64; 4]) -> (String, String) {
         result_of("ViTacTip", seed, factors)
     }
 
-    /// The same, where the last sensor is called `last`.
+    /// As [`result`], with the name `last` for the last sensor.
     fn result_of(last: &str, seed: u64, factors: [f64; 4]) -> (String, String) {
         let names = ["GelSight", "GelSightWM", "MagicTac", "ViTacTip"];
         let studies = names.iter().zip(factors).map(|(name, factor)| {
@@ -278,7 +276,7 @@ mod tests {
 
     #[test]
     fn the_mean_over_seeds_is_what_must_be_as_good_as_published() {
-        // 0.9 and 1.2 are worse in the mean, 0.7 and 1.2 better.
+        // The means of 0.9 and 1.2 are worse, of 0.7 and 1.2 better.
         let tables = tables(&[
             result(1, [0.9, 0.7, 1.0, 1.5]),
             result(2, [1.2, 1.2, 1.0, 1.5]),
@@ -296,7 +294,7 @@ mod tests {
             row.contains("> 0.0361") && row.contains("≤ 0.0269") && row.contains("≤ 0.0544"),
             "{row}"
         );
-        // Published from the least on: ViTacTip, GelSightWM, GelSight, MagicTac. With seed 2 GelSightWM and GelSight stay so.
+        // Published order, best first: ViTacTip, GelSightWM, GelSight, MagicTac. With seed 2, only GelSightWM and GelSight keep it.
         assert!(row.contains("0.83 (0.67 … 1.00)"), "{row}");
     }
 

@@ -1,5 +1,5 @@
-//! Draws every figure of a result: `cargo run -p taceva-report --example draw -- RESULT.json FOLDER`, with samples from `RESULT.samples.csv`;
-//! of a benchmark of models, run time against error.
+//! Draws every figure of a result: `cargo run -p taceva-report --example draw -- RESULT.json FOLDER`, with samples from `RESULT.samples.csv`. For a
+//! benchmark of models, draws run time against error.
 
 use std::error::Error;
 use std::fs;
@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The studies of a result with the samples beside it.
+/// Studies of a result, with the samples in the file beside it.
 fn studies(result: &Path) -> Result<Vec<Study>, Box<dyn Error>> {
     let mut studies = Study::read(&fs::read_to_string(result)?)?;
     let samples = result.with_extension("samples.csv");

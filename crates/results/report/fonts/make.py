@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the fonts of this folder from those of Debian's packages fonts-croscore and fonts-droid-fallback.
+"""Makes the fonts of this folder from the Debian packages fonts-croscore and fonts-droid-fallback.
 
 Needs fontTools (`pip install fonttools`). Letters are kept by script, hinting and layout tables are dropped, and each file is
 compressed by zlib.
@@ -28,7 +28,7 @@ def ranges(pairs):
 
 
 def letters_of(encoding, rows, columns):
-    """What two bytes of an encoding stand for."""
+    """Return the letters of two-byte codes in an encoding."""
     letters = set()
     for row in rows:
         for column in columns:
@@ -40,7 +40,7 @@ def letters_of(encoding, rows, columns):
 
 
 def ideographs():
-    """All of GB 2312; the frequent ones of Big5 and of JIS X 0208."""
+    """Return all ideographs of GB 2312, and the frequent ones of Big5 and of JIS X 0208."""
     high = range(0xA1, 0xFF)
     simplified = letters_of("gb2312", range(0xB0, 0xF8), high)
     traditional = letters_of("big5", range(0xA4, 0xC7), [*range(0x40, 0x7F), *high])

@@ -15,7 +15,7 @@ use crate::number::numeral;
 use crate::results::Study;
 use taceva_results::Interval;
 
-/// Version of limit files, the only one accepted.
+/// Only accepted version of limit files.
 const LIMITS_VERSION: u32 = 1;
 
 /// Limits for the acceptance of a sensor.
@@ -37,17 +37,17 @@ pub struct LimitsFile {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limit {
-    /// Metric, followed by the name of a variant if there is one: `mae`, `hysteresis.ratio`.
+    /// Metric, with an optional variant: `mae`, `hysteresis.ratio`.
     pub metric: String,
     /// Channel or plane.
     pub channel: String,
-    /// Unit of the limit, which must be that of the score.
+    /// Unit of the limit; must be that of the score.
     pub unit: String,
     /// Greatest accepted value.
     pub most: Option<f64>,
     /// Least accepted value.
     pub least: Option<f64>,
-    /// True if the whole interval must meet the limit, instead of the value alone.
+    /// True if the whole interval must meet the limit, not only the value.
     #[serde(default)]
     pub whole_interval: bool,
 }
@@ -56,15 +56,15 @@ pub struct Limit {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LimitsError {
-    /// The file is no TOML, or has unknown keys.
+    /// The file is not TOML, or has unknown keys.
     #[error("{0}")]
     Toml(#[from] toml::de::Error),
-    /// A value is not accepted.
+    /// A value is invalid.
     #[error("limit {number}: {problem}")]
     Limit {
         /// Number of the limit in the file, from 1; 0 for an error of the whole file.
         number: usize,
-        /// The problem, with the accepted values.
+        /// The problem and the accepted values.
         problem: String,
     },
 }
@@ -82,9 +82,9 @@ pub struct LimitCheck {
     pub n: u64,
     /// True if the limit is met.
     pub is_kept: bool,
-    /// Reason that the limit is not met, or a remark that it is met without an interval.
+    /// Reason why the limit is not met, or a remark that it is met without an interval.
     pub reason: Option<String>,
-    /// Standing of the score. A limit on a score without a part in verdicts counts as not met.
+    /// Standing of the score. A limit on a score that is excluded from verdicts counts as not met.
     pub standing: Standing,
 }
 
@@ -148,7 +148,7 @@ impl LimitsFile {
     }
 }
 
-/// Checks each limit on the scores of `study`, in the order of the limits. A missing score or value breaks its limit.
+/// Checks each limit on the scores of `study`, in the order of the limits. A limit on a missing score or value counts as not met.
 pub fn accept(study: &Study, limits: &LimitsFile) -> Vec<LimitCheck> {
     limits
         .limits
@@ -175,7 +175,7 @@ fn hold(study: &Study, limit: &Limit) -> LimitCheck {
         finding.reason = Some("there is no such score".to_owned());
         return finding;
     };
-    // A limit without a variant applies to the variant that decides verdicts.
+    // A limit without a variant applies to the variant that verdicts use.
     let decided_by = score.decided_by().map(|decides| decides.name.as_str());
     let variant = variant.or(decided_by);
     finding.n = score.n;
@@ -219,7 +219,7 @@ fn is_crossed(limit: &Limit, ends: Option<[f64; 2]>) -> bool {
     })
 }
 
-/// Describes the violation of a limit; `None` if the value meets it.
+/// Describes why a limit is not met; `None` if the value meets it.
 fn broken(limit: &Limit, unit: Unit, value: f64, ends: Option<[f64; 2]>) -> Option<String> {
     if unit.symbol() != limit.unit {
         return Some(format!(

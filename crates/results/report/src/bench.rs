@@ -9,7 +9,7 @@ use crate::results::{ModelBench, ModelRow};
 use crate::table::{Column, Direction, Table};
 
 impl ModelBench {
-    /// Table with one row per model: its times, and the error of each channel with its interval.
+    /// Table with one row for each model: its times, and the error of each channel with its interval.
     pub fn table(&self) -> Table {
         // Lower is better for times and errors.
         let lower = |name: String| Column::new(name).direction(Direction::Is(Better::Lower));
@@ -63,7 +63,7 @@ impl ModelRow {
             Some(self.predict_s),
             Some(self.latency_s * 1e3),
         ];
-        // The times of a failed model are meaningless.
+        // The times of a failed model have no meaning.
         let time = |time: Option<f64>| match (time, &self.failed) {
             (Some(time), None) => numeral(time),
             (None, _) | (_, Some(_)) => "–".to_owned(),

@@ -41,7 +41,7 @@ pub fn all() -> Vec<Sensor> {
     sensors
 }
 
-/// The sensor called `name`, or the only one with that alias, whatever its case.
+/// Sensor called `name`, or the only sensor with that alias; ignores case.
 pub fn find(name: &str) -> Option<Sensor> {
     named(name).ok()
 }
@@ -54,7 +54,7 @@ pub fn hint(name: &str) -> String {
     }
 }
 
-/// The name or alias of the catalogue that is most like `name`, if one is like it at all.
+/// The most similar name or alias in the catalogue, if any is similar.
 ///
 /// ```
 /// assert_eq!(taceva_report::catalogue::nearest("gelsigt").as_deref(), Some("GelSight"));

@@ -1,4 +1,4 @@
-//! Chooses a sensor for a task: hard needs drop sensors, soft needs rank them, and each step shows its numbers.
+//! Chooses a sensor for a task: hard needs exclude sensors, soft needs rank them, and each step shows its numbers.
 
 mod evidence;
 mod need;
@@ -21,42 +21,42 @@ use crate::names::listed;
 /// Shortlist, with the steps that led to it.
 #[derive(Clone, Debug)]
 pub struct Choice {
-    /// Sensors that meet the needs, the best first.
+    /// Sensors that meet the needs, best first.
     pub ranked: Vec<Candidate>,
-    /// Sensors for which a hard need is undecided, as a number is unknown; ordered by name.
+    /// Sensors with an unknown number for a hard need, ordered by name.
     pub open: Vec<Open>,
-    /// Sensors that break a hard need.
+    /// Sensors that do not meet a hard need.
     pub dropped: Vec<Dropped>,
-    /// Unranked sensors, because a number that a need uses takes no part in verdicts.
+    /// Sensors without a rank, because a number that a need uses is excluded from verdicts.
     pub barred: Vec<Dropped>,
-    /// Unranked sensors that meet the hard needs, because no number is known for a need that ranks.
+    /// Sensors that meet the hard needs but have no rank, because a number for a ranking need is unknown.
     pub unplaced: Vec<Dropped>,
-    /// Numbers of the sensors that are not ranked, in the order of the sensors.
+    /// Numbers of the sensors without a rank, in the order of the sensors.
     pub others: Vec<Candidate>,
     /// Sensors with none of the numbers that the needs use.
     pub unknown: Vec<String>,
     /// Significant differences between ranked sensors; `None` if nothing was tested, as with published numbers.
     pub evidence: Option<Vec<Evidence>>,
-    /// Sentence on ranking errors whose labels differ in spread between the sensors.
+    /// Sentence on ranking errors whose labels have different spreads between the sensors.
     pub spread: Option<String>,
     /// True if samples behind the numbers are simulated.
     pub simulated: bool,
-    /// Sensors whose greatest depth or force a need uses. Both come from the catalogue instead of results.
+    /// Sensors whose greatest depth or force a need uses. Both come from the catalogue, not from results.
     pub limits_of_catalogue: Vec<String>,
 }
 
-/// Sensor that meets every hard need, as far as known.
+/// A sensor that meets every hard need, as far as known.
 #[derive(Clone, Debug)]
 pub struct Candidate {
     /// Name of the sensor.
     pub name: String,
-    /// Mean share of the best over soft needs, 0 to 1; 1 without soft needs.
+    /// Mean over soft needs of the share of the best, 0 to 1; 1 without soft needs.
     pub share: f64,
     /// Numbers used.
     pub steps: Vec<Step>,
 }
 
-/// One number of a sensor against one need.
+/// One number of a sensor for one need.
 #[derive(Clone, Debug)]
 pub struct Step {
     /// Need as given.
@@ -77,30 +77,30 @@ pub struct Step {
     pub is_unsure: bool,
 }
 
-/// Sensor with an unknown number for a hard need.
+/// A sensor with an unknown number for a hard need.
 #[derive(Clone, Debug)]
 pub struct Open {
     /// Name of the sensor.
     pub name: String,
-    /// Need, with the unknown property.
+    /// The need and the unknown property.
     pub reason: String,
 }
 
-/// Sensor that is not ranked.
+/// A sensor without a rank.
 #[derive(Clone, Debug)]
 pub struct Dropped {
     /// Name of the sensor.
     pub name: String,
-    /// Broken need with the deciding number, or the reason that the number takes no part in verdicts.
+    /// Unmet need with the deciding number, or the reason why the number is excluded from verdicts.
     pub reason: String,
 }
 
 /// Chooses among `sensors` for `needs`.
 ///
-/// A hard need drops every sensor whose number breaks it, and sets apart those whose number is unknown. A score without a part in verdicts
-/// bars the sensor from ranking. Studies of sensors are skipped. A soft need ranks the remaining sensors by the mean share of the best over
-/// its numbers. A sensor without one of these numbers is not ranked, as nothing is known to take its place. The rank is the mean over soft
-/// needs. Equal sensors share a place, in order of their names.
+/// A hard need excludes every sensor whose number does not meet it, and sets apart sensors whose number is unknown. A score that is excluded from
+/// verdicts keeps its sensor out of the ranking. Studies of sensors are skipped. A soft need ranks the remaining sensors by the mean share of the
+/// best over its numbers. A sensor without one of these numbers is not ranked. The rank is by the mean over soft needs. Equal sensors share a place,
+/// ordered by name.
 ///
 /// ```
 /// use taceva_report::{Need, catalogue, choose};
@@ -164,7 +164,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
     choice
 }
 
-/// First number of `sensor` that a need uses and that takes no part in verdicts.
+/// First number of `sensor` that a need uses and that is excluded from verdicts.
 fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let properties = needs
         .iter()
@@ -176,10 +176,10 @@ fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     barred.next()
 }
 
-/// Demand of a bound of [`Property::Opaque`].
+/// Requirement of a bound of [`Property::Opaque`], in words.
 const CLOSED: &str = "a gel that keeps light out";
 
-/// First hard need that `sensor` breaks.
+/// First hard need that `sensor` does not meet.
 fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let bounds = needs
         .iter()
@@ -219,7 +219,7 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
             None if property == Property::Opaque => {
                 let words = &need.words;
                 return Some(format!(
-                    "`{words}` needs {CLOSED}, and of this one that is not known"
+                    "`{words}` needs {CLOSED}, which is unknown for this sensor"
                 ));
             }
             None => "is not known".to_owned(),
@@ -237,7 +237,7 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     unproven.next()
 }
 
-/// Properties of the soft needs of which no number of `sensor` is known.
+/// Properties of the soft needs without a known number of `sensor`.
 fn unplaced(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let ranks = needs.iter().flat_map(|need| &need.ranks);
     let unknown = ranks.filter(|property| property.of(sensor).is_none());

@@ -33,7 +33,7 @@ use taceva_results::{Score, not_measured};
 pub struct CompareRequest {
     /// Metrics to compare. Empty selects all with a single number and a better direction.
     pub metrics: Vec<String>,
-    /// Equivalence margin by `mae` or `mae.Fz`; the longer name takes precedence.
+    /// Equivalence margin by `mae` or `mae.Fz`; the more specific name takes precedence.
     pub margins: BTreeMap<String, f64>,
     /// Seed of the random signs of the sign-flip test.
     pub seed: u64,
@@ -46,7 +46,7 @@ pub struct Comparison {
     pub names: Vec<String>,
     /// Answers for every pair of studies with a common score.
     pub answers: Vec<Answer>,
-    /// Notes for readers of the comparison.
+    /// Notes for the reader.
     pub notes: Vec<String>,
     /// Remarks on the verdicts, by score.
     asides: Vec<Remarks>,
@@ -67,15 +67,15 @@ pub struct Answer {
     pub decided_by: Option<String>,
     /// Unit of both scores.
     pub unit: Unit,
-    /// Both scores, if they are numbers.
+    /// Both values, if they are numbers.
     pub scores: Sides<Option<f64>>,
     /// Positions of both studies.
     pub sides: Sides<usize>,
     /// Verdict by Holm's procedure over all pairs and channels of the metric.
     pub verdict: Verdict,
-    /// Difference behind the verdict, with both p values and the interval of the same decision.
+    /// Difference behind the verdict, with both p values and the interval of that decision.
     pub difference: Option<Difference>,
-    /// Reason that there is no verdict.
+    /// Reason why there is no verdict.
     pub reason: Option<String>,
     /// Standing of each score.
     pub standings: Sides<Standing>,
@@ -84,7 +84,7 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// Verdict in words, with the names of the studies for A and B: `MagicTac better by …`.
+    /// Verdict in words with the names of the studies: `MagicTac better by …`.
     pub fn words(&self, names: &[String]) -> String {
         match &self.reason {
             Some(reason) => format!("no answer: {reason}"),
@@ -122,7 +122,7 @@ impl Answer {
         unknown.map(|(_, at)| names[at].as_str()).collect()
     }
 
-    /// Studies scored on a single training of a model with a random seed.
+    /// Studies whose score depends on a single training of a model with a random seed.
     fn drawn<'n>(&self, names: &'n [String]) -> Vec<&'n str> {
         let sides = [
             (self.one_training.a, self.sides.a),
@@ -146,21 +146,20 @@ struct Pair<'a> {
     scores: Sides<&'a Score>,
     sides: Sides<usize>,
     difference: Result<Difference, String>,
-    /// Reason that two predictions of one truth were not compared in pairs.
+    /// Reason why two predictions of one truth were not compared in pairs.
     unpaired: Option<String>,
 }
 
 /// Compares every pair of `studies`.
 ///
-/// The mean absolute error is compared sample by sample if both studies predict the same samples (sign-flip test, by contact point). Other
-/// scores are compared by their intervals, on their own scales. The pairs and channels of one metric form one family of Holm's procedure,
-/// which yields verdict, p value and interval of an answer.
+/// The mean absolute error is compared sample by sample if both studies predict the same samples (sign-flip test, by contact point). Other scores are
+/// compared by their intervals, on their own scales. The pairs and channels of one metric form one family of Holm's procedure, which gives the
+/// verdict, p value and interval of an answer.
 ///
-/// If a model was trained several times, the variance of the score between trainings is added to that between clusters. Predictions of the
-/// same samples are then compared by Student's t: signs of clusters do not show how another training would have scored.
+/// If a model was trained several times, the variance of the score between trainings is added to the variance between clusters. Predictions of the
+/// same samples are then compared by Student's t, because signs of clusters do not reflect other trainings.
 ///
-/// If a metric names a variant for verdicts (`excess` of `r_spatial`, `debiased` of `uniformity`, `pooled` of `repeatability`), the answers
-/// compare and contain that variant.
+/// If a metric names a variant for verdicts, such as `excess` of `r_spatial`, the answers compare and contain that variant.
 pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     let names = crate::names::names(studies);
     let deciding: Vec<Study> = studies.iter().map(Study::deciding).collect();
@@ -198,7 +197,7 @@ fn unmeasured(studies: &[Study]) -> Option<String> {
     Some(words.trim_end_matches('.').to_owned())
 }
 
-/// Note on metrics of several studies that no comparison includes, because the catalogue has no direction for them.
+/// Note on metrics that are not compared because the catalogue has no direction for them.
 fn unknown(studies: &[Study], request: &CompareRequest) -> Option<String> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for study in studies {
@@ -218,7 +217,7 @@ fn unknown(studies: &[Study], request: &CompareRequest) -> Option<String> {
     })
 }
 
-/// Note on differences that depend on a single training of a model with a random seed, with the way to try other seeds.
+/// Note on differences that depend on a single training of a model with a random seed, with the option for more seeds.
 fn trainings(names: &[String], answers: &[Answer]) -> Option<String> {
     let shown = answers.iter().filter(|answer| answer.better().is_some());
     let drawn: BTreeSet<&str> = shown.flat_map(|answer| answer.drawn(names)).collect();
@@ -300,7 +299,7 @@ fn pairs<'a>(
     pairs
 }
 
-/// Difference of two scores, with the reason that two predictions of one truth were not compared in pairs.
+/// Difference of two scores, with the reason why two predictions of one truth were not compared in pairs.
 fn difference(
     scores: Sides<&Score>,
     studies: Sides<&Study>,

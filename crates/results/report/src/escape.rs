@@ -1,9 +1,9 @@
-//! Escapes foreign text: names of sensors, ids of samples and reasons may contain anything.
+//! Escapes external text. Names of sensors, ids of samples and reasons may contain any character.
 
 use maud::html;
 use taceva_core::is_obeyed;
 
-/// Escaped text for SVG elements and quoted attributes. Unprintable characters become `U+FFFD`.
+/// Escapes text for SVG elements and quoted attributes. Unprintable characters become `U+FFFD`.
 pub(crate) fn svg(text: &str) -> String {
     html! { (obeyed_replaced(text)) }.into_string()
 }
@@ -14,14 +14,14 @@ pub(crate) fn obeyed_replaced(text: &str) -> String {
     text.replace(is_replaced, "\u{fffd}")
 }
 
-/// The command that sets a letter which the fonts of pdflatex lack: the letter where the font of LuaLaTeX or XeLaTeX has it, else its code
-/// point. A table that uses it defines it.
+/// LaTeX command for a letter that the fonts of pdflatex lack. LuaLaTeX or XeLaTeX print the letter if their font has it, else its code point. A
+/// table that uses the command defines it.
 pub(crate) const LETTER: &str = "\\tacevaletter";
-/// The definition of [`LETTER`].
+/// Definition of [`LETTER`].
 pub(crate) const LETTER_DEFINITION: &str = "% letters beyond Latin: LuaLaTeX or XeLaTeX with a font that has them; elsewhere their code points\n\
 \\providecommand{\\tacevaletter}[2]{\\ifdefined\\Umathchar\\iffontchar\\font\"#1 #2\\else U+#1\\fi\\else U+#1\\fi}\n";
 
-/// Escaped text for LaTeX.
+/// Escapes text for LaTeX.
 pub fn latex(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
@@ -32,7 +32,7 @@ pub fn latex(text: &str) -> String {
             '<' => escaped.push_str("\\textless{}"),
             '>' => escaped.push_str("\\textgreater{}"),
             '|' => escaped.push_str("\\textbar{}"),
-            // The plain font has no straight quotation mark.
+            // The default font has no straight quotation mark.
             '"' => escaped.push_str("''"),
             '{' | '}' | '$' | '&' | '#' | '_' | '%' => escaped.extend(['\\', character]),
             '–' => escaped.push_str("--"),
@@ -67,14 +67,14 @@ pub fn latex(text: &str) -> String {
     escaped
 }
 
-/// True for letters that every engine sets with its default fonts: ASCII, and letters with accents of Latin 1 and Latin A.
+/// True for letters in the default fonts of every engine: ASCII, and accented letters of Latin-1 and Latin Extended-A.
 pub(crate) fn is_set_everywhere(letter: char) -> bool {
     const ABSENT: &str = "«»ÐÞðþĄąĐđĘęĦħĮįĸĿŀŉŊŋŦŧŲųſ";
     let is_latin = matches!(letter, ' '..='~' | '\u{a1}'..='\u{17f}') || "‘’“”—•".contains(letter);
     is_latin && !ABSENT.contains(letter)
 }
 
-/// Escaped text for a cell of a Markdown table: one line without markup.
+/// Escapes text for a cell of a Markdown table: one line without markup.
 pub fn markdown(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -92,7 +92,7 @@ pub fn markdown(text: &str) -> String {
     escaped
 }
 
-/// Escaped text for a terminal, by [`taceva_core::shown`].
+/// Escapes text for a terminal, by [`taceva_core::shown`].
 pub fn terminal(text: &str) -> String {
     taceva_core::shown(text).to_string()
 }

@@ -57,12 +57,12 @@ impl Figure {
         pdf::write(self)
     }
 
-    /// Letters of its labels without a glyph in the built-in fonts, in order of code points.
+    /// Letters of its labels without a glyph in the built-in fonts, ordered by code point.
     pub fn letters_without_glyph(&self) -> BTreeSet<char> {
         pdf::letters_without_glyph(self)
     }
 
-    /// True if it shows a value or a remark; axes and names alone do not count.
+    /// True if it shows a value or a remark, not only axes and names.
     pub(crate) fn has_values(&self) -> bool {
         let is_coloured = |ink: &Ink| matches!(ink, Ink::Series(_) | Ink::Rgb(_));
         let mut marks = self.canvas.marks.iter();

@@ -1,4 +1,4 @@
-//! Figures of results. Each is a pure function of studies, and absent without data.
+//! Figures of results. Each depends only on the studies, and is omitted without data.
 
 mod crosstalk;
 mod gaps;
@@ -35,7 +35,7 @@ pub fn figures(studies: &[Study]) -> Vec<Figure> {
     figures_for(studies, &FigureStyle::default())
 }
 
-/// The same figures in a style for print. A figure without any value is left out; [`undrawn`] says why.
+/// The same figures in a style for print. Omits figures without any value; [`undrawn`] states the reasons.
 pub fn figures_for(studies: &[Study], style: &FigureStyle) -> Vec<Figure> {
     let room = style.room();
     let all = [

@@ -43,16 +43,16 @@ pub struct ReportPage<'a> {
     pub title: &'a str,
     /// Results.
     pub studies: &'a [Study],
-    /// Pictures of the samples selected by [`picks`]; may be empty.
+    /// Frames of the samples that [`picks`] selects; may be empty.
     pub pictures: &'a [Picture],
-    /// Pictures of each sensor, untouched and pressed; may be empty.
+    /// Frames of each sensor, untouched and pressed; may be empty.
     pub triples: &'a [Triple],
 }
 
 /// Renders a report as one HTML file.
 ///
-/// The page opens from disk without external requests. Its content security policy allows only its own style and script, by their digests.
-/// Equal results give equal bytes.
+/// The page opens from disk without external requests. Its content security policy allows only its own style and script, by digest. Equal results
+/// give equal bytes.
 pub fn report(report: &ReportPage<'_>) -> String {
     let studies = report.studies;
     if studies.is_empty() {

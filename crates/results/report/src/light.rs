@@ -1,4 +1,4 @@
-//! Effect of light on the errors of a sensor: the scenes of its lighting robustness, in numbers and words.
+//! Effect of light on the errors of a sensor: the scenes of its lighting robustness, as numbers and words.
 
 use taceva_core::by_count;
 use taceva_metrics::{Flag, Standing};
@@ -18,7 +18,7 @@ pub(crate) struct Light {
     pub(crate) is_low: bool,
 }
 
-/// One scene relative to the reference light, for predictions before limiting to the model's bounds.
+/// One scene relative to the reference light, for predictions before clipping to the bounds of the model.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Scene {
     pub(crate) name: String,
@@ -84,8 +84,8 @@ impl Light {
     }
 }
 
-/// Effect of light on each study, whatever its standing: `ViTacTip: errors become 66 to 325 times as large in the lit scenes`. Empty for
-/// other metrics.
+/// Effect of light on each study, whatever its standing: `ViTacTip: errors become 66 to 325 times as large in the lit scenes`. Empty for other
+/// metrics.
 pub(crate) fn words(studies: &[Study], names: &[String], metric: &str, channel: &str) -> String {
     let of_one = |(study, name): (&Study, &String)| {
         let light = Light::of(study.score(metric, channel)?);
@@ -100,7 +100,7 @@ pub(crate) fn words(studies: &[Study], names: &[String], metric: &str, channel: 
     }
 }
 
-/// `66 to 325`, or one number if both are equal to three digits.
+/// `66 to 325`, or a single number if both round to the same three digits.
 fn range(low: f64, high: f64) -> String {
     let [low, high] = [low, high].map(numeral);
     match low == high {
@@ -113,7 +113,7 @@ fn range(low: f64, high: f64) -> String {
 mod tests {
     use super::*;
 
-    /// A study with scenes of light and error ratio.
+    /// A study with `scenes` as pairs of light and error ratio.
     fn study(scenes: &[[f64; 2]], more: &str) -> Study {
         let rows: Vec<String> = (1..=scenes.len()).map(|at| format!("\"S{at}\"")).collect();
         let values: Vec<String> = scenes.iter().map(|row| format!("{row:?}")).collect();

@@ -1,4 +1,4 @@
-//! Parts of pages: scrolling tables, folds, links of metrics and their glossary.
+//! Parts of pages: scrolling tables, folds, links of metrics, and the glossary of metrics.
 
 mod fold;
 mod glossary;

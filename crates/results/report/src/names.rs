@@ -25,7 +25,7 @@ pub fn names(studies: &[Study]) -> Vec<String> {
     studies.iter().enumerate().map(name).collect()
 }
 
-/// Names as a list in words: `A, B and C`.
+/// List of names in words: `A, B and C`.
 pub(crate) fn listed(names: &[String]) -> String {
     match names {
         [] => String::new(),

@@ -4,13 +4,13 @@ use taceva_core::Unit;
 
 use taceva_results::{Interval, Score, Value};
 
-/// Limit below which a number is a rounding error of zero, in any unit: a millionth of a nanometre, piconewton or microsecond.
+/// Limit below which a number is a rounding error of zero, in any unit.
 const ROUNDING: f64 = 1e-12;
-/// Number of decimals beyond which small numbers are written with a power of ten.
+/// Number of decimals beyond which small numbers have a power of ten.
 const MOST: usize = 6;
-/// Lower limit of numbers that are always written without a negative power of ten.
+/// Least number that never has a negative power of ten.
 const SMALL: f64 = 1e-4;
-/// Limit of additional decimals of an interval with an end that would otherwise print as 0.
+/// Greatest number of additional decimals for an interval end that would otherwise print as 0.
 const BEYOND: usize = 3;
 
 /// Value and interval, formatted to the digits that the interval supports.
@@ -20,7 +20,7 @@ pub struct FormattedValue {
     pub value: String,
     /// Both ends of the interval, if there is one.
     pub interval: Option<[String; 2]>,
-    /// Reason that the value or the interval is absent.
+    /// Reason why the value or the interval is absent.
     pub reason: Option<String>,
 }
 
@@ -56,7 +56,7 @@ impl FormattedValue {
     pub fn number(number: f64, ends: Option<[f64; 2]>) -> FormattedValue {
         let all = ends.into_iter().flatten().chain([number]);
         let greatest = all.map(f64::abs).fold(0.0, f64::max);
-        // A width of rounding-error size counts as absent.
+        // A width as small as a rounding error counts as absent.
         let widths = ends.map(|[low, high]| (high - low) / 20.0);
         let width = widths.filter(|width| *width > greatest * 1e-9);
         let step = width.unwrap_or(number / 1e3).abs();
@@ -85,7 +85,7 @@ impl FormattedValue {
         }
     }
 
-    /// Prints a number as [`FormattedValue::number`] does, with no more decimals than its first `digits` digits need.
+    /// Formats a number like [`FormattedValue::number`], with no more decimals than its first `digits` digits need.
     pub(crate) fn short(number: f64, ends: Option<[f64; 2]>, digits: usize) -> FormattedValue {
         let full = FormattedValue::number(number, ends);
         let all = ends.into_iter().flatten().chain([number]);
@@ -125,7 +125,7 @@ impl FormattedValue {
         }
     }
 
-    /// Value, unit and interval in one phrase, `0.55 mm (0.34 … 0.76)`, or the reason that the value is absent.
+    /// Value, unit and interval in one phrase, `0.55 mm (0.34 … 0.76)`, or the reason why the value is absent.
     pub fn phrase(&self, unit: &str) -> String {
         match (&self.interval, &self.reason) {
             _ if self.value.is_empty() => self.reason.clone().unwrap_or_default(),
@@ -135,12 +135,12 @@ impl FormattedValue {
     }
 }
 
-/// Score as one phrase: `0.55 mm (0.34 … 0.76)`, or the reason that the value is absent.
+/// Score in one phrase: `0.55 mm (0.34 … 0.76)`, or the reason why the value is absent.
 pub fn with_interval(score: &Score) -> String {
     FormattedValue::of(&score.value, score.interval.as_ref()).phrase(&spaced(score.unit))
 }
 
-/// Unit behind a space, ` N`; empty for a ratio.
+/// Unit after a space, ` N`; empty for a ratio.
 pub fn spaced(unit: Unit) -> String {
     match unit {
         Unit::One => String::new(),
@@ -148,7 +148,7 @@ pub fn spaced(unit: Unit) -> String {
     }
 }
 
-/// Number with `decimals` decimals, without a minus sign if they are all 0.
+/// Number with `decimals` decimals, without a minus sign if all digits are 0.
 pub(crate) fn fixed(number: f64, decimals: usize) -> String {
     unsigned_zero(format!("{number:.decimals$}"))
 }
@@ -172,7 +172,7 @@ pub(crate) fn significant(number: f64) -> String {
     } else {
         let decimals = (0..8).find(|&decimals| size * 10_f64.powi(decimals) >= 100.0);
         let text = fixed(number, decimals.map_or(8, i32_to_usize));
-        // Zeros from rounding indicate precision: 0.9997 becomes 1.000, and 1 stays 1.
+        // Zeros from rounding show precision: 0.9997 becomes 1.000, and 1 stays 1.
         let is_exact = text
             .parse::<f64>()
             .is_ok_and(|shown| (shown - number).abs() <= size * 1e-9);
@@ -187,7 +187,7 @@ pub(crate) fn significant(number: f64) -> String {
     }
 }
 
-/// Probability of at least 0.0001 with three digits, rounded up.
+/// Probability with three digits, rounded up, at least 0.0001.
 pub(crate) fn at_most(probability: f64) -> String {
     let decimals = (0..8).find(|&decimals| probability * 10_f64.powi(decimals) >= 100.0);
     let steps = 10_f64.powi(decimals.unwrap_or(8));
@@ -278,7 +278,7 @@ mod tests {
             short(1069.3, Some([1069.1, 1069.5]), 3),
             "1069 (1069 … 1070)"
         );
-        // An interval that is wide asks for fewer digits than there is room for.
+        // A wide interval needs fewer digits than there is room for.
         assert_eq!(short(0.5, Some([-9.0, 10.0]), 3), "0.5 (-9.0 … 10.0)");
         assert_eq!(short(0.0, Some([-0.5, 0.5]), 2), "0.00 (-0.50 … 0.50)");
         assert_eq!(short(2.34e-7, None, 3), "2.340e-7");

@@ -1,4 +1,4 @@
-//! Results in the form in which the TacEva study printed its own: its tables with the printed numbers beside ours.
+//! Results in the layout of the TacEva study: its tables, with the printed numbers beside ours.
 
 mod beside;
 mod contradictions;
@@ -11,7 +11,7 @@ use crate::scores::ScoreTable;
 use crate::table::{Layout, Table};
 use beside::SENSORS;
 
-/// The tables of a run in the form of the TacEva study.
+/// Tables of a run in the layout of the TacEva study.
 ///
 /// # Units
 /// As the study prints them: mm, N, mm/N, MP, Hz; robustness to lighting in percent.
@@ -23,17 +23,17 @@ use beside::SENSORS;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct PaperForm {
-    /// The tables that hold any value, each with its name: `table-2`.
+    /// Tables with any value, each with its name: `table-2`.
     pub tables: Vec<(String, Table)>,
-    /// The tables that no result has a value for, each with its reason.
+    /// Tables without any value, each with its reason.
     pub absent: Vec<(String, String)>,
-    /// The numbers that the study prints in figures beside ours, each with the name of its figure: `figure-3c`.
+    /// Numbers that the study prints in figures, beside ours, each with the name of its figure: `figure-3c`.
     pub figures: Vec<(String, Table)>,
-    /// Places in which the study contradicts itself.
+    /// Contradictions in the study.
     pub contradictions: Vec<String>,
 }
 
-/// The tables I to V of the study and the numbers of its figures, of the sensors in `studies`: those that it measured first, in its order.
+/// Tables I to V of the study and the numbers of its figures, for the sensors in `studies`: its own sensors first, in its order.
 pub fn paper_form(studies: &[Study]) -> PaperForm {
     let ordered = in_order(studies);
     let scores = ScoreTable::of(&ordered);
@@ -53,7 +53,7 @@ pub fn paper_form(studies: &[Study]) -> PaperForm {
     form
 }
 
-/// The studies, those of sensors of the paper first.
+/// Studies, with the sensors of the paper first.
 fn in_order(studies: &[Study]) -> Vec<Study> {
     let place = |study: &Study| {
         let known = SENSORS.iter().position(|name| *name == study.sensor);
@@ -65,7 +65,7 @@ fn in_order(studies: &[Study]) -> Vec<Study> {
 }
 
 impl PaperForm {
-    /// Every table, that of figures too, and every contradiction as one text of LaTeX.
+    /// All tables, including those of figures, and all contradictions as one LaTeX text.
     pub fn latex(&self) -> String {
         let tables = self
             .tables
@@ -79,8 +79,8 @@ impl PaperForm {
         out
     }
 
-    /// The figures of the study as Markdown: each that is drawn with its caption and the printed numbers, and the reasons of the others.
-    /// Pictures are SVG files beside the text.
+    /// Figures of the study as Markdown: each drawn one with its caption and the printed numbers, and the reasons for the others. The images are SVG
+    /// files beside the text.
     pub fn markdown_of(&self, figures: &StudyFigures) -> String {
         let mut out = String::new();
         for figure in &figures.drawn {
@@ -105,7 +105,7 @@ impl PaperForm {
         out
     }
 
-    /// The tables and contradictions as Markdown.
+    /// Tables and contradictions as Markdown.
     pub fn markdown(&self) -> String {
         let mut out = String::new();
         for (_, table) in &self.tables {

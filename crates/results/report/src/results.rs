@@ -1,4 +1,4 @@
-//! Results in the form that pages and tables need.
+//! Results in the form for pages and tables.
 
 mod fact;
 mod model_bench;
@@ -14,7 +14,7 @@ pub(crate) use standing::by_published_r2;
 use taceva_metrics::{TrainingSpread, catalogue};
 use taceva_results::{EvaluationReport, OverSeeds, Provenance, ResultsError, Samples, Score, Skip};
 
-/// Definition of numbers published without one.
+/// Definition of numbers that were published without one.
 pub(crate) const PUBLISHED: &str = "published";
 
 /// Results of one sensor, from an [`EvaluationReport`] or from published numbers.
@@ -30,7 +30,7 @@ pub struct Study {
     pub source: String,
     /// Scores in report order.
     pub scores: Vec<Score>,
-    /// Published properties that are no scores.
+    /// Published properties other than scores.
     pub facts: Vec<Fact>,
     /// Skipped metrics with the reasons.
     pub skipped: Vec<Skip>,
@@ -40,9 +40,9 @@ pub struct Study {
     pub made: Made,
     /// Notes for readers.
     pub notes: Vec<String>,
-    /// Scores with other training seeds, if the model was fitted with several.
+    /// Scores for other training seeds, if the model was fitted with several.
     pub over_seeds: Option<OverSeeds>,
-    /// Samples, if available; figures that need them are skipped otherwise.
+    /// Samples, if available; figures that need them are otherwise omitted.
     pub samples: Option<Samples>,
 }
 
@@ -51,7 +51,7 @@ pub struct Study {
 pub struct Made {
     /// Name of the model: `ridge`.
     pub model: Option<String>,
-    /// Settings of the model by name, including selected ones.
+    /// Settings of the model by name, including chosen ones.
     pub settings: Vec<(String, String)>,
     /// Number of samples by part of the split: `train`, `validation`, `test`.
     pub samples: Vec<(String, u64)>,
@@ -59,11 +59,11 @@ pub struct Made {
     pub presses: u64,
     /// Digest of the truth table, if two tables were scored.
     pub truth: Option<String>,
-    /// The part that was scored, if the model was fitted on it or its settings were chosen on it.
+    /// Scored part, if the model was fitted on it or its settings were chosen on it.
     pub seen_part: Option<String>,
-    /// The part that was scored: `test`, `all`; `None` where there is no split.
+    /// Scored part: `test`, `all`; `None` without a split.
     pub part: Option<String>,
-    /// The number of recordings that were taken as one; 0 where there is one.
+    /// Number of joined recordings; 0 for a single one.
     pub recordings: usize,
     /// Cross-validation in words, if each sample was held out once: `5-fold cross-validation by point`.
     pub folds: Option<String>,
@@ -110,7 +110,7 @@ impl From<EvaluationReport> for Study {
     }
 }
 
-/// The scored part, where the model has seen it.
+/// Scored part, if the model has seen it.
 fn seen_part(provenance: &Provenance) -> Option<String> {
     let model = provenance.model.as_ref()?;
     let is_own = provenance.dataset.as_ref() == Some(&model.fitted_on);
@@ -134,7 +134,7 @@ impl Study {
         scores.find(|score| score.metric == metric && score.channel == channel)
     }
 
-    /// Study for verdicts: each score has the value and interval of its deciding variant.
+    /// The study for verdicts: each score has the value and interval of the variant that verdicts use.
     pub(crate) fn deciding(&self) -> Study {
         Study {
             scores: self.scores.iter().map(Score::deciding).collect(),
@@ -148,7 +148,7 @@ impl Study {
         scores.filter(move |score| score.metric == metric)
     }
 
-    /// Spread of `score`, one of [`deciding`](Study::deciding), between the trainings of its model; `None` if fewer than two have it.
+    /// Spread of `score`, one of [`deciding`](Study::deciding), between the trainings of its model; `None` with fewer than two values.
     pub(crate) fn trainings(&self, score: &Score) -> Option<TrainingSpread> {
         let name = match score.decided_by() {
             Some(variant) => format!("{}.{}", score.metric, variant.name),

@@ -1,4 +1,4 @@
-//! Scores of studies side by side, one row per score and one column per study, with forms for papers and programs.
+//! Scores of studies side by side: one row for each score, one column for each study; with layouts for papers and programs.
 
 mod caption;
 mod column;
@@ -29,7 +29,7 @@ pub struct ScoreTable {
     pub rows: Vec<ScoreRow>,
     /// Comparison of each score between each pair of studies.
     pub answers: Vec<Answer>,
-    /// Sentence on channels whose labels differ in spread; `None` if there are none.
+    /// Sentence on channels whose labels have different spreads; `None` if there are none.
     pub(crate) spread: Option<String>,
     about: Vec<caption::About>,
 }
@@ -37,7 +37,7 @@ pub struct ScoreTable {
 /// One score of all studies.
 #[derive(Clone, Debug)]
 pub struct ScoreRow {
-    /// Metric, followed by the name of the variant: `mae`, `r_spatial.within`.
+    /// Metric, with an optional variant: `mae`, `r_spatial.within`.
     pub metric: String,
     /// Channel or plane.
     pub channel: String,
@@ -45,7 +45,7 @@ pub struct ScoreRow {
     pub unit: Unit,
     /// True for the score itself, false for a variant.
     pub is_headline: bool,
-    /// One cell per study; `None` for a study without the score.
+    /// One cell for each study; `None` for a study without the score.
     pub cells: Vec<Option<ScoreCell>>,
 }
 
@@ -64,28 +64,28 @@ pub struct ScoreCell {
     pub degrees_of_freedom: Option<f64>,
     /// Number of samples.
     pub n: u64,
-    /// Number of samples excluded for an unusable value.
+    /// Number of samples that were excluded because of an unusable value.
     pub n_invalid: u64,
     /// Standing in verdicts.
     pub standing: Standing,
     /// Share of predictions beyond the bounds of the model, if known.
     pub bounded_share: Option<f64>,
-    /// True if significantly better than every other cell of the row that takes part, at 5 % after Holm's adjustment.
+    /// True if significantly better than every other cell of the row that takes part in verdicts, at 5 % after Holm's adjustment.
     pub is_best: bool,
 }
 
 impl ScoreTable {
-    /// Table of all scores and all variants with a single number.
+    /// Table of all scores and all variants that are single numbers.
     pub fn of(studies: &[Study]) -> ScoreTable {
         ScoreTable::compared(studies, &CompareRequest::default())
     }
 
-    /// Scores of the metrics that `request` names, or of all metrics, compared as it says.
+    /// Scores of the metrics that `request` names, or of all metrics, compared by `request`.
     pub fn compared(studies: &[Study], request: &CompareRequest) -> ScoreTable {
         ScoreTable::answered(studies, request, compare(studies, request).answers)
     }
 
-    /// The same with the `answers` of a comparison of `studies` by `request`.
+    /// As [`compared`](ScoreTable::compared), with the `answers` of a comparison of `studies` by `request`.
     pub fn answered(
         studies: &[Study],
         request: &CompareRequest,
@@ -143,7 +143,7 @@ impl ScoreTable {
     }
 }
 
-/// Number of a score, or the reason that it is absent.
+/// Number of a score, or the reason why it is absent.
 struct Line<'a> {
     metric: String,
     score: &'a Score,
@@ -153,7 +153,7 @@ struct Line<'a> {
     is_headline: bool,
 }
 
-/// The score and its single-number variants. Maps and curves appear in figures.
+/// The score and its single-number variants. Figures show maps and curves.
 fn lines(score: &Score) -> Vec<Line<'_>> {
     let mut lines = vec![Line {
         metric: score.metric.clone(),
@@ -184,7 +184,7 @@ impl Line<'_> {
     fn enter(&self, at: usize, studies: usize, rows: &mut Vec<ScoreRow>) {
         let is_mine = |row: &ScoreRow| {
             let is_named = row.metric == self.metric && row.channel == self.score.channel;
-            // A score without a value has no unit, and joins the row of those that have one.
+            // A score without a value has no unit, and joins the row of scores with a value.
             let has_value = self.value.number().is_some();
             is_named && (row.unit == self.unit || !has_value || row.is_without_value())
         };
@@ -232,8 +232,8 @@ impl ScoreCell {
         self.value.is_some() && self.standing.takes_part()
     }
 
-    /// Remark on its standing: `not better than predicting the mean`, `predictions beyond the trained range (12 %)`; `None` for a cell that
-    /// counts without remark.
+    /// Remark on its standing: `not better than predicting the mean`, `predictions beyond the trained range (12 %)`; `None` if it counts without
+    /// remark.
     pub fn remark(&self) -> Option<String> {
         let words = self.standing.phrase().filter(|_| self.value.is_some())?;
         let share = self
@@ -246,7 +246,7 @@ impl ScoreCell {
     }
 }
 
-/// Sentence on mean absolute errors whose labels differ in spread.
+/// Sentence on mean absolute errors whose labels have different spreads.
 fn spread(studies: &[Study], rows: &[ScoreRow]) -> Option<String> {
     let errors = rows
         .iter()
@@ -257,7 +257,7 @@ fn spread(studies: &[Study], rows: &[ScoreRow]) -> Option<String> {
     crate::spread::note(studies, &crate::names::names(studies), &errors)
 }
 
-/// Marks the cell of each row that is significantly better than all others that take part.
+/// Marks the cell of each row that is significantly better than all others that take part in verdicts.
 fn mark_best(rows: &mut [ScoreRow], answers: &[Answer]) {
     for row in rows.iter_mut().filter(|row| row.is_headline) {
         let is_of_row =

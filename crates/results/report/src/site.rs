@@ -1,4 +1,4 @@
-//! Catalogue as a static site: a sortable, filterable list, and one page per sensor with a stable file name.
+//! Catalogue as a static site: a sortable, filterable list, and one page for each sensor with a stable file name.
 
 use maud::{Markup, html};
 
@@ -12,7 +12,7 @@ use crate::variables::VARIABLES;
 
 const TITLE: &str = "Catalogue of vision-based tactile sensors";
 
-/// File of the site.
+/// A file of the site.
 #[derive(Clone, Debug)]
 pub struct SitePage {
     /// File name: `index.html`, `vitactip.html`.

@@ -1,4 +1,4 @@
-//! Spread of labels between sensors. If labels vary little, errors in units are small.
+//! Spread of labels between sensors. If labels vary little, absolute errors are small.
 
 use taceva_core::Unit;
 use taceva_metrics::plane_axes;
@@ -15,7 +15,7 @@ const OF_LABELS: [(&str, &str); 9] = [
     ("tolerance", CALIBRATION),
     ("r_spatial", "spatial"),
     ("repeatability", "repeatability"),
-    // Nothing is pressed there, and the model's noise depends on its training labels.
+    // Nothing is pressed there, so the labels are those of the training.
     ("noise_equivalent_force", CALIBRATION),
     ("hysteresis", "load-unload"),
 ];
@@ -23,8 +23,8 @@ const CALIBRATION: &str = "calibration";
 /// Ratio of spreads above which a difference is reported.
 const ALIKE: f64 = 2.0;
 
-/// ` (their labels differ in spread: ViTacTip 0.047 N to GelSightWM 0.174 N)` for the compared studies at `which`, if label spreads differ
-/// by more than a factor of two; otherwise empty.
+/// ` (their labels differ in spread: ViTacTip 0.047 N to GelSightWM 0.174 N)` for the compared studies at `which`, if label spreads differ by more
+/// than a factor of two; otherwise empty.
 pub(crate) fn words(
     studies: &[Study],
     names: &[String],
@@ -38,7 +38,7 @@ pub(crate) fn words(
     }
 }
 
-/// Note below a table on the `scores` (metric and channel) whose labels differ in spread; `None` without any.
+/// Note below a table on the `scores` (metric and channel) whose labels have different spreads; `None` if there are none.
 pub(crate) fn note(studies: &[Study], names: &[String], scores: &[(&str, &str)]) -> Option<String> {
     let all: Vec<usize> = (0..studies.len()).collect();
     let differing = scores.iter().filter_map(|(metric, channel)| {
@@ -58,8 +58,8 @@ pub(crate) fn note(studies: &[Study], names: &[String], scores: &[(&str, &str)])
     })
 }
 
-/// Returns `labels` and `ViTacTip 0.047 N to GelSightWM 0.174 N` if label spreads differ by more than a factor of two. The labels are those
-/// of the metric's part of the protocol or, without samples of it, `labels of calibration`.
+/// `labels` and `ViTacTip 0.047 N to GelSightWM 0.174 N`, if label spreads differ by more than a factor of two. The labels are those of the metric's
+/// part of the protocol or, without samples of it, `labels of calibration`.
 fn range(
     studies: &[Study],
     names: &[String],
@@ -108,8 +108,8 @@ fn spreads<'a>(
     (!found.is_empty()).then_some(found)
 }
 
-/// Standard deviation of a channel's labels in a part of the protocol; for a plane the mean over both axes. Without samples it is that of
-/// the calibration: the root mean square error over √(1 − R²), which planes do not have.
+/// Standard deviation of the labels of a channel in a part of the protocol; for a plane, the mean over both axes. Without samples, it is that of the
+/// calibration: the root mean square error over √(1 − R²), which planes lack.
 fn spread(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let Some(axes) = plane_axes(channel) else {
         return of_channel(study, part, channel);
@@ -128,7 +128,7 @@ fn of_channel(study: &Study, part: &str, channel: &str) -> Option<f64> {
     found.or_else(|| of_scores().filter(|_| part == CALIBRATION))
 }
 
-/// Standard deviation of a channel's labels over a part of the protocol.
+/// Standard deviation of the labels of a channel in a part of the protocol.
 fn of_samples(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let samples = study.samples.as_ref()?;
     let labels = samples.channel(channel)?;
@@ -151,7 +151,7 @@ fn of_samples(study: &Study, part: &str, channel: &str) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// A study with root mean square errors and R² of shear, and a constant that is far from its labels.
+    /// A study with root mean square errors and R² of shear, and a constant far from its labels.
     fn study(rmse: f64, r2: f64) -> Study {
         let of_channel = |metric: &str, value: f64, unit: &str| {
             let channels = ["Fx", "Fy", "Fxy"]
@@ -174,7 +174,7 @@ mod tests {
 
     #[test]
     fn labels_that_spread_more_than_twofold_about_their_mean_are_said_with_whose_they_are() {
-        // 0.012 / √(1 − 0.91) = 0.04; 0.136 / √(1 − 0.36) = 0.17; 0.02 / √(1 − 0.84) = 0.05. Skill, about another constant, plays no part.
+        // 0.012 / √(1 − 0.91) = 0.04; 0.136 / √(1 − 0.36) = 0.17; 0.02 / √(1 − 0.84) = 0.05. The skill uses another constant and is ignored.
         let studies = [study(0.012, 0.91), study(0.136, 0.36), study(0.02, 0.84)];
         let names = ["a", "b", "c"].map(str::to_owned);
         let said = |which: &[usize], metric: &str| words(&studies, &names, which, metric, "Fxy");
@@ -202,7 +202,7 @@ mod tests {
             study.samples = Some(taceva_results::Samples::read(&table).expect("a table"));
             study
         };
-        // Alike in the calibration, 0.1 N against 0.4 N in the cycles.
+        // Equal in the calibration; 0.1 N against 0.4 N in the cycles.
         let studies = [
             with(["0", "0.2", "0", "0.2"]),
             with(["0", "0.2", "0", "0.8"]),

@@ -47,13 +47,13 @@ pub struct Table {
 /// Row of a table.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Row {
-    /// One cell per column.
+    /// One cell for each column.
     pub cells: Vec<Cell>,
     /// Better direction of this row, for a column of [`Direction::OfRows`].
     pub better: Option<Better>,
     /// True if LaTeX separates this row from the previous one.
     pub begins_group: bool,
-    /// A line that LaTeX alone sets above this row, such as the metric of the rows that follow.
+    /// A line above this row in LaTeX only, such as the metric of the following rows.
     pub heading: Option<Words>,
 }
 
@@ -123,7 +123,7 @@ impl Table {
         }
     }
 
-    /// Words of a row for readers, with the direction sign behind the cell that names the row.
+    /// Words of a row for readers, with the direction sign after the cell that names the row.
     fn words_of(&self, row: &Row) -> Vec<Words> {
         let cells = self.columns.iter().zip(&row.cells);
         let cells = cells.map(|(column, cell)| {

@@ -36,7 +36,7 @@ pub struct TablesPage {
 /// Section of a page.
 #[derive(Clone, Debug)]
 pub struct PageSection {
-    /// Word for links.
+    /// Single word for links.
     pub id: &'static str,
     /// Title.
     pub title: &'static str,
@@ -51,14 +51,14 @@ pub enum PagePart {
     Words(String),
     /// Table.
     Table(Table),
-    /// Folded table: a word for links, and its size in words.
+    /// Folded table: a single word for links, and its size in words.
     Folded(&'static str, String, Table),
     /// Figure with its caption.
     Figure(Box<Figure>),
 }
 
 impl TablesPage {
-    /// HTML file that needs no network.
+    /// HTML file without network access.
     pub fn html(self) -> String {
         let lead = html! {
             @for sentence in &self.lead { p.lead { (sentence) } "\n" }

@@ -1,4 +1,4 @@
-//! Ties: sensors with the same best value, and for gratings the finest spacing.
+//! Ties: sensors with equal best values; for gratings, with the finest spacing.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,11 +13,11 @@ use taceva_results::Score;
 
 /// Metric of gratings. Its values are shares of few presses, and therefore often equal.
 pub(crate) const GRATINGS: &str = "sr";
-/// Default tolerance of a spacing, mm, if a score states none.
+/// Default tolerance of a spacing in mm, if a score states none.
 const TOLERANCE_MM: f64 = 0.05;
 const NM: f64 = 1e6;
 
-/// Several best studies of one score.
+/// Several studies with the best value of one score.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tie {
     /// Positions of the tied studies, at least two.
@@ -35,7 +35,7 @@ struct Rival<'a> {
     value: f64,
 }
 
-/// Best of the values, the first of equal ones; `None` for descriptive values.
+/// Best of the values, the first of equal ones; `None` for scores without a better direction.
 pub(crate) fn best(
     values: impl IntoIterator<Item = (usize, f64)>,
     better: Better,
@@ -50,7 +50,7 @@ pub(crate) fn best(
     values.reduce(|best, next| if leads(next.1, best.1) { next } else { best })
 }
 
-/// Studies tied bit by bit for the best value among those that take part; `None` for a single winner and for descriptive values.
+/// Studies with exactly equal best values among those in verdicts; `None` for a single best study, or a score without a better direction.
 pub(crate) fn tie(studies: &[Study], names: &[String], metric: &str, channel: &str) -> Option<Tie> {
     let named = studies.iter().zip(names).enumerate();
     let rivals = named.filter_map(|(at, (study, name))| {
@@ -154,8 +154,8 @@ fn gratings(tied: &[&Rival<'_>], best: f64, channel: &str) -> String {
     )
 }
 
-/// Meaning of predictions that always equal the spacing of a learnt board: `, which is exactly right among 16 learnt boards at least 0.1 mm
-/// apart`; `None` if predictions are between those spacings, or absent.
+/// Meaning of predictions that always equal the spacing of a learnt board: `, which is exactly right among 16 learnt boards at least 0.1 mm apart`;
+/// `None` without predictions, or if one is not a learnt spacing.
 fn meaning(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<String> {
     let nanometres = |mm: f64| (mm * NM).round();
     let known: BTreeSet<u64> = boards(samples, kind)
@@ -191,7 +191,7 @@ fn boards<'a>(samples: &'a Samples, kind: &'a str) -> impl Iterator<Item = f64> 
     rows.filter_map(|row| samples.number("spacing_mm", row))
 }
 
-/// Finest spacing from which all coarser gratings of `kind` are predicted to within `tolerance_mm`; `None` if the coarsest is not.
+/// Finest spacing such that it and all coarser gratings of `kind` are predicted to within `tolerance_mm`; `None` if the coarsest is not.
 fn finest(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<f64> {
     let nanometres = |mm: f64| (mm * NM).round();
     let mut boards: BTreeMap<u64, bool> = BTreeMap::new();

@@ -1,9 +1,10 @@
-//! Lines of words that fit a width.
+//! Wraps text to a width.
 
-/// Further indent of lines behind the first one.
+/// Additional indent of lines after the first one.
 const HANGING: usize = 4;
 
-/// Lines of at most `width` characters, indented by `indent` and all but the first by 4 more. A word that is longer than a line is broken.
+/// Wraps text to lines of at most `width` characters, indented by `indent`, and all but the first by 4 more. Breaks a word that is longer than a
+/// line.
 ///
 /// Each line ends with a line feed.
 pub(crate) fn wrapped(text: &str, width: usize, indent: usize) -> String {
@@ -30,7 +31,7 @@ pub(crate) fn wrapped(text: &str, width: usize, indent: usize) -> String {
     out + line.trim_end() + "\n"
 }
 
-/// `word` in pieces of at most `room` characters.
+/// Splits `word` into pieces of at most `room` characters.
 fn pieces(word: &str, room: usize) -> Vec<String> {
     let letters: Vec<char> = word.chars().collect();
     let pieces = letters.chunks(room);

@@ -38,7 +38,7 @@ pub use predictor::{LivePredictor, PredictionCounts};
 pub use preview::preview;
 use streams::Streams;
 
-/// Frames that are made durable together.
+/// Number of frames in one durable batch.
 const TOGETHER: usize = 8;
 
 /// Settings of a capture.
@@ -48,13 +48,13 @@ pub struct CaptureRequest {
     pub path: PathBuf,
     /// Facts of the sensor.
     pub sensor: SensorFacts,
-    /// Duration by the stamps of the frames; `None` means until cancelled.
+    /// Duration of the capture by frame stamps; `None` records until cancelled.
     pub lasts: Option<Duration>,
-    /// Number of frames; `None` means until cancelled.
+    /// Number of frames to record; `None` records until cancelled.
     pub frames: Option<u64>,
 }
 
-/// Optional viewer and predictor of a capture, which never wait for them.
+/// Optional viewer and predictor of a capture. They never block.
 #[derive(Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct Onlookers<'a> {
@@ -129,13 +129,13 @@ pub struct Captured {
     pub header: Header,
 }
 
-/// Records from `live` until `request` is met, the capture is cancelled, a recorded sensor ends, or a device fails.
+/// Records from `live` until `request` is met, the capture is cancelled, a replayed sensor ends, or a device fails.
 ///
-/// Calls `on_stage` with each stage, at most some times a second.
+/// Calls `on_stage` with each stage, at most a few times a second.
 ///
 /// # Errors
 /// - [`AcquireError::Device`] if a device fails before the first frame.
-/// - [`AcquireError::CaptureEnded`] if one fails later; the frames before are a whole recording.
+/// [`AcquireError::CaptureEnded`] if a device fails later; the earlier frames are a complete recording.
 /// - [`AcquireError::CaptureBroken`] if the recording cannot be written.
 /// - [`AcquireError::Dataset`] if the folder exists.
 /// - [`AcquireError::Model`] if the model does not fit the frames. A model that fails later ends its predictions, not the capture.
@@ -278,21 +278,21 @@ impl Recording<'_> {
                 self.state.frames += together.len() as u64;
                 on_stage(CaptureStage::Recording(self.state));
             } else if !has_more || is_enough {
-                // Stores losses after the last frame too.
+                // Also stores frames lost after the last batch.
                 self.recorder.append_stream(&[], self.state.stream)?;
                 return Ok(());
             }
         }
     }
 
-    /// Counts a sample; returns true if it meets the request.
+    /// Counts a sample; returns true once the request is met.
     fn count(&mut self, streamed: &Streamed, stamp_s: f64) -> bool {
         let first_s = *self.first_s.get_or_insert(stamp_s);
         let state = &mut self.state;
         let number = self.labels.frames();
         #[expect(
             clippy::cast_precision_loss,
-            reason = "a count of frames, for people to read"
+            reason = "a count of frames, for display only"
         )]
         if number > 1 && stamp_s > first_s {
             state.rate_hz = (number - 1) as f64 / (stamp_s - first_s);
@@ -330,7 +330,7 @@ fn source(live: &LiveDevices) -> Source {
     }
 }
 
-/// After a failed write: reopens and closes the recording, if there is space.
+/// After a failed write: reopens and closes the recording if the disk has space.
 fn kept_after(
     recorder: Recorder,
     path: &Path,

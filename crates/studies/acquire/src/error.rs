@@ -8,14 +8,14 @@ use taceva_drivers::OpenError;
 use taceva_models::{FeatureError, SettingError};
 use taceva_protocol::{RunError, SceneError, StopCause};
 
-/// Reasons for which an acquisition fails or stops.
+/// Reasons why an acquisition fails or stops.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum AcquireError {
     /// The recording cannot be read or written.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// Frames cannot be reduced as the scene says.
+    /// Frames cannot be reduced to the size in the scene.
     #[error(transparent)]
     Features(#[from] FeatureError),
     /// No model has this setting.
@@ -46,10 +46,10 @@ pub enum AcquireError {
         /// Reason.
         source: Box<OpenError>,
     },
-    /// A device failed while a rig was set up or looked at, or before a capture had kept anything.
+    /// A device failed during setup or a check of a rig, or before a capture had stored a frame.
     #[error(transparent)]
     Device(#[from] DriverError),
-    /// A run stopped before its end; every press before is recorded, and the same study resumes from there.
+    /// A run stopped early. Every finished press is recorded, and the same study resumes from there.
     #[error("study `{study}`: {source}", study = taceva_core::shown(study))]
     Acquisition {
         /// The study.
@@ -60,9 +60,9 @@ pub enum AcquireError {
     /// A device of a capture or a preview did not open.
     #[error(transparent)]
     OpenLive(Box<OpenError>),
-    /// A device failed during a capture; the frames before are a whole recording.
+    /// A device failed during a capture; the earlier frames are a complete recording.
     #[error(
-        "{source}; the {} before it {} a complete recording in {}",
+        "{source}; the {} before the failure {} a complete recording in {}",
         taceva_core::counted(*frames, "frame"),
         taceva_core::by_count(*frames, "is", "are"),
         taceva_core::shown(path)
@@ -75,7 +75,7 @@ pub enum AcquireError {
         /// Failure of the device.
         source: Box<DriverError>,
     },
-    /// A capture can no longer be written.
+    /// A capture cannot be written any further.
     #[error("{source}; {}", kept(path, *frames, *is_whole))]
     CaptureBroken {
         /// The recording.
@@ -120,7 +120,7 @@ pub enum AcquireError {
     Request(String),
 }
 
-/// Names the command that lists devices of this kind.
+/// Command that lists devices of this kind.
 fn lister(device: DriverKind) -> &'static str {
     match device {
         DriverKind::Sensor => "`taceva devices` lists cameras",
@@ -134,15 +134,15 @@ fn kept(path: &Path, frames: u64, is_whole: bool) -> String {
     let are = taceva_core::by_count(frames, "is", "are");
     let frames = taceva_core::counted(frames, "frame");
     match is_whole {
-        true => format!("the {frames} before it {are} a complete recording in {path}"),
+        true => format!("the {frames} before the failure {are} a complete recording in {path}"),
         false => format!(
-            "the {frames} before it {are} stored: free disk space, then run taceva capture {path} --close"
+            "the {frames} before the failure {are} stored: free disk space, then run taceva capture {path} --close"
         ),
     }
 }
 
 impl AcquireError {
-    /// Kind of the failure, from the list that all crates share.
+    /// Kind of the failure, in the common list of error kinds.
     pub fn kind(&self) -> ErrorKind {
         match self {
             AcquireError::Dataset(error) => error.kind(),
@@ -174,7 +174,7 @@ impl AcquireError {
             AcquireError::Device(_) | AcquireError::CaptureEnded { .. } => true,
             AcquireError::Acquisition { source, .. } => {
                 let cause = &source.cause;
-                // A wrong rig file is the fault of a file.
+                // An invalid rig file is an error of a file, not of a device.
                 !matches!(
                     cause,
                     StopCause::Cancelled | StopCause::Log(_) | StopCause::Rig(_)

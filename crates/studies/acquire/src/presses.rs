@@ -1,4 +1,4 @@
-//! Records the presses of a plan that a recording does not have yet, unit after unit, each durable before the next begins.
+//! Records the missing presses of a plan, one unit after the other. Each press is durable before the next begins.
 
 mod changers;
 mod content_key;
@@ -47,12 +47,12 @@ pub(crate) use tap::tap_study;
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 
 impl PlannedStudy {
-    /// Completes and opens the recording of this study. It presses at `path`, from the beginning or from an interruption, or opens the
-    /// recording that the scene names. Each finished press advances the progress.
+    /// Opens the recording that the scene names, or makes the missing presses of this study and opens the recording at `path`. Each finished press
+    /// advances the progress.
     ///
     /// # Errors
-    /// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed or the run was cancelled: finished presses stay, and the
-    /// same call resumes. [`AcquireError::Dataset`] if it cannot be recorded, or `path` holds another recording.
+    /// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed or the run was cancelled: finished presses stay, and the same call
+    /// resumes. [`AcquireError::Dataset`] if the recording cannot be written, or `path` holds another recording.
     pub fn acquire(
         &self,
         path: &Path,
@@ -65,7 +65,7 @@ impl PlannedStudy {
         }
     }
 
-    /// True if it presses with a device that is not simulated.
+    /// True if any device of a study that presses is real.
     pub fn is_real(&self, drivers: &Drivers) -> bool {
         matches!(&self.source, StudySource::Rig(rig) if !rig.is_only_simulated(drivers))
     }
@@ -196,12 +196,12 @@ fn acquire_unit(
     };
     let done = open.conduct(&spec, log, sitting, &mut events);
     let done = done.map(drop).map_err(|error| stopped(plan, error));
-    // A count that cannot be written must not cost the recording.
+    // A failure to store the count must not lose the recording.
     drop(add_frame_retries(path, retried));
     done
 }
 
-/// Origin of the samples of `study`: one simulated or emulated device makes all of them simulated.
+/// Origin of the samples of `study`: simulated as soon as one device is simulated or emulated.
 fn origin(study: &PlannedStudy, rig: &RigSpec, drivers: &Drivers) -> Source {
     let file = study.study.rig.as_deref();
     let changers = file.map(|file| [&file.changers.specimen, &file.changers.unit]);
@@ -233,7 +233,7 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> Recor
     RecordingSpec::new(facts, plan.truth_channels())
 }
 
-/// Footprint and greatest depth, as recordings store them.
+/// Footprint and greatest depth, in the form that recordings store.
 fn footprint(plan: &Plan) -> Option<Footprint> {
     let footprint = plan.footprint?;
     let of_gel = footprint.depth_max().map(|depth| depth.to_millimetres());

@@ -24,7 +24,7 @@ pub use teach::teach_rig;
 /// Reads the rig file at `path`.
 ///
 /// # Errors
-/// [`AcquireError::Scene`] with the line, if it cannot be read or is invalid.
+/// [`AcquireError::Scene`] with the line, if the file cannot be read or is invalid.
 pub fn read_rig(path: &Path) -> Result<RigFile, AcquireError> {
     crate::scene::read_rig_file(path)
 }

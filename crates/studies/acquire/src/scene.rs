@@ -1,4 +1,4 @@
-//! A scene and its plans: the text, joined with descriptors of drivers and recordings. Opens no device.
+//! A scene and its plans, built from the text and the descriptors of drivers and recordings. Opens no device.
 
 mod overrides;
 mod rig;
@@ -33,9 +33,9 @@ pub struct PlannedScene {
     pub text: SceneText,
     /// Studies, in order.
     pub studies: Vec<PlannedStudy>,
-    /// Seeds for fits of the models, one after the other; empty for the models' own.
+    /// Seeds of repeated fits of the models; empty to use the seed of each model.
     pub seeds: Vec<u64>,
-    /// True if the command line names the model or its settings: then no line of the scene is at fault for them.
+    /// True if the command line names the model or its settings. Errors about them then state no line of the scene.
     pub is_model_typed: bool,
 }
 
@@ -62,7 +62,7 @@ impl PlannedScene {
     /// Parses `text` and plans it with `drivers`; `seed` replaces the one in the scene.
     ///
     /// # Errors
-    /// [`AcquireError::Scene`] with the line: see [`Scene::parse`] and [`plan`], and missing drivers, arguments, models and recordings.
+    /// [`AcquireError::Scene`] with the line: see [`Scene::parse`] and [`plan`]; also for missing drivers, arguments, models and recordings.
     pub fn new(
         text: SceneText,
         drivers: &Drivers,
@@ -75,10 +75,10 @@ impl PlannedScene {
         PlannedScene::with(text, drivers, &overrides)
     }
 
-    /// As [`new`](PlannedScene::new), with `overrides` in place of written values.
+    /// As [`new`](PlannedScene::new), with `overrides` in place of values in the text.
     ///
     /// # Errors
-    /// As [`new`](PlannedScene::new); [`AcquireError::Request`] for settings without a model.
+    /// As [`new`](PlannedScene::new); [`AcquireError::Request`] for model settings without a model.
     pub fn with(
         text: SceneText,
         drivers: &Drivers,
@@ -131,7 +131,7 @@ impl PlannedScene {
     }
 }
 
-/// Source of the samples of a study, for planner and run.
+/// Source of the samples of a study, for the planner and the run.
 struct Source {
     info: SourceInfo,
     source: StudySource,
@@ -209,12 +209,12 @@ impl Serialize for PlannedScene {
         scene.serialize_field("scene", &self.scene.name)?;
         scene.serialize_field("seed", &self.scene.seed)?;
         scene.serialize_field("studies", &plans)?;
-        // Results depend on it: a run with another classifier is another run.
+        // Results depend on the classifier, so a run with another classifier is another run.
         if is_classified_otherwise {
             scene.serialize_field("gratings_classified_by", &classified_by)?;
             scene.serialize_field("gratings_set", set)?;
         }
-        // A recording of one rig is not resumed on another.
+        // A recording of one rig cannot be resumed on another.
         if let Some(rig) = rig {
             scene.serialize_field("rig", &rig.digest().to_string())?;
         }

@@ -1,4 +1,4 @@
-//! Rows to scores, on all threads, with the same bits on any number of them.
+//! Accumulates rows into scores on all threads. The number of threads does not change a bit of the result.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -11,7 +11,7 @@ use taceva_metrics::{ClusteredBy, Evaluator, MetricPlan};
 use crate::error::EvaluateError;
 use crate::recordings;
 
-/// Rows a batch: large enough that merging is rare, small enough that a batch stays in the cache.
+/// Rows in a batch: large enough that merging is rare, small enough that a batch stays in the cache.
 pub(crate) const BATCH_ROWS: usize = 1 << 12;
 
 /// Source of rows with truth and prediction; any thread may read any range.
@@ -19,16 +19,16 @@ pub trait Rows: Sync {
     /// Number of rows.
     fn rows(&self) -> usize;
 
-    /// The rows in the range `rows`, with the channels of the plan.
+    /// Rows in the range `rows`, with the channels of the plan.
     ///
     /// # Errors
-    /// [`EvaluateError`] if one of them cannot be read.
+    /// [`EvaluateError`] if a row cannot be read.
     fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, EvaluateError>;
 }
 
 /// Accumulates all rows of `source`. Each thread takes a contiguous block; sums are exact, so the blocks do not change the result.
 ///
-/// Blocks are whole batches, so that the first batch with an error is the same on any number of threads.
+/// Blocks consist of whole batches, so the first batch with an error is the same on any number of threads.
 ///
 /// # Errors
 /// [`EvaluateError`] of the first batch that cannot be read or scored.
@@ -64,10 +64,10 @@ fn accumulate_block(
     Ok(evaluator)
 }
 
-/// Truth and predictions in memory, column by column; the other fields of the same rows are in the table of their dataset.
+/// Truth and predictions in memory, column by column. The dataset holds the other fields of the same rows.
 ///
 /// # Shapes
-/// A column a channel of the plan, all as long as `rows`.
+/// One column for each channel of the plan, each as long as `rows`.
 pub struct Columns<'a> {
     /// The truth.
     pub truth: &'a [Column],
@@ -75,9 +75,9 @@ pub struct Columns<'a> {
     pub prediction: &'a [Column],
     /// The recording.
     pub dataset: &'a Dataset,
-    /// The numbers of the rows in it.
+    /// Row numbers in the recording.
     pub rows: &'a [usize],
-    /// The group of every row of the recording, if intervals are by groups.
+    /// Group of every row of the recording, if intervals are by group.
     pub groups: Option<&'a [String]>,
 }
 
@@ -105,7 +105,7 @@ impl Rows for Columns<'_> {
             batch = batch.with_recordings(recordings::labels(self.dataset, of_table()));
         }
         if let (ClusteredBy::Group, Some(groups)) = (plan.clustered_by(), self.groups) {
-            // Labelled by the recording too, so that blocks of several shards stay distinct.
+            // The labels contain the recording, so that blocks of several shards stay distinct.
             let recording = self.dataset.digest().to_string();
             let mut labels = Labels::default();
             of_table().for_each(|row| labels.push(&format!("{recording} {}", groups[row])));

@@ -15,7 +15,7 @@ pub enum ScoredRows {
     Accumulated {
         /// The accumulators.
         evaluator: Box<Evaluator>,
-        /// The rows that they counted.
+        /// The rows that they have accumulated.
         taken: Vec<Taken>,
     },
     /// A finished evaluation of several groups of rows; no state is kept.
@@ -30,21 +30,21 @@ pub struct Context {
     pub provenance: Provenance,
     /// Notes for the reader, in order. Notes of earlier states are in `provenance`.
     pub notes: Vec<Note>,
-    /// True if a model was fitted on some of the rows, beyond what `provenance` says.
+    /// True if the model was fitted on some of the rows, beyond what `provenance` states.
     pub is_seen: bool,
     /// True if the model was fitted on neighbours of tested samples that resemble them.
     pub are_neighbours_learnt: bool,
     /// The fit behind the predictions; states do not record it.
     pub fit: FitFacts,
-    /// The scores of each recording alone, if several were joined.
+    /// The scores of each single recording, if several were joined.
     pub by_recording: Vec<RecordingScores>,
-    /// The scores of other seeds of the training.
+    /// The scores for other training seeds.
     pub over_seeds: Option<OverSeeds>,
-    /// The samples, if one call has them all.
+    /// The samples, if one call has all of them.
     pub samples: Option<Samples>,
 }
 
-/// Facts of a fit that only the call that made the report knows.
+/// Facts of a fit that only the call with the fit knows.
 #[derive(Clone, Debug, Default)]
 pub struct FitFacts {
     /// Frames that the fit read.
@@ -53,7 +53,7 @@ pub struct FitFacts {
     pub notes: Vec<Note>,
 }
 
-/// A report, and its state if one can be kept.
+/// A report, with its state if the state can be stored.
 pub struct Assessed {
     /// The report.
     pub report: EvaluationReport,
@@ -78,10 +78,10 @@ impl Context {
     }
 }
 
-/// The report of `rows`; `predictions` says how many of them lie beyond the bounds of their model.
+/// Report of `rows`; `predictions` counts the rows beyond the bounds of their model.
 ///
 /// # Errors
-/// [`EvaluateError::Scores`] for samples that the accumulators cannot take.
+/// [`EvaluateError::Scores`] for samples that the accumulators reject.
 pub fn assess(
     rows: ScoredRows,
     predictions: Bounded,

@@ -1,4 +1,4 @@
-//! Shares of predictions beyond the bounds of a model: counts that add up over parts and shards.
+//! Shares of predictions beyond the bounds of a model, as counts that can be summed over parts and shards.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ pub struct Bounded {
     counts: BTreeMap<String, Counts>,
 }
 
-/// Number of predictions, and of those beyond the bounds.
+/// Number of predictions beyond the bounds, and of all predictions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Counts {

@@ -1,4 +1,4 @@
-//! Finished stages of runs, each stored under the digest of all its inputs.
+//! Cached results of the stages of runs, stored under the digest of all their inputs.
 //!
 //! ```text
 //! FOLDER/2/acquire/<key>      a line a folder of a run that holds the closed recording, the last one first
@@ -8,7 +8,7 @@
 //!         /partial/           unfinished entries: renamed when complete, left behind by a stopped run
 //! ```
 //!
-//! Scores are not cached: computing them takes less time than a safe look-up.
+//! Scores are not cached, because computing them takes less time than a safe look-up.
 
 mod features;
 mod inventory;
@@ -38,38 +38,37 @@ pub use study::StudyCache;
 pub use tree::remove;
 pub use value::Kept;
 
-/// Version of the layout of entries. Each version has its own folder, so that no version reads entries of another.
+/// Version of the layout of entries. Each version has its own folder, so that a version never reads entries of another.
 const LAYOUT: &str = "2";
 /// Folder for entries that are still being written.
 const PARTIAL: &str = "partial";
-/// Age at which a partial entry is abandoned: no run takes longer to write a result.
+/// Age at which a partial entry counts as abandoned; writing a result always takes less time.
 const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
 
-/// A folder in which runs find the results of others, and the results that this run found there.
+/// A folder of results shared between runs, and a list of the results that this run reused.
 ///
-/// A cache never stops a run: if it cannot be read or written, stages are computed again and [`notes`](Cache::notes) say why. Any number of
-/// runs may share one, because an entry appears complete and only equal entries share a name.
+/// A cache never stops a run. If it cannot be read or written, stages are computed again and [`notes`](Cache::notes) states the reason. Any number of
+/// runs can share a cache, because an entry appears only when complete and its name is the digest of its inputs.
 #[derive(Debug)]
 pub struct Cache {
     folder: PathBuf,
     models: String,
-    /// True if many tasks at once take features of the same recordings.
+    /// True if many concurrent tasks use features of the same recordings.
     is_of_many: bool,
     /// Features of whole recordings, for the folds of one call.
     memory: Option<features::Memory>,
     /// True if entries are stored in the folder.
     is_on_disk: bool,
-    /// Leftovers of killed runs are removed once.
+    /// Removes leftovers of killed runs once.
     cleared: Once,
     notes: Mutex<BTreeSet<String>>,
     records: Mutex<Vec<(usize, StageRecord)>>,
 }
 
 impl Cache {
-    /// The cache in `folder`, which is created when the first stage is stored.
+    /// Cache in `folder`, which is created when the first stage is stored.
     ///
-    /// `models` names the models behind the simulated drivers of the program, with version and parameters. Recordings of other models are
-    /// not found.
+    /// `models` names the simulation models of the program's drivers, with version and parameters. Recordings from other models are not found.
     pub fn new(folder: PathBuf, models: String) -> Cache {
         Cache {
             folder,
@@ -83,9 +82,9 @@ impl Cache {
         }
     }
 
-    /// Shares this cache among many tasks, in this process and in others that use the folder. Features are computed for whole recordings,
-    /// whichever rows a task learns from. One task computes them while the others wait, so each frame is decoded once for each kind of
-    /// features, if the cache keeps them.
+    /// Shares this cache among many tasks, in this process and in others that use the folder. Features are computed for whole recordings, whatever
+    /// rows a task needs. One task computes them while the others wait. Each frame is then decoded once for each kind of features, if the cache can
+    /// store them.
     #[must_use]
     pub fn of_many(self) -> Cache {
         Cache {
@@ -94,7 +93,7 @@ impl Cache {
         }
     }
 
-    /// A cache for the folds of one call: features of whole recordings stay in memory, backed by the folder of `outer`.
+    /// Cache for the folds of one call: features of whole recordings stay in memory, backed by the folder of `outer`.
     pub(crate) fn of_folds(outer: Option<&Cache>) -> Cache {
         let folder = outer.map_or_else(PathBuf::new, |outer| outer.folder.clone());
         let models = outer.map_or_else(String::new, |outer| outer.models.clone());
@@ -116,13 +115,13 @@ impl Cache {
         &self.folder
     }
 
-    /// Messages for the user: a folder that cannot be written, entries that were damaged.
+    /// Messages for the user, about a folder that cannot be written and about damaged entries.
     pub fn notes(&self) -> Vec<String> {
         let notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner);
         notes.iter().cloned().collect()
     }
 
-    /// The stages of the run so far, study by study, and which of them were found.
+    /// Stages of the run so far, study by study, and whether each was reused.
     pub fn stages(&self) -> Vec<StageRecord> {
         let records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
         let mut records = records.clone();
@@ -130,7 +129,7 @@ impl Cache {
         records.into_iter().map(|(_, record)| record).collect()
     }
 
-    /// The models behind the simulated drivers, as given to [`Cache::new`].
+    /// Simulation models of the drivers, as given to [`Cache::new`].
     pub fn models(&self) -> &str {
         &self.models
     }
@@ -156,7 +155,7 @@ impl Cache {
         self.folder.join(LAYOUT).join(PARTIAL)
     }
 
-    /// Removes what killed runs left half written, and their claims.
+    /// Removes the partial entries and the claims of killed runs.
     fn clear(&self) {
         self.cleared.call_once(|| {
             let partial = self.partial();
@@ -165,7 +164,7 @@ impl Cache {
         });
     }
 
-    /// Writes an entry by `write` beside its place and renames it, unless another run was faster.
+    /// Writes an entry by `write` beside its final path and renames it, unless another run was faster.
     ///
     /// `write` creates a file or a folder and fails if the path exists.
     fn put(&self, key: &Key, write: impl Fn(&Path) -> io::Result<()>) {

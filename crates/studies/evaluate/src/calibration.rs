@@ -1,4 +1,4 @@
-//! Calibration of a model that predicts its own standard deviations.
+//! Calibration of a model that predicts standard deviations.
 
 use std::num::NonZeroUsize;
 
@@ -12,10 +12,10 @@ use crate::error::EvaluateError;
 use crate::note::{Coverage, Note};
 use crate::predict::Predicted;
 
-/// Share of `predicted`, the rows `rows` of `dataset`, within 1.96 predicted standard deviations of the truth, by channel, with an interval
-/// by contact point. `None` if the model predicts no standard deviation.
+/// Share of `predicted`, the rows `rows` of `dataset`, within 1.96 predicted standard deviations of the truth, by channel, with an interval by
+/// contact point. `None` if the model predicts no standard deviation.
 ///
-/// Only rows pressed in the same light as the training data count: a model states nothing about others.
+/// Counts only rows pressed in the same light as the training data, because the standard deviations hold only there.
 pub fn calibration(
     dataset: &Dataset,
     predicted: &Predicted,
@@ -49,7 +49,7 @@ pub fn calibration(
         hits.push(own);
         zeros.push(zero);
     }
-    // A hit is 1 and a miss 0, so the mean difference from 0 is the share of hits, with the interval of any mean.
+    // A hit is 1 and a miss 0, so their mean is the share of hits, and its interval is that of any mean.
     let share = catalogue::find("mae").expect("it is in the catalogue");
     let available: FieldSet = dataset.table().fields().with(Field::Prediction);
     let plan = MetricPlan::new(&[share], predicted.channels().clone(), available);

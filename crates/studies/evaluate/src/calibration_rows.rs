@@ -1,4 +1,4 @@
-//! Rows that the plan beside a recording of a run gives to the fit.
+//! Rows that the plan of a run assigns to the fit.
 
 use std::fs;
 use std::path::Path;
@@ -14,15 +14,15 @@ use crate::run_layout::{PLANS, RECORDINGS};
 pub(crate) const NOTE: &str =
     "divided among the calibration presses of the run, as its plan does; all others are left out";
 
-/// The rows that a run divides, and the seed of the division.
+/// Rows that a run divides, and the seed of the division.
 pub(crate) struct PlannedRows {
-    /// Ascending.
+    /// Row numbers, ascending.
     pub(crate) rows: Vec<usize>,
     /// The seed of the scene.
     pub(crate) seed: u64,
 }
 
-/// The part of `plans.json` that is read, schema `taceva.plans/1`.
+/// Fields of `plans.json` that are read, schema `taceva.plans/1`.
 #[derive(Deserialize)]
 struct Plans {
     seed: u64,
@@ -42,7 +42,7 @@ struct Press {
 }
 
 impl PlannedRows {
-    /// The rows of `dataset` that its run divides; `None` if it is no recording of a run, or its plan divides nothing.
+    /// Rows of `dataset` that its run divides; `None` if it is not a recording of a run, or its plan divides nothing.
     ///
     /// # Errors
     /// [`EvaluateError::RunFolder`] if the plan beside it cannot be read.
@@ -53,7 +53,7 @@ impl PlannedRows {
         }
     }
 
-    /// The rows of joined recordings; every row of a recording without a plan is divided.
+    /// Rows of joined recordings; every row of a recording without a plan is divided.
     fn of_joined(joined: &[JoinedRecording]) -> Result<Option<PlannedRows>, EvaluateError> {
         let mut all = PlannedRows {
             rows: Vec::new(),
@@ -112,7 +112,7 @@ impl PlannedRows {
     }
 }
 
-/// The plans of the run whose folder of recordings contains `path`, and the number of its study, counted from 1.
+/// Plans file of the run whose recordings folder contains `path`, and the number of its study, from 1.
 fn plans_of(path: &Path) -> Option<(std::path::PathBuf, usize)> {
     let recordings = path
         .parent()

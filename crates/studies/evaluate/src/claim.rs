@@ -1,9 +1,9 @@
 //! Exclusive claims on work that several processes may start, on one machine or on several that share a folder.
 //!
-//! A claim is a file that is created exclusively. This needs neither `flock` nor `fcntl` locks, which network file systems may lack: only
-//! exclusive creation and renaming. While the owner lives, it writes a counter into the file. A waiting process checks with its own clock
-//! whether the counter still changes, so no two clocks are compared. An owner that ended on the same machine is detected by its process. A
-//! lost claim costs duplicate work and nothing else: the result has the same bytes in any process.
+//! A claim is a file that is created exclusively. This needs only exclusive creation and renaming; network file systems may lack `flock` and `fcntl`
+//! locks. While the owner lives, it writes a counter into the file. A waiting process checks with its own clock that the counter changes, so clocks
+//! are never compared. A dead owner on the same machine is detected by its process id. A lost claim only costs duplicate work: the result has the
+//! same bytes in any process.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -13,9 +13,9 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Interval between two counts of an owner.
+/// Interval between two updates of the counter.
 const COUNTS_EVERY: Duration = Duration::from_secs(2);
-/// Time without a count after which an owner is considered dead.
+/// Time without an update after which an owner counts as dead.
 const DEAD_AFTER: Duration = Duration::from_secs(30);
 
 /// A held claim, released on drop.
@@ -27,7 +27,7 @@ pub struct Claim {
     counting: Option<JoinHandle<()>>,
 }
 
-/// Observation of a claim that another process holds, since the first look.
+/// Observation of a claim of another process, since the first look.
 #[derive(Debug)]
 pub struct Watch {
     path: PathBuf,
@@ -46,12 +46,12 @@ impl Claim {
     /// The claim at `path`; `None` if another owner holds it.
     ///
     /// # Errors
-    /// Those of the file system.
+    /// Errors of the file system.
     pub fn take(path: &Path) -> io::Result<Option<Claim>> {
         let mut file = match File::options().write(true).create_new(true).open(path) {
             Ok(file) => file,
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                // Nobody would ever release it.
+                // Such an entry would never be released.
                 let is_other = fs::symlink_metadata(path).is_ok_and(|found| !found.is_file());
                 return match is_other {
                     true => Err(io::Error::other(format!(
@@ -67,7 +67,7 @@ impl Claim {
         file.write_all(line(&owner, 0).as_bytes())?;
         let (stop, stopped) = channel();
         let own = owner.clone();
-        // Writes to the open file and not by name, because the name may belong to another owner by now.
+        // Writes to the open file, not by name, because the name may belong to another owner by now.
         let counting = std::thread::Builder::new().spawn(move || {
             let mut count = 0;
             while stopped.recv_timeout(COUNTS_EVERY) == Err(RecvTimeoutError::Timeout) {
@@ -92,11 +92,11 @@ impl Drop for Claim {
     fn drop(&mut self) {
         drop(self.stop.take());
         if let Some(counting) = self.counting.take() {
-            // A panic of that thread means only that the claim was not renewed.
+            // A panic of that thread only means that the claim was not renewed.
             drop(counting.join());
         }
         if read(&self.path).is_ok_and(|text| owner_of(&text) == self.owner) {
-            // A claim that remains is detected as dead.
+            // A claim that remains is detected as dead later.
             drop(fs::remove_file(&self.path));
         }
     }
@@ -112,11 +112,11 @@ impl Watch {
         }
     }
 
-    /// Removes the claim if its owner is dead: it ended on this machine, or has not counted for long. Of several observers one removes it.
-    /// True if this call removed it, or if the claim no longer exists.
+    /// Removes the claim if its owner is dead: the process ended on this machine, or the counter has not changed for long. Only one of several
+    /// observers removes it. Returns true if this call removed it, or if the claim no longer exists.
     ///
     /// # Errors
-    /// Those of the file system.
+    /// Errors of the file system.
     pub fn clear(&mut self) -> io::Result<bool> {
         self.clear_after(DEAD_AFTER)
     }
@@ -135,7 +135,7 @@ impl Watch {
         if !ended_here(&owner) && self.since.elapsed() < dead_after {
             return Ok(false);
         }
-        // Only one observer moves the dead claim; a second would move the claim that replaced it.
+        // Only one observer may move the dead claim. A second one would move the claim that replaced it.
         let mark = self.path.with_file_name(format!(
             ".{}.{}.dead",
             self.path.file_name().unwrap_or_default().to_string_lossy(),
@@ -147,7 +147,7 @@ impl Watch {
         let marked = File::options().write(true).create_new(true).open(&mark);
         match marked {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                // The process that made the mark may have ended before the rename.
+                // The process that created the mark may have ended before the rename.
                 if self.since.elapsed() >= 3 * dead_after {
                     drop(fs::remove_file(&mark));
                 }
@@ -166,9 +166,9 @@ impl Watch {
     }
 }
 
-/// Removes the claims in `folder` of processes that ended on this machine, and their marks.
+/// Removes claims in `folder` of processes that ended on this machine, and their marks.
 ///
-/// No process waits for the claim of a finished task, so it would stay for ever. Links and files that are not claims are kept.
+/// No process waits for the claim of a finished task, so nothing else would remove it. Links and files that are not claims are kept.
 pub fn clear_dead_claims(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in entries {
@@ -192,7 +192,7 @@ fn is_line(text: &str) -> bool {
     })
 }
 
-/// A line of constant length, so that it is written over in place.
+/// A line of constant length, so that it can be overwritten in place.
 fn line(owner: &str, count: u64) -> String {
     format!("{owner} {count:020}\n")
 }
@@ -221,7 +221,7 @@ fn process_name() -> String {
     name.clone()
 }
 
-/// The boot of this machine and the namespace of its processes, in digits and letters.
+/// Boot id of this machine and namespace of its processes, in digits and letters.
 fn machine() -> String {
     let boot = fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default();
     let space = fs::read_link("/proc/self/ns/pid").unwrap_or_default();
@@ -229,10 +229,10 @@ fn machine() -> String {
     words.chars().filter(char::is_ascii_alphanumeric).collect()
 }
 
-/// Start time of a process, in ticks since the machine booted.
+/// Start time of a process, in ticks since boot.
 fn start_of(process: u32) -> Option<String> {
     let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
-    // The name may contain anything, so it ends at the last bracket; the start is the twentieth word after it.
+    // The name may contain any character, so it ends at the last bracket. The start time is the twentieth word after it.
     let (_, rest) = text.rsplit_once(')')?;
     rest.split_whitespace().nth(19).map(str::to_owned)
 }
@@ -319,7 +319,7 @@ mod tests {
         let path = folder.path().join("work");
         let owner = "elsewhere-1-1-0";
         fs::write(&path, line(owner, 0)).expect("written");
-        // An hour ahead, as a clock of another machine may be.
+        // One hour ahead, as the clock of another machine may be.
         let ahead = std::time::SystemTime::now() + Duration::from_secs(3600);
         let file = File::options().append(true).open(&path).expect("there");
         file.set_modified(ahead).expect("dated");

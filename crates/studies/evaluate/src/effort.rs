@@ -1,4 +1,4 @@
-//! Amount that fitting and evaluating will read and store, known before either begins.
+//! Amount of data that fitting and evaluating will read and store, computed before they begin.
 
 use taceva_dataset::Dataset;
 use taceva_models::FeatureSpec;
@@ -10,20 +10,20 @@ use crate::fit::{FitPlan, FitRequest};
 use crate::predict::Target;
 use crate::rows::DataPart;
 
-/// Bytes of a stored feature.
+/// Bytes per stored feature.
 const FEATURE_BYTES: u64 = 4;
 
-/// Pictures to read, and bytes to store of them if there is a cache.
+/// Frames to decode, and bytes to store if there is a cache.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Effort {
-    /// The rows whose frames are decoded, part after part.
+    /// Rows whose frames are decoded, part after part.
     pub rows: Vec<usize>,
-    /// Upper limit of the features stored, bytes. If features are to be chosen, each trial stores its own as well.
+    /// Upper limit of the stored features, in bytes. If features are still to be chosen, each trial also stores its own.
     pub kept_bytes: u64,
 }
 
 impl Effort {
-    /// The effort of [`fit`](crate::fit).
+    /// Effort of [`fit`](crate::fit).
     ///
     /// # Errors
     /// [`EvaluateError`] if the request is not valid.
@@ -34,7 +34,7 @@ impl Effort {
         Effort::of_fold(dataset, folds.first(request)?, None)
     }
 
-    /// The effort of [`evaluate`](crate::evaluate).
+    /// Effort of [`evaluate`](crate::evaluate).
     ///
     /// # Errors
     /// [`EvaluateError`] if the request is not valid.
@@ -46,7 +46,7 @@ impl Effort {
             ModelChoice::Fit(fit) => {
                 if let Some(folds) = folds::of(dataset, fit, request.part)? {
                     folds.refuse_part(request)?;
-                    // The parts of each fold are all samples, whose features are computed once.
+                    // The parts of each fold are all samples, and their features are computed once.
                     return Effort::of_fold(dataset, folds.first(fit)?, None);
                 }
                 Effort::of_fold(dataset, FitPlan::new(dataset, fit)?, request.part)
@@ -59,7 +59,7 @@ impl Effort {
         }
     }
 
-    /// The effort of one fit, and of predicting a part with its model.
+    /// Effort of one fit, and of predicting a part with its model.
     fn of_fold(
         dataset: &Dataset,
         plan: FitPlan<'_>,

@@ -13,46 +13,46 @@ use taceva_tables::TableError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EvaluateError {
-    /// A dataset that cannot be read.
+    /// The dataset cannot be read.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// A table of labels or predictions that cannot be read.
+    /// A table of labels or predictions cannot be read.
     #[error(transparent)]
     Table(#[from] ImportError),
     /// The model cannot be fitted, read or used.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// A model that does not exist.
+    /// No model has this name.
     #[error(transparent)]
     UnknownModel(#[from] UnknownModel),
-    /// Features that cannot be taken from these frames.
+    /// Features cannot be computed from these frames.
     #[error(transparent)]
     Features(#[from] FeatureError),
-    /// A model that cannot be written to a file.
+    /// The model cannot be written to a file.
     #[error(transparent)]
     ModelFormat(#[from] FormatError),
-    /// A model that does not suit the dataset.
+    /// The model does not suit the dataset.
     #[error("the model does not suit the dataset: {0}")]
     Unsuited(String),
-    /// A setting that no model or feature has.
+    /// No model or feature has this setting.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// Samples that cannot be divided as requested.
+    /// The samples cannot be divided as requested.
     #[error(transparent)]
     Split(#[from] SplitError),
-    /// A metric that does not exist.
+    /// No metric has this name.
     #[error(transparent)]
     Metric(#[from] UnknownMetric),
-    /// Samples that a metric cannot take.
+    /// A metric rejects these samples.
     #[error("cannot score: {0}")]
     Scores(#[from] MetricError),
-    /// A recording without samples.
+    /// The recording has no samples.
     #[error("{}: no sample: the dataset has 0 rows", taceva_core::shown(path))]
     NoSamples {
         /// The dataset.
         path: PathBuf,
     },
-    /// Two tables that do not belong together.
+    /// Two tables do not belong together.
     #[error("{}: {problem}", taceva_core::shown(path))]
     Tables {
         /// The table that does not fit the other.
@@ -60,32 +60,32 @@ pub enum EvaluateError {
         /// The mismatch and the expected content.
         problem: String,
     },
-    /// A Parquet table of scores that cannot be read.
+    /// A Parquet table of scores cannot be read.
     #[error(transparent)]
     Parquet(#[from] TableError),
-    /// A state file that cannot be read or merged with the others.
+    /// A state file cannot be read or merged with the others.
     #[error("{}: {problem}", taceva_core::shown(path))]
     State {
         /// The file.
         path: PathBuf,
-        /// The fault, and what was expected.
+        /// The fault and the expected content.
         problem: String,
     },
-    /// A folder of a run that cannot be created, read or resumed.
+    /// A folder of a run cannot be created, read or resumed.
     #[error("{}: {problem}", taceva_core::shown(path))]
     RunFolder {
         /// The folder or a file in it.
         path: PathBuf,
-        /// The fault, and what was expected.
+        /// The fault and the expected content.
         problem: String,
     },
-    /// A request for something that the dataset or the model lacks.
+    /// The request names something that the dataset or the model lacks.
     #[error("{0}")]
     Request(String),
 }
 
 impl EvaluateError {
-    /// The kind of the error, from the closed list that all crates share.
+    /// Kind of the error, in the common list of error kinds.
     pub fn kind(&self) -> ErrorKind {
         match self {
             EvaluateError::Dataset(error) => error.kind(),
@@ -99,7 +99,7 @@ impl EvaluateError {
         }
     }
 
-    /// True if the user's input is at fault rather than the data that was read.
+    /// True if the user's input is at fault, not the data.
     pub fn is_usage(&self) -> bool {
         matches!(
             self,

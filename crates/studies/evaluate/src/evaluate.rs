@@ -1,4 +1,4 @@
-//! Dataset to scores, step by step: divide, fit, predict, score.
+//! Scores of a dataset, step by step: divide, fit, predict, score.
 
 mod callers_model;
 mod divisions;
@@ -26,7 +26,7 @@ pub use plan::evaluate_plan;
 pub use request::{Asked, EvaluateRequest, Evaluated, ModelChoice};
 pub use scores::{Behind, score};
 
-/// Evaluates `dataset`: fits the model if requested, predicts the samples that it has not seen, and scores.
+/// Evaluates `dataset`: fits the model if requested, predicts the samples that the model has not seen, and scores them.
 ///
 /// # Errors
 /// [`EvaluateError`] if the request is not valid, the model does not fit the dataset, or the dataset cannot be read.
@@ -37,7 +37,7 @@ pub fn evaluate(
 ) -> Result<Evaluated, EvaluateError> {
     match &request.model {
         ModelChoice::Fit(fit) => {
-            // Checked before the work: an unknown metric must not cost a fit.
+            // Checked first, so that an unknown metric does not cost a fit.
             catalogue::select(request.metrics.iter().map(String::as_str))?;
             if let Some(folds) = folds::of(dataset, fit, request.part)? {
                 return folds.evaluate(request, fit, work);

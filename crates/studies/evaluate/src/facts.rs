@@ -1,14 +1,14 @@
-//! Facts about a sensor besides its samples, as metrics need them.
+//! Facts of a sensor that metrics need, apart from its samples.
 
 use taceva_dataset::{Dataset, FramesInfo, Known, SensorFile};
 use taceva_metrics::SensorFacts;
 
 use crate::error::EvaluateError;
 
-/// The sensor facts of `file`, completed by those of the header of `dataset`.
+/// Sensor facts of `file`, completed from the header of `dataset`.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] if the footprint of the header has lengths that no sensor has.
+/// [`EvaluateError::Request`] if the header has a footprint with impossible lengths.
 pub(crate) fn of_dataset(
     dataset: &Dataset,
     file: Option<&SensorFile>,
@@ -34,7 +34,7 @@ pub(crate) fn of_dataset(
     })
 }
 
-/// Facts of `file`, completed by `otherwise`.
+/// Facts of `file`, completed from `otherwise`.
 pub(crate) fn of_file(file: &SensorFile, otherwise: SensorFacts) -> SensorFacts {
     let reference_scene = file.reference_scene.clone();
     SensorFacts::default()

@@ -1,4 +1,4 @@
-//! Features of the frames or signals of a dataset: each worker holds one decoded frame, and only the features stay.
+//! Features of the frames or signals of a dataset. Each worker holds one decoded frame; only the features are kept.
 
 mod model_input;
 mod table;
@@ -17,7 +17,7 @@ use crate::work::Work;
 pub(crate) use model_input::{Sight, kinds, recorded_frames};
 pub use table::{FeatureTable, feature_table};
 
-/// The extractor for `spec` on the frames, or the signals, of `dataset`.
+/// Extractor for `spec` on the frames or signals of `dataset`.
 pub fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, EvaluateError> {
     let sight = Sight::of(dataset, &spec)?;
     let sight = sight.map_err(|absent| {
@@ -28,12 +28,11 @@ pub fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, Eval
     Ok(Extractor::new(spec, sight.info(), sight.reference())?)
 }
 
-/// The features of `rows`, in that order, from the cache or computed now. `extractor` returns the extractor of one recording, because each
-/// recording has its own frames, or signals, without contact.
+/// Features of `rows`, in that order, from the cache or computed now. `extractor` returns the extractor of one recording, because each recording has
+/// its own reference without contact.
 ///
-/// `[rows, height, width, depth]`. Memory: the features and a few frames for each worker; for joined recordings also the features of the
-/// longest run of rows of one.
-/// longest run of rows of one.
+/// `[rows, height, width, depth]`. Memory: the features and a few frames for each worker; for joined recordings, also the features of the longest run
+/// of rows of one recording.
 pub fn extract(
     dataset: &Dataset,
     extractor: impl Fn(&Dataset) -> Result<Extractor, EvaluateError>,
@@ -73,8 +72,8 @@ fn of_recording(
     }
 }
 
-/// The features of `rows`, taken from those of the whole recording, which other tasks need too. If those cannot be stored, or a frame
-/// outside `rows` cannot be read, only `rows` are computed.
+/// Features of `rows`, selected from the features of the whole recording, which other tasks need too. Computes only `rows` if the whole cannot be
+/// stored, or a frame outside `rows` cannot be read.
 fn of_whole(
     recording: &Dataset,
     extractor: &Extractor,
@@ -126,7 +125,7 @@ fn make(
     let pass = Pass::new(rows, work.jobs, work.progress);
     match extractor.input() {
         InputInfo::Signals(_) => {
-            // One thread: several would share one file.
+            // One thread, because several would share one file.
             let pass = Pass::new(rows, NonZeroUsize::MIN, work.progress);
             let read = |row| {
                 let signals = dataset.signals(row)?;
@@ -156,7 +155,7 @@ fn make(
     Ok(Features::new(shape, values)?)
 }
 
-/// Features that are all 0, for models that use none; reads no frame.
+/// All-zero features, for models that use none. Reads no frame.
 pub fn blank(shape: FeatureShape, rows: usize) -> Result<Features, EvaluateError> {
     Ok(Features::new(shape, vec![0.0; rows * shape.len()])?)
 }

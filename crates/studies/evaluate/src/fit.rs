@@ -1,4 +1,4 @@
-//! The fit stage: a dataset and a request in, a model out.
+//! Fit stage: fits a model on a dataset by a request.
 
 mod features;
 mod plan;
@@ -16,24 +16,24 @@ pub use plan::FitPlan;
 pub use request::FitRequest;
 pub use request::Recipe;
 
-/// A fitted model and how its dataset was divided.
+/// A fitted model, and the division of its dataset.
 #[derive(Debug)]
 pub struct Fitted {
     /// The model.
     pub model: Model,
     /// The division of the dataset.
     pub divided: Divided,
-    /// The same as a record.
+    /// The same division as a record.
     pub manifest: SplitManifest,
     /// Frames decoded for the fit.
     pub frames_decoded: u64,
-    /// Samples of the training and validation parts that lack a label or a frame.
+    /// Number of samples in the training and validation parts without a label or a frame.
     pub left_out: usize,
 }
 
 /// Fits a model on the training part of `dataset`.
 ///
-/// A long training keeps a checkpoint in `checkpoints` and resumes from it; models fitted in one step have none.
+/// A long training stores a checkpoint in `checkpoints` and resumes from it. Models fitted in one step have none.
 ///
 /// # Errors
 /// [`EvaluateError`] if the request is not valid, the dataset cannot be read, or no model can be fitted to it.

@@ -9,24 +9,24 @@ use crate::neighbours::{Blocks, Resemblance};
 use crate::note::{Division, Neighbours, Note};
 use crate::recordings;
 
-/// Share of tested samples with a learnt neighbour above which a division is marked.
+/// Share of tested samples with a neighbour in the training part above which a division is marked.
 const SHARE_BESIDE: f64 = 0.1;
 
 /// Samples that stay together by default.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Grouping {
-    /// Samples of one contact point, of which some repeat.
+    /// Samples of one contact point, if some points repeat.
     Points,
-    /// Samples with one value in the column of this name.
+    /// Samples with equal values in the column of this name.
     Column(String),
     /// Blocks of time.
     Blocks,
-    /// Single samples; `are_apart` is true if they were found not to resemble their neighbours.
+    /// Single samples; `are_apart` is true if neighbours are known not to resemble each other.
     Samples { are_apart: bool },
 }
 
 impl Grouping {
-    /// The groups that `rows` of `dataset` show.
+    /// Grouping found in `rows` of `dataset`.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Grouping {
         if has_repeats(dataset, rows) {
             return Grouping::Points;
@@ -41,7 +41,7 @@ impl Grouping {
         }
     }
 
-    /// One division by these groups.
+    /// Split with one division by these groups.
     pub(crate) fn kind(self) -> SplitKind {
         match self {
             Grouping::Points => SplitKind::ByPoint,
@@ -54,7 +54,7 @@ impl Grouping {
         }
     }
 
-    /// Folds of these groups.
+    /// Folds by these groups.
     pub(crate) fn folds(self) -> FoldGroups {
         match self {
             Grouping::Points => FoldGroups::Points,
@@ -65,19 +65,19 @@ impl Grouping {
     }
 }
 
-/// True if every one of `rows` names its contact point, and some name the same.
+/// True if each of `rows` names its contact point and some points repeat.
 pub(crate) fn has_repeats(dataset: &Dataset, rows: &[usize]) -> bool {
     let points = all_texts(dataset.table().point_id(), rows);
     points.is_some_and(|points| points.iter().collect::<BTreeSet<_>>().len() < points.len())
 }
 
-/// The columns that a split reads, of some rows.
+/// Columns of some rows that a split reads.
 pub(crate) struct SplitFields {
     points: Option<Vec<String>>,
     times_s: Option<Vec<f64>>,
     parts: Option<Vec<String>>,
     column: Option<(String, Vec<String>)>,
-    /// All columns if the wanted one is missing, for the suggestion of another.
+    /// All columns if the requested one is missing, to suggest another.
     alternatives: Vec<(String, Vec<String>)>,
     recordings: Option<Vec<String>>,
     sections: Vec<usize>,
@@ -85,7 +85,7 @@ pub(crate) struct SplitFields {
 }
 
 impl SplitFields {
-    /// The columns of `rows` of `dataset` that `kind` needs.
+    /// Columns of `rows` of `dataset` that `kind` needs.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize], kind: &SplitKind) -> SplitFields {
         let table = dataset.table();
         let wanted = match kind {
@@ -98,7 +98,7 @@ impl SplitFields {
         };
         let filled = |name: &str| {
             let cells = table.as_text(name)?;
-            // A sample without the value is in no part: no request can name the empty text.
+            // A sample without a value is in no part, because no request can name the empty text.
             let filled = rows
                 .iter()
                 .map(|&row| cells[row].clone().unwrap_or_default());
@@ -128,7 +128,7 @@ impl SplitFields {
         }
     }
 
-    /// The input of a split of `rows` samples.
+    /// Input of a split of `rows` samples.
     pub(crate) fn input(&self, rows: usize) -> SplitInput<'_> {
         SplitInput {
             rows,
@@ -151,7 +151,7 @@ impl SplitFields {
         }
     }
 
-    /// The note on neighbours among `rows` that `splits` keep together or separate; `splits` hold positions among `rows`.
+    /// Note on neighbours among `rows` that `splits` keep together or separate; `splits` hold positions among `rows`.
     pub(crate) fn neighbours(
         &self,
         dataset: &Dataset,
@@ -196,7 +196,7 @@ impl SplitFields {
         Some(Note::Neighbours { found, division })
     }
 
-    /// True if each of `rows` is its own point: points are not named, the division is random, and neighbours do not resemble each other.
+    /// True if each of `rows` is its own contact point: points are not named, the division is random, and neighbours do not resemble each other.
     pub(crate) fn are_independent(
         &self,
         dataset: &Dataset,
@@ -218,7 +218,7 @@ impl SplitFields {
             && Resemblance::of(dataset, rows) == Resemblance::Apart
     }
 
-    /// The group of every row of `dataset` for intervals, if the division makes such groups.
+    /// Group of every row of `dataset` for intervals, if the division makes such groups.
     pub(crate) fn groups_of_rows(
         &self,
         dataset: &Dataset,
@@ -257,7 +257,7 @@ fn beside_learnt(dataset: &Dataset, rows: &[usize], split: &Split) -> usize {
     split.test.iter().filter(|&&row| beside[row]).count()
 }
 
-/// The texts of `rows`; `None` if any is missing.
+/// Texts of `rows`; `None` if any is missing.
 fn all_texts(column: &[Option<String>], rows: &[usize]) -> Option<Vec<String>> {
     rows.iter().map(|&row| column[row].clone()).collect()
 }

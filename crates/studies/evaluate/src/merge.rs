@@ -1,4 +1,4 @@
-//! States of several shards, merged.
+//! Merges the states of several shards.
 
 use std::path::{Path, PathBuf};
 
@@ -12,10 +12,10 @@ use crate::row_ledger::{AllTaken, Taken};
 use crate::state_file::{ReadState, StateFile};
 use taceva_results::EvaluationReport;
 
-/// The scores of several states together, and the merged state.
+/// Scores of several states together, and the merged state.
 ///
 /// # Errors
-/// [`EvaluateError::State`] naming the first file that does not belong with the first; [`EvaluateError::Request`] for no file.
+/// [`EvaluateError::State`] with the first file that does not match the first state; [`EvaluateError::Request`] without a file.
 pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), EvaluateError> {
     let (first_path, rest) = paths.split_first().ok_or_else(|| {
         EvaluateError::Request("no state file is given: name at least one".to_owned())
@@ -63,7 +63,7 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), Evaluat
         let ReadState { file, digest } = StateFile::read_whole(path)?;
         take_rows(path, &digest, &file.taken)?;
         take(path, &file)?;
-        // Models fitted on different samples share no constant, so skill is measured against the mean of truth.
+        // Models fitted on different samples have different constants, so skill is measured against the mean of the truth.
         constants.retain(|channel, constant| {
             let other = file.plan.constants.get(channel);
             other.is_some_and(|other| other.to_bits() == constant.to_bits())
@@ -78,7 +78,7 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), Evaluat
     finished.merge(evaluator)?;
     let is_of_shards = all_taken.is_of_shards_of_one_input();
     let taken = all_taken.into_taken();
-    // All shards of one input equal that input, and one state equals itself: neither needs a note.
+    // Neither all shards of one input nor a single state needs a note.
     let (mut notes, mut of_report) = (Vec::new(), Vec::new());
     match (
         is_of_shards || rest.is_empty(),

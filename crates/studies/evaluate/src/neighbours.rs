@@ -1,4 +1,4 @@
-//! Neighbouring samples that resemble each other, found from labels and their order: a random division would leak them.
+//! Neighbouring samples that resemble each other, found from labels and their order. A random division would leak between parts.
 
 mod blocks;
 mod sequence;
@@ -11,13 +11,13 @@ use crate::note::Neighbours;
 pub(crate) use blocks::Blocks;
 use sequence::Sequence;
 
-/// Resemblance from which neighbours are kept together.
+/// Least resemblance at which neighbours are kept together.
 const LEAST: f64 = 0.3;
-/// Multiple of the standard deviation of the resemblance of independent samples, about 1/√pairs, that it must exceed.
+/// Factor on the standard deviation of the resemblance of independent samples, about 1/√pairs. The resemblance must exceed the product.
 const DEVIATIONS: f64 = 3.5;
-/// Minimum pairs of neighbours for any decision.
+/// Least number of pairs of neighbours for any decision.
 const PAIRS_LEAST: usize = 20;
-/// Number of groups from which a column is preferred to blocks of time.
+/// Least number of groups for which a column is preferred to blocks of time.
 const GROUPS_LEAST: usize = 5;
 /// Names of columns whose values are groups, in order of preference.
 const GROUP_NAMES: [&str; 10] = [
@@ -31,12 +31,12 @@ pub enum Resemblance {
     Alike(Neighbours),
     /// Neighbours resemble each other no more than random pairs do.
     Apart,
-    /// Too few samples to say.
+    /// Too few samples to decide.
     Unknown,
 }
 
 impl Resemblance {
-    /// The resemblance among `rows` of `dataset`.
+    /// Resemblance of neighbours among `rows` of `dataset`.
     pub fn of(dataset: &Dataset, rows: &[usize]) -> Resemblance {
         let sequence = Sequence::of(dataset, rows);
         match most_alike(dataset, rows, &sequence) {
@@ -53,12 +53,12 @@ impl Resemblance {
     }
 }
 
-/// Pairs of positions among `rows` that are neighbours.
+/// Pairs of neighbouring positions among `rows`.
 pub(crate) fn pairs(dataset: &Dataset, rows: &[usize]) -> Vec<[usize; 2]> {
     Sequence::of(dataset, rows).pairs(1).collect()
 }
 
-/// The channel whose neighbours resemble each other most, its ranks and the resemblance; `None` if no channel shows any.
+/// Channel whose neighbours resemble each other most, with its ranks and the resemblance; `None` if no channel shows any.
 fn most_alike(
     dataset: &Dataset,
     rows: &[usize],
@@ -85,13 +85,13 @@ fn most_alike(
     most
 }
 
-/// Least resemblance that independent samples do not reach in that many pairs.
+/// Resemblance that independent samples do not reach with this number of pairs.
 fn least(pairs: usize) -> f64 {
     LEAST.max(DEVIATIONS / (pairs as f64).sqrt())
 }
 
-/// One minus the mean squared difference of pairs of ranks, over that of independent ranks, with the number of pairs; `None` if all ranks
-/// are equal.
+/// One minus the mean squared difference of the rank pairs divided by that of independent ranks, with the number of pairs; `None` if all ranks are
+/// equal.
 fn resemblance(pairs: impl Iterator<Item = [f64; 2]>) -> Option<(f64, usize)> {
     let (mut count, mut apart, mut sum, mut squares) = (0_usize, 0.0, 0.0, 0.0);
     for [one, other] in pairs {
@@ -105,12 +105,12 @@ fn resemblance(pairs: impl Iterator<Item = [f64; 2]>) -> Option<(f64, usize)> {
     (variance > 1e-12).then(|| (1.0 - apart / count as f64 / (2.0 * variance), count))
 }
 
-/// The rank of each label, 0 to 1, so that outliers have no weight. Equal labels share their mean rank.
+/// Rank of each label, 0 to 1, so that outliers have little weight. Equal labels share their mean rank.
 fn ranks(labels: &[Option<f64>]) -> Vec<Option<f64>> {
     let mut order: Vec<(f64, usize)> = labels
         .iter()
         .enumerate()
-        // -0 and 0 are one label.
+        // -0 and 0 count as equal.
         .filter_map(|(at, label)| Some((label.filter(|label| label.is_finite())? + 0.0, at)))
         .collect();
     order.sort_by(|(one, _), (other, _)| one.total_cmp(other));
@@ -126,8 +126,8 @@ fn ranks(labels: &[Option<f64>]) -> Vec<Option<f64>> {
     ranks
 }
 
-/// The column whose values are groups of neighbours: several groups of consecutive rows, where the last sample of one does not resemble the
-/// first of the next.
+/// Column whose values are groups of neighbours. Several groups consist of consecutive rows, and the last sample of one does not resemble the first
+/// of the next.
 fn group_column(
     dataset: &Dataset,
     rows: &[usize],
@@ -157,7 +157,7 @@ fn group_column(
     found.first().map(|(_, _, name)| (*name).to_owned())
 }
 
-/// The number of groups among `values`; `None` if they form none.
+/// Number of groups among `values`; `None` if the values form no groups.
 fn groups_in_rows(values: &[&str], sequence: &Sequence, ranks: &[Option<f64>]) -> Option<usize> {
     let mut sizes: BTreeMap<&str, usize> = BTreeMap::new();
     values
@@ -192,7 +192,7 @@ mod tests {
         }
     }
 
-    /// Numbers from −1 to 1 of a linear congruential sequence.
+    /// Numbers from −1 to 1 from a linear congruential generator.
     fn noise(rows: usize) -> Vec<f64> {
         let mut state = 7_u64;
         let next = |_| {
@@ -255,7 +255,7 @@ mod tests {
             groups_in_rows(&turns, &sequence, &ranks(&independent)),
             None
         );
-        // Thirty short pieces of one slow walk: each piece ends where the next begins.
+        // Thirty short pieces of one slow walk: each piece continues the one before.
         let pieces: Vec<String> = (0..900).map(|row| format!("clip {}", row / 30)).collect();
         let pieces: Vec<&str> = pieces.iter().map(String::as_str).collect();
         let walk: Vec<Option<f64>> = walk(900).into_iter().map(Some).collect();

@@ -1,4 +1,4 @@
-//! Notes on the samples and the model behind scores: data here, sentences in a report.
+//! Notes on the samples and the model behind scores: stored as data, printed as sentences.
 
 mod detection;
 mod division;
@@ -12,20 +12,20 @@ use taceva_dataset::{Extension, FramesInfo};
 pub use detection::Detection;
 pub use division::{Division, Independence, Neighbours, SampleOrder};
 
-/// One note for a reader of scores; `Display` gives its sentence.
+/// A note for the reader of scores; `Display` gives its sentence.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
-    /// The division of the rows, in the words of the split.
+    /// Division of the rows, as the split describes it.
     Split(String),
-    /// Neighbouring samples that resemble each other, and how they were divided.
+    /// Neighbouring samples that resemble each other, and their division.
     Neighbours {
         /// The finding.
         found: Neighbours,
-        /// The division that follows from it.
+        /// The resulting division.
         division: Division,
     },
-    /// Samples treated as independent, each as a point of its own.
+    /// Samples treated as independent, each as one contact point.
     Independent(Independence),
     /// The clusters of intervals, if recordings were joined.
     Clusters {
@@ -33,34 +33,34 @@ pub enum Note {
         recordings: usize,
         /// Contact points within them.
         points: usize,
-        /// Minimum recordings for intervals by recording.
+        /// Least number of recordings for intervals by recording.
         least: usize,
     },
-    /// Too few contact points for any interval.
+    /// Number of contact points, too few for any interval.
     FewPoints(usize),
     /// Rows that were added to a recording later.
     Extended {
         /// The recording, if several were joined.
         recording: Option<String>,
-        /// Rows that were added.
+        /// Number of added rows.
         added: u64,
-        /// Rows before, day and folder of the extension.
+        /// Number of earlier rows, day and folder of the extension.
         extension: Extension,
     },
-    /// Frames that were reduced before they were stored.
+    /// Frames that were reduced before storage.
     Reduced {
         /// The recording, if several were joined.
         recording: Option<String>,
         /// The frames as stored.
         frames: FramesInfo,
     },
-    /// The view used, in a recording whose samples have several pictures.
+    /// View in use, for a recording whose samples have several pictures.
     View {
         /// The recording, if several were joined.
         recording: Option<String>,
         /// The view: `left`, or `left+right` side by side.
         view: String,
-        /// All views, in words.
+        /// All views, as text.
         of: String,
     },
     /// A warning of an import, or the zero or gravity that it subtracted from labels.
@@ -87,25 +87,25 @@ pub enum Note {
     Rotation {
         /// The channels of the rotation.
         channels: Vec<String>,
-        /// Samples with both.
+        /// Samples with both rotations.
         samples: usize,
-        /// Mean angle, degrees.
+        /// Mean angle, in degrees.
         mean: f64,
-        /// 95th percentile of the angle, degrees.
+        /// 95th percentile of the angle, in degrees.
         most: f64,
     },
-    /// A scored part that the model was fitted on.
+    /// A scored part on which the model was fitted.
     Seen(&'static str),
     /// A model fitted on other data, with the digest of that data.
     FittedElsewhere(String),
-    /// Pictures of the test part that the model was also fitted on.
+    /// Frames of the test part that are also in the training part.
     Copies {
         /// Number of such pictures.
         copies: usize,
         /// Number of scored rows.
         of: usize,
     },
-    /// A model that was fitted before rows were added.
+    /// A model fitted before rows were added.
     FittedBefore {
         /// Rows at the time of the fit.
         rows: u64,
@@ -114,7 +114,7 @@ pub enum Note {
     },
     /// Samples without a label or a frame.
     LeftOut {
-        /// Their part.
+        /// Their part of the split.
         part: String,
         /// Their number.
         count: usize,
@@ -123,7 +123,7 @@ pub enum Note {
     Bounded(Vec<(String, f64)>),
     /// Shares of samples within 1.96 predicted standard deviations, by channel.
     Calibration(Vec<Coverage>),
-    /// A setting that the user left open, in the words of the model's card.
+    /// A setting that the fit chose, as the model card describes it.
     Chosen {
         /// The recording that the fold leaves out, if there are folds.
         fold: Option<String>,
@@ -134,35 +134,35 @@ pub enum Note {
     EveryRow {
         /// Their ids.
         metrics: Vec<&'static str>,
-        /// The rows.
+        /// Number of rows.
         rows: usize,
     },
-    /// A model that a caller holds.
+    /// A model of the caller.
     CallersModel(Learning),
-    /// Predictions of such a model that were scored unclipped.
+    /// Predictions of a model of the caller, scored unclipped.
     Unbounded,
     /// Number of merged states.
     States(usize),
-    /// Rows of an input, some of which are in no merged shard.
+    /// Number of rows in merged shards, and in the input, if some shards are missing.
     Shards([usize; 2]),
-    /// The shard of two tables that was scored.
+    /// Scored shard of two tables.
     Shard {
-        /// Number of the shard and of all shards.
+        /// Shard number and number of shards.
         shard: String,
         /// First row, and the row after the last.
         rows: [u64; 2],
-        /// Rows of the tables.
+        /// Number of rows of the tables.
         of: u64,
     },
-    /// The way in which rows of two tables were paired.
+    /// Method that paired the rows of two tables.
     Paired(PairedBy),
-    /// Columns of tables that are taken as channels of unit 1, because nobody states their unit.
+    /// Columns of tables that are taken as channels of unit 1, because no unit is stated.
     UnitOfOne(Vec<String>),
-    /// Tables of truth and predictions with the same bytes.
+    /// Byte-identical tables of truth and predictions.
     SameBytes,
-    /// Something that a plan leaves out.
+    /// An item that a plan leaves out.
     NotPlanned {
-        /// The thing.
+        /// The item.
         what: String,
         /// The reason.
         reason: String,
@@ -171,54 +171,54 @@ pub enum Note {
     Untaken {
         /// Their number.
         count: usize,
-        /// Planned samples.
+        /// Number of planned samples.
         of: usize,
     },
-    /// The unit of the sensor that was measured, if metrics between units used others too.
+    /// The measured sensor unit, if metrics between units also used others.
     MeasuredUnit {
         /// The serial number of the unit.
         unit: String,
-        /// Metrics of several units.
+        /// Metrics that compare units.
         metrics: Vec<&'static str>,
         /// The serial numbers of all units.
         of: Vec<String>,
     },
-    /// The detection limit of normal force, or the reason that there is none.
+    /// Detection limit of the normal force, or the reason why there is none.
     DetectionLimit(Detection),
-    /// The way in which spacings of gratings were predicted.
+    /// Method that predicted the spacings of gratings.
     Spacings(&'static str),
-    /// The sessions on a real rig in which a recording was made.
+    /// Sessions on a real rig that made a recording.
     Sessions(String),
-    /// Frames that were recorded again.
+    /// Number of frames that were captured again.
     FramesRetried(u64),
 }
 
-/// Pairing of the rows of truth and predictions; its `Display` ends the sentence "rows were paired".
+/// Pairing of the rows of truth and predictions. Its `Display` ends the sentence "rows were paired".
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PairedBy {
-    /// The first row with the first, because the tables share no key.
+    /// By row number, because the tables share no key.
     Order,
-    /// The first row with the first, as the caller requested.
+    /// By row number, as the caller requested.
     ChosenOrder,
-    /// The rows with the same label in the index of a data frame.
+    /// By equal labels in the index of a data frame.
     Index,
-    /// The rows with the same key.
+    /// By equal keys.
     Key {
-        /// The column of the truth.
+        /// Key column of the truth.
         truth: String,
-        /// The column of the predictions.
+        /// Key column of the predictions.
         prediction: String,
     },
 }
 
-/// Training data of a model that a caller holds, as far as known.
+/// Training data of a model of the caller, as far as known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Learning {
-    /// The training part, in this call.
+    /// The training part, fitted in this call.
     Here,
     /// The training part, as the caller states.
     Stated,
-    /// Unknown samples.
+    /// Unknown.
     Unknown,
 }
 
@@ -231,12 +231,12 @@ pub struct Coverage {
     pub percent: f64,
     /// 95 % interval of the share by contact point, in percent.
     pub interval: Option<[f64; 2]>,
-    /// Samples.
+    /// Number of samples.
     pub n: u64,
 }
 
 impl Note {
-    /// Samples of `part` without a label or a frame, if there are any.
+    /// Note on samples of `part` without a label or a frame, if there are any.
     pub(crate) fn left_out(part: &str, count: usize) -> Option<Note> {
         let part = part.to_owned();
         (count > 0).then_some(Note::LeftOut { part, count })

@@ -1,10 +1,10 @@
-//! Scores of one model fitted with several seeds, and the variants that decide verdicts.
+//! Scores of one model fitted with several seeds, and the variants that verdicts use.
 
 use taceva_core::Field;
 use taceva_metrics::{Evaluation, Repeats};
 use taceva_results::{OverSeeds, SeedScore};
 
-/// The scores of `evaluations`, one a seed.
+/// Scores of `evaluations`, one for each seed.
 pub fn of(seeds: &[u64], evaluations: &[&Evaluation]) -> OverSeeds {
     let first = evaluations.first().into_iter();
     let scores = first.flat_map(|evaluation| evaluation.scores());
@@ -47,12 +47,12 @@ pub fn of(seeds: &[u64], evaluations: &[&Evaluation]) -> OverSeeds {
     }
 }
 
-/// The range of a metric.
+/// Range of a metric.
 fn range(metric: &str, known: &[f64]) -> [f64; 2] {
     match metric {
         "r2" | "skill" => [f64::MIN, 1.0],
         "sr" | "tolerance" => [0.0, 1.0],
-        // Metrics that are never negative, such as errors; a bias may be.
+        // Metrics that are never negative, such as errors; a bias may be negative.
         _ if known.iter().all(|value| *value >= 0.0) => [0.0, f64::MAX],
         _ => [f64::MIN, f64::MAX],
     }
@@ -65,7 +65,7 @@ mod tests {
 
     use super::*;
 
-    /// Two repeats at each of six points, `scatter` mm to either side at the first and six times as much at the last.
+    /// Two repeats at each of six points: ±`scatter` mm at the first point and six times as much at the last.
     fn evaluation(scatter: f64) -> Evaluation {
         let channels = Channels::new([Channel::PZ]).expect("one channel");
         let wanted = catalogue::select(["repeatability"]).expect("a known name");

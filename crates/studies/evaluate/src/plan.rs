@@ -4,12 +4,12 @@ use std::fmt;
 
 use taceva_core::Skipped;
 
-/// Steps that an evaluation would read, decode, fit and skip.
+/// Steps of an evaluation, and the checks and metrics that it skips.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Plan {
     /// The steps, in order.
     pub steps: Vec<Step>,
-    /// Skipped things, with reasons.
+    /// Skipped items, with reasons.
     pub skipped: Vec<Skipped>,
 }
 

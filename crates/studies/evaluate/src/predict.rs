@@ -18,8 +18,8 @@ pub use predictions::Predicted;
 pub use predictor::Predictor;
 pub use target::Target;
 
-/// Predicts a part of `dataset`; by default the unseen data: the test part of the model's own dataset, or all of another. Each prediction has
-/// the distance of its picture from the training part, if the model knows it.
+/// Predicts a part of `dataset`. The default is the unseen data: the test part of the model's own dataset, or all of another. Each prediction has the
+/// distance of its frame from the training part, if the model measures it.
 ///
 /// # Errors
 /// [`EvaluateError`] if the model does not fit the dataset, or the dataset cannot be read.
@@ -39,7 +39,7 @@ pub fn predict(
     })
 }
 
-/// Predictions of `model` for the rows of `target`, both within the bounds of the model and unclipped.
+/// Predictions of `model` for the rows of `target`, clipped to the bounds of the model, and unclipped.
 ///
 /// # Errors
 /// [`EvaluateError`] if the model does not fit the dataset, or the dataset cannot be read.
@@ -56,7 +56,7 @@ pub fn predict_target(
 /// Unclipped predictions of `model` for the rows of `target`, with standard deviations if the model gives them.
 ///
 /// # Shapes
-/// `[rows, channels]`, row after row; then standard deviations in the same order, or nothing.
+/// `[rows, channels]`, row after row; then the standard deviations in the same order, or nothing.
 pub fn predicted_numbers(
     dataset: &Dataset,
     model: &Model,
@@ -66,7 +66,7 @@ pub fn predicted_numbers(
     numbers_of(model, &features_of(dataset, model, target, work)?)
 }
 
-/// Features of the rows of `target`; blank ones for a model that reads none.
+/// Features of the rows of `target`; blank features for a model that reads none.
 fn features_of(
     dataset: &Dataset,
     model: &Model,
@@ -91,7 +91,7 @@ fn numbers_of(model: &Model, features: &Features) -> Result<Column, EvaluateErro
     Ok(Column::full(numbers))
 }
 
-/// The extractor of a fitted model on the frames, or the signals, of `dataset`.
+/// Extractor of a fitted model on the frames or signals of `dataset`.
 pub fn model_extractor(
     dataset: &Dataset,
     model: &Model,
@@ -161,7 +161,7 @@ pub fn predicted_table(
     })
 }
 
-/// The other columns of the table for `rows` that `score` reads.
+/// Other columns of `rows` that `score` reads.
 fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<String>>)> {
     let column = |field: Field| {
         let texts = dataset.table().as_text(field.name())?;
@@ -170,14 +170,14 @@ fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<St
             rows.iter().map(|&row| texts[row].clone()).collect(),
         ))
     };
-    // Points have their own column.
+    // Contact points have their own column.
     let others = BESIDE_CHANNELS
         .into_iter()
         .filter(|field| *field != Field::Point);
     others.filter_map(column).collect()
 }
 
-/// The truth of `rows`; a channel that the dataset lacks is absent in every row.
+/// Truth of `rows`; a channel that the dataset lacks is absent in every row.
 pub fn truth(
     dataset: &Dataset,
     channel: &Channel,

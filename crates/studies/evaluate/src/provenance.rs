@@ -1,4 +1,4 @@
-//! Provenance of results: inputs and settings, enough to reproduce them.
+//! Provenance of results: the inputs and settings needed to reproduce them.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::note::Note;
 use crate::recordings;
 use crate::rows::DataPart;
 
-/// The provenance of `dataset` itself.
+/// Provenance of `dataset`.
 pub fn of(dataset: &Dataset) -> Provenance {
     let mut provenance = Provenance {
         taceva: env!("CARGO_PKG_VERSION").to_owned(),
@@ -29,7 +29,7 @@ pub fn of(dataset: &Dataset) -> Provenance {
     provenance
 }
 
-/// Adds the origin of a recording from its header; the names of its files begin with `folder`.
+/// Adds the origin of a recording from its header; prefixes its file names with `folder`.
 fn add_recording(provenance: &mut Provenance, dataset: &Dataset, folder: &str) {
     let header = dataset.header();
     if !header.presses.is_empty() {
@@ -49,7 +49,7 @@ pub(crate) fn is_of_seen_samples(provenance: &Provenance) -> bool {
     provenance.split.is_some() && part.is_some_and(|part| !is_test(part))
 }
 
-/// The provenance of `model`, by its card.
+/// Provenance of `model`, from its card.
 pub fn model(model: &Model) -> Result<ModelProvenance, EvaluateError> {
     let card = model.card();
     let mut settings: BTreeMap<String, String> = card
@@ -84,7 +84,7 @@ pub fn model(model: &Model) -> Result<ModelProvenance, EvaluateError> {
     })
 }
 
-/// The settings that the user left open.
+/// Notes on the settings that the user left open.
 pub fn choices(model: &Model) -> impl Iterator<Item = Note> {
     let card = model.card();
     let features = card.feature_choice.as_ref().map(ToString::to_string);

@@ -13,7 +13,7 @@ use crate::error::EvaluateError;
 use crate::note::Note;
 use crate::row_ledger::Taken;
 
-/// The recordings that `dataset` was joined from; empty for a single one.
+/// Recordings that were joined into `dataset`; empty for a single one.
 pub(crate) fn provenance(dataset: &Dataset) -> Vec<RecordingProvenance> {
     let joined = dataset.recordings().iter();
     joined
@@ -25,7 +25,7 @@ pub(crate) fn provenance(dataset: &Dataset) -> Vec<RecordingProvenance> {
         .collect()
 }
 
-/// The paths of the recordings: all that were joined, or the one.
+/// Paths of all joined recordings, or of the single one.
 pub(crate) fn paths(dataset: &Dataset) -> Vec<PathBuf> {
     match dataset.recordings() {
         [] => vec![dataset.path().to_owned()],
@@ -36,14 +36,14 @@ pub(crate) fn paths(dataset: &Dataset) -> Vec<PathBuf> {
     }
 }
 
-/// The name of the recording of each of `rows`; `None` if none were joined.
+/// Name of the recording of each of `rows`; `None` if none were joined.
 pub(crate) fn names(dataset: &Dataset, rows: &[usize]) -> Option<Vec<String>> {
     let joined = dataset.recordings();
     let name = |row: &usize| joined[at(dataset, *row)].name().to_owned();
     (!joined.is_empty()).then(|| rows.iter().map(name).collect())
 }
 
-/// The digest of the recording of each of `rows`: labels for intervals, the same in every shard whatever the names of folders.
+/// Digest of the recording of each of `rows`. These labels for intervals are the same in every shard, whatever the folder names.
 pub(crate) fn labels(dataset: &Dataset, rows: impl Iterator<Item = usize>) -> Labels {
     let joined = dataset.recordings();
     let digests = joined.iter().map(|own| own.dataset().digest().to_string());
@@ -59,7 +59,7 @@ fn at(dataset: &Dataset, row: usize) -> usize {
     joined.partition_point(|own| own.rows().end <= row)
 }
 
-/// The positions among the ascending `rows` at which a recording begins or added rows begin, except the first.
+/// Positions among the ascending `rows` at which a recording or added rows begin, except the first.
 pub(crate) fn sections(dataset: &Dataset, rows: &[usize]) -> Vec<usize> {
     let mut starts = BTreeSet::new();
     let mut add = |recording: &Dataset, first: usize| {
@@ -98,8 +98,8 @@ pub(crate) fn runs<'a>(dataset: &'a Dataset, rows: &[usize]) -> Vec<(&'a Dataset
     chunks.map(run).collect()
 }
 
-/// The rows of `rows` under the digest of the stage of the recording that first contained them: added rows under that of the extended
-/// recording, earlier ones under the digest before.
+/// `rows` under the digest of the version of the recording that first contained them. Added rows have the digest of the extended recording, earlier
+/// ones the digest before.
 pub(crate) fn taken(dataset: &Dataset, rows: &[usize]) -> Vec<Taken> {
     let mut taken = Vec::new();
     for (recording, own) in runs(dataset, rows) {
@@ -120,7 +120,7 @@ pub(crate) fn taken(dataset: &Dataset, rows: &[usize]) -> Vec<Taken> {
     taken
 }
 
-/// Rows that were added to recordings after they were imported.
+/// Notes on rows that were added to recordings after their import.
 pub(crate) fn extended(dataset: &Dataset) -> Vec<Note> {
     let of = |recording: &Dataset, name: Option<&str>| -> Vec<Note> {
         let mut stages = recording.header().stages().skip(1);
@@ -138,7 +138,7 @@ pub(crate) fn extended(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, of)
 }
 
-/// Warnings of the imports, and the zero and gravity that they subtracted from labels.
+/// Notes on warnings of the imports, and on the zero and gravity that they subtracted from labels.
 pub(crate) fn imported(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         let header = recording.header();
@@ -155,7 +155,7 @@ pub(crate) fn imported(dataset: &Dataset) -> Vec<Note> {
     })
 }
 
-/// Recordings whose frames differ from what the camera gave.
+/// Notes on recordings whose frames were reduced before storage.
 pub fn reduced(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         let frames = recording.header().frames.as_ref();
@@ -203,7 +203,7 @@ pub(crate) fn viewed(dataset: &Dataset) -> Vec<Note> {
     })
 }
 
-/// The notes of each recording; those of several name it.
+/// Notes of each recording. They name the recording if there are several.
 fn of_each(dataset: &Dataset, of: impl Fn(&Dataset, Option<&str>) -> Vec<Note>) -> Vec<Note> {
     match dataset.recordings() {
         [] => of(dataset, None),
@@ -216,7 +216,7 @@ fn of_each(dataset: &Dataset, of: impl Fn(&Dataset, Option<&str>) -> Vec<Note>) 
     }
 }
 
-/// True if `model` was fitted on `dataset`: on each of its recordings, or on a recording before rows were added to it.
+/// True if `model` was fitted on `dataset`: on each of its recordings, or before rows were added to it.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] if it was fitted on only some of them, because the unseen samples are then unknown.
@@ -284,7 +284,7 @@ impl Clusters {
         self.recordings >= LEAST_CLUSTERS
     }
 
-    /// The note on the intervals.
+    /// Note on the intervals.
     pub(crate) fn note(self) -> Note {
         Note::Clusters {
             recordings: self.recordings,

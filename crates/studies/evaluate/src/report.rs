@@ -1,10 +1,10 @@
-//! Skipped metrics and checks as JSON.
+//! JSON form of skipped metrics and checks.
 
 use serde::ser::SerializeSeq;
 use serde::{Serialize, Serializer};
 use taceva_core::Skipped;
 
-/// Skipped things as `[{"what": …, "reason": …}]`.
+/// Writes skipped items as `[{"what": …, "reason": …}]`.
 pub fn skipped<S: Serializer>(list: &[Skipped], serializer: S) -> Result<S::Ok, S::Error> {
     #[derive(Serialize)]
     struct Line<'a> {

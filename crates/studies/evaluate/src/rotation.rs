@@ -46,7 +46,7 @@ fn of_rotation(channels: &[String], predicted: &Predicted) -> Option<Note> {
     })
 }
 
-/// The orientation of a rotation vector in degrees, or of a quaternion of any length but 0.
+/// Orientation from a rotation vector in degrees, or from a quaternion of any length but 0.
 fn orientation(parts: &[f64]) -> Option<Orientation> {
     match *parts {
         [x, y, z] => Some(Orientation::of_vector([x, y, z].map(f64::to_radians))),

@@ -1,4 +1,4 @@
-//! Rows that a state has counted, so that none is counted twice.
+//! Rows that a state has counted, so that no row is counted twice.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use taceva_core::{by_count, counted};
 
-/// Rows of one input.
+/// Counted rows of one input.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Taken {
-    /// The digest of the recording, or of both tables.
+    /// Digest of the recording, or of both tables.
     input: String,
-    /// Ranges of rows, counted from 0, end exclusive, in order.
+    /// Ranges of row numbers from 0, end exclusive, ascending.
     rows: Vec<[usize; 2]>,
-    /// Number of rows of the input, if these are shards of it.
+    /// Number of rows of the input, for shards.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     of: Option<usize>,
 }
@@ -47,7 +47,7 @@ impl Taken {
         }
     }
 
-    /// Records some rows of an input with `of` rows, as a shard, which may be empty.
+    /// Records some rows of an input with `of` rows as a shard, which may be empty.
     pub(crate) fn part_of(input: String, rows: Range<usize>, of: usize) -> Taken {
         let ranges = match rows.is_empty() {
             true => Vec::new(),
@@ -66,13 +66,13 @@ impl Taken {
         self.of.is_some()
     }
 
-    /// For shards of one input: the rows they have, and the rows of the input.
+    /// For shards of one input: number of counted rows, and number of rows of the input.
     pub(crate) fn share(&self) -> Option<[usize; 2]> {
         let own = self.rows.iter().map(|[begin, end]| end - begin).sum();
         Some([own, self.of?])
     }
 
-    /// Drops the total if all rows are there: all rows of an input are no shard.
+    /// Drops the total if all rows are counted; the result is then no shard.
     fn whole_or_not(mut self) -> Taken {
         if let ([[0, end]], Some(of)) = (self.rows.as_slice(), self.of)
             && *end == of
@@ -96,7 +96,7 @@ impl Taken {
         }
     }
 
-    /// The first row that both have counted, and the number of such rows.
+    /// First row that both have counted, and the number of such rows.
     fn shared(&self, other: &Taken) -> Option<(usize, usize)> {
         if self.input != other.input {
             return None;
@@ -127,9 +127,9 @@ pub(crate) struct AllTaken {
 }
 
 impl AllTaken {
-    /// Adds the rows of the state in the file at `path` with this digest; returns a message if some were counted before.
+    /// Adds the rows of the state file at `path` with this digest; returns an error message if some were counted before.
     pub(crate) fn add(&mut self, path: &Path, digest: &str, taken: &[Taken]) -> Result<(), String> {
-        // Shards without rows are equal, and counting one twice changes nothing.
+        // Shards without rows are equal, and counting one twice is harmless.
         let is_empty = !taken.is_empty() && taken.iter().all(|taken| taken.rows.is_empty());
         let known = self.states.iter().find(|(_, known)| known == digest);
         if let Some((before, _)) = known.filter(|_| !is_empty) {
@@ -168,7 +168,7 @@ impl AllTaken {
         })
     }
 
-    /// The rows counted: inputs in the order of arrival, shards of one input merged.
+    /// Counted rows: inputs in the order of arrival, shards of one input merged.
     pub(crate) fn into_taken(self) -> Vec<Taken> {
         let mut all: Vec<Taken> = Vec::new();
         for (_, taken) in self.taken {

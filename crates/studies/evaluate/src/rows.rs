@@ -1,4 +1,4 @@
-//! A dataset as a split sees it, and its usable rows.
+//! Division of a dataset into parts, and its usable rows.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::grouping::{Grouping, SplitFields};
 use crate::note::Note;
 use crate::recordings::is_fitted_on;
 
-/// Columns of a table of samples besides channels, in order.
+/// Columns of a table of samples that are not channels, in order.
 pub(crate) const BESIDE_CHANNELS: [Field; 10] = [
     Field::Point,
     Field::UnitId,
@@ -29,24 +29,24 @@ pub(crate) const BESIDE_CHANNELS: [Field; 10] = [
     Field::Intensity,
 ];
 
-/// Column of the distances of pictures from the training part, as beside a recording with live predictions.
+/// Column of the distances of frames from the training part, as in the table of live predictions.
 pub(crate) const DISTANCE: &str = "distance";
 
 /// A part of a dataset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataPart {
-    /// The samples a model was fitted on.
+    /// Samples for fitting a model.
     Train,
-    /// The samples its settings were chosen on.
+    /// Samples for choosing settings.
     Validation,
-    /// The samples it has not seen.
+    /// Samples that the model has not seen.
     Test,
     /// Every sample.
     All,
 }
 
 impl DataPart {
-    /// The word used in results.
+    /// Name in results.
     pub const fn name(self) -> &'static str {
         match self {
             DataPart::Train => "train",
@@ -57,30 +57,30 @@ impl DataPart {
     }
 }
 
-/// A dataset divided into parts, with the method of division.
+/// A dataset divided into parts, with the method of the division.
 #[derive(Clone, Debug)]
 pub struct Divided {
     /// The method.
     pub spec: SplitSpec,
     /// The seed.
     pub seed: u64,
-    /// The part of each row.
+    /// Part of each row.
     pub split: Split,
     /// The note on neighbouring samples.
     pub neighbours: Option<Note>,
-    /// The group of every row of the dataset, if intervals are by groups; the empty text for a row in none.
+    /// Group of every row of the dataset, if intervals are by group; the empty text for a row without a group.
     pub groups: Option<Vec<String>>,
-    /// True if no sample repeats a contact point and neighbours do not resemble each other, so that each sample is a point of its own.
+    /// True if no contact point repeats and neighbours do not resemble each other, so that each sample counts as one contact point.
     pub are_independent: bool,
 }
 
 impl Divided {
-    /// The division of `dataset` for `model`, which was fitted on it, or on it before rows were added. All samples that `model` has seen
-    /// are in the training and validation parts. `None` if it was fitted on another dataset.
+    /// Division of `dataset` for `model`, which was fitted on it, maybe before rows were added. All samples that `model` has seen are in the training
+    /// and validation parts. `None` if it was fitted on another dataset.
     ///
     /// # Errors
-    /// [`EvaluateError::Split`] as of [`Divided::new`]; [`EvaluateError::Request`] if the plan that divided it is missing, or if `model`
-    /// was fitted on only some of the recordings.
+    /// [`EvaluateError::Split`] as [`Divided::new`]; [`EvaluateError::Request`] if the plan that divided it is missing, or if `model` was fitted on
+    /// only some of the recordings.
     pub fn by_model(dataset: &Dataset, model: &Model) -> Result<Option<Divided>, EvaluateError> {
         let provenance = &model.card().provenance;
         let is_own = is_fitted_on(model, dataset)?;
@@ -102,9 +102,8 @@ impl Divided {
         divided.map(Some)
     }
 
-    /// Divides `dataset` as `text` says. The default is by point where points have repeats, else by groups or blocks of time where
-    /// neighbours resemble each other, else at random. Each of several joined recordings is divided as it would be alone, and added rows do
-    /// not change the part of earlier rows.
+    /// Divides `dataset` by the split `text`. The default is by point where points repeat, else by groups or blocks of time where neighbours resemble
+    /// each other, else at random. Each of several joined recordings is divided as if alone. Added rows do not change the part of earlier rows.
     ///
     /// # Errors
     /// [`EvaluateError::Split`] if the text is not a split, or the table lacks a column that the split needs.
@@ -112,8 +111,8 @@ impl Divided {
         Divided::within(dataset, &dataset.all_rows(), text, seed)
     }
 
-    /// Divides `dataset` as `text` says. By default a recording of a run is divided as its plan says: the presses for the fit, with the
-    /// seed of its scene.
+    /// Divides `dataset` by the split `text`. The default for a recording of a run is its plan: it divides the presses for the fit, with the seed of
+    /// its scene.
     ///
     /// # Errors
     /// As [`new`](Divided::new), and [`EvaluateError::RunFolder`] if the plan of the run cannot be read.
@@ -131,7 +130,7 @@ impl Divided {
         Ok(divided)
     }
 
-    /// Divides the ascending `rows` of `dataset`; all others are in no part.
+    /// Divides the ascending `rows` of `dataset`; all other rows are in no part.
     ///
     /// # Errors
     /// As [`new`](Divided::new).
@@ -151,7 +150,7 @@ impl Divided {
         Divided::by_spec(dataset, rows, spec, seed)
     }
 
-    /// Divides `rows` of `dataset` as [`within`](Divided::within) does by default, into parts of these sizes.
+    /// Divides `rows` of `dataset` by the default split, into parts of these sizes.
     ///
     /// # Errors
     /// As [`new`](Divided::new).
@@ -193,7 +192,7 @@ impl Divided {
         })
     }
 
-    /// The rows of a part, ascending.
+    /// Rows of a part, ascending.
     pub fn rows(&self, part: DataPart) -> Vec<usize> {
         match part {
             DataPart::Train => self.split.rows(SplitPart::Train).to_vec(),
@@ -217,7 +216,7 @@ impl Divided {
     /// Rejects a division without test samples.
     ///
     /// # Errors
-    /// [`EvaluateError::Request`], which names the alternatives.
+    /// [`EvaluateError::Request`], with the alternatives.
     pub fn require_test(&self) -> Result<(), EvaluateError> {
         if self.spec.kind != SplitKind::All {
             return Ok(());
@@ -229,10 +228,10 @@ impl Divided {
         ))
     }
 
-    /// The parts by the names of their samples.
+    /// Sample names of each part.
     ///
     /// # Errors
-    /// [`EvaluateError::Split`] if `table` is not the divided one.
+    /// [`EvaluateError::Split`] if `table` is not the divided table.
     pub fn manifest(&self, table: &Table) -> Result<SplitManifest, EvaluateError> {
         Ok(SplitManifest::new(
             &self.spec,
@@ -265,7 +264,7 @@ pub fn require_samples(dataset: &Dataset) -> Result<(), EvaluateError> {
     }
 }
 
-/// The channels among `channels` that a sample with a frame has; all of them if no sample does.
+/// Channels among `channels` that at least one sample with a frame has; all of them if no sample does.
 pub(crate) fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels {
     let table = dataset.table();
     let is_seen = |channel: &&Channel| {
@@ -283,10 +282,10 @@ pub(crate) fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels 
     Channels::new(seen).expect("some of distinct channels are distinct")
 }
 
-/// The channels called `names`, or all channels of the dataset.
+/// Channels called `names`; all channels of the dataset if `names` is empty.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] for a name that the dataset lacks, or if there is no channel at all.
+/// [`EvaluateError::Request`] for an unknown name, or if the dataset has no channel.
 pub(crate) fn chosen_channels(
     dataset: &Dataset,
     names: &[String],
@@ -319,7 +318,7 @@ pub(crate) fn chosen_channels(
     Ok(chosen)
 }
 
-/// Meaning of the unknown channel `name`, if it is a plane or like one of `known`.
+/// Suggestion for the unknown channel `name`, if it is a plane or similar to one of `known`.
 fn hint(name: &str, known: &[&str]) -> String {
     let mut planes = PLANES.into_iter();
     let plane = planes.find(|(plane, of, _)| {
@@ -334,7 +333,7 @@ fn hint(name: &str, known: &[&str]) -> String {
     }
 }
 
-/// The rows among `rows` that meet `need`.
+/// Rows among `rows` that meet `need`.
 pub fn usable(dataset: &Dataset, rows: &[usize], need: Need<'_>) -> Vec<usize> {
     let table = dataset.table();
     let positions: Vec<usize> = need
@@ -355,7 +354,7 @@ pub fn usable(dataset: &Dataset, rows: &[usize], need: Need<'_>) -> Vec<usize> {
 
 /// Requirements on a row.
 pub struct Need<'a> {
-    /// A frame.
+    /// True if a frame is required.
     pub frame: bool,
     /// Channels that must each have a label.
     pub labels: Option<&'a Channels>,

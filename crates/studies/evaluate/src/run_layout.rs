@@ -1,6 +1,6 @@
-//! File names in the folder of a run by which a recording of it is recognised.
+//! File names that identify the folder of a run.
 
-/// The plans of the run; a folder that has them is a run.
+/// File with the plans of the run; a folder with this file is a run.
 pub const PLANS: &str = "plans.json";
-/// The recordings, a folder a study.
+/// Folder of the recordings, with one folder for each study.
 pub const RECORDINGS: &str = "recordings";

@@ -11,7 +11,7 @@ use crate::predict::{Predicted, truth};
 use crate::recordings;
 use crate::rows::BESIDE_CHANNELS;
 
-/// The samples of `rows` of `dataset`, in their order, without predictions.
+/// Samples of `rows` of `dataset`, in that order, without predictions.
 pub fn of(dataset: &Dataset, rows: &[usize]) -> Result<Samples, EvaluateError> {
     let table = dataset.table();
     let ids = rows
@@ -34,7 +34,7 @@ pub fn of(dataset: &Dataset, rows: &[usize]) -> Result<Samples, EvaluateError> {
     Ok(samples)
 }
 
-/// The phases of the protocol that each of `rows` was pressed for: `calibration light-sweep`.
+/// Protocol phases of each of `rows`, such as `calibration light-sweep`.
 pub fn protocol(rows: &[usize], parts: &BTreeMap<&'static str, Vec<usize>>) -> Vec<Option<String>> {
     let words = rows.iter().map(|row| {
         let of_row = parts
@@ -75,7 +75,7 @@ pub fn add_predictions(
     }
 }
 
-/// Samples called `ids` from two columns a channel, truth and prediction.
+/// Samples called `ids` from two columns for each channel: truth and prediction.
 pub(crate) fn of_pairs(
     ids: Vec<Option<String>>,
     points: Option<Vec<Option<String>>>,

@@ -1,4 +1,4 @@
-//! Scores of predictions made elsewhere: two tables, no pictures, no model.
+//! Scores of predictions of other programs, from two tables, without frames or a model.
 
 mod agreement;
 mod fields;
@@ -53,9 +53,9 @@ pub use shard_scores::ScoreTables;
 /// Finished scores of two tables.
 #[derive(Debug)]
 pub struct Scored {
-    /// The scores and where they come from.
+    /// Scores and their provenance.
     pub report: EvaluationReport,
-    /// The state, to be merged with that of other tables.
+    /// State that can be merged with the states of other tables.
     pub state: StateFile,
 }
 
@@ -75,11 +75,11 @@ pub struct Scoring {
 #[derive(Debug)]
 struct ScorePlan {
     metrics: MetricPlan,
-    /// The columns of fields.
+    /// Columns of the fields.
     places: Vec<Place>,
     /// The facts of the sensor.
     sensor: SensorFile,
-    /// Columns that name rows.
+    /// Columns that identify rows.
     keys: RowKeys,
 }
 
@@ -87,7 +87,7 @@ impl Scoring {
     /// Reads both tables and pairs their rows.
     ///
     /// # Errors
-    /// [`EvaluateError`] if a table cannot be read, a channel is in one of them only, ids differ or repeat, or numbers of rows differ.
+    /// [`EvaluateError`] if a table cannot be read, only one table has a channel, ids differ or repeat, or numbers of rows differ.
     pub fn read(request: ScoreRequest) -> Result<Scoring, EvaluateError> {
         catalogue::select(request.metrics.iter().map(String::as_str))?;
         tables::check_distinct(&request)?;
@@ -112,7 +112,7 @@ impl Scoring {
         })
     }
 
-    /// The steps of [`run`](Scoring::run).
+    /// Steps of [`run`](Scoring::run).
     pub fn plan(&self) -> Plan {
         let mut plan = Plan {
             skipped: self.plan.metrics.skipped().to_vec(),
@@ -146,7 +146,7 @@ impl Scoring {
     /// Computes the scores.
     ///
     /// # Errors
-    /// [`EvaluateError`] at the first cell that is no finite number, unless they are allowed.
+    /// [`EvaluateError`] at the first cell that is not a finite number, unless such cells are allowed.
     pub fn run(&self, progress: &dyn Progress) -> Result<Scored, EvaluateError> {
         progress.begin("score", Some(self.truth.rows() as u64));
         let scored = self.evaluate();
@@ -154,7 +154,7 @@ impl Scoring {
         scored
     }
 
-    /// The pairs of truth and prediction one by one, named by the key of the truth or by their number; scoring never holds them all.
+    /// Pairs of truth and prediction, named by the key of the truth or by row number. Scoring itself never holds them all.
     ///
     /// # Errors
     /// As [`run`](Scoring::run).
@@ -253,7 +253,7 @@ fn planned(
 struct Said {
     /// True if the caller treats samples as independent.
     is_independent: bool,
-    /// The pairing of rows, which the state records too.
+    /// Pairing of rows, which the state also records.
     paired: PairedBy,
     /// Columns that are taken as channels of unit 1.
     unit_of_one: Option<Note>,
@@ -261,7 +261,7 @@ struct Said {
     shard: Option<Note>,
 }
 
-/// The scores and the state of `evaluator` after the tables with these digests.
+/// Scores and state of `evaluator` after the tables with these digests.
 fn finished(
     evaluator: Evaluator,
     sensor: &SensorFile,

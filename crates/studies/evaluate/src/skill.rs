@@ -1,8 +1,8 @@
-//! The skill of a model, added wherever predictions are scored: without it no score takes part in a verdict.
+//! Adds the skill of a model to all scores of predictions. Verdicts need it.
 
 use taceva_metrics::{Metric, catalogue};
 
-/// `wanted`, with the skill score added if one of the metrics uses predictions.
+/// `wanted`, plus the skill score if one of the metrics uses predictions.
 pub fn with_skill(mut wanted: Vec<&'static Metric>) -> Vec<&'static Metric> {
     if wanted.iter().any(|metric| metric.reads_predictions()) {
         wanted.push(skill());
@@ -10,7 +10,7 @@ pub fn with_skill(mut wanted: Vec<&'static Metric>) -> Vec<&'static Metric> {
     wanted
 }
 
-/// The skill score.
+/// Definition of the skill score.
 pub fn skill() -> &'static Metric {
     catalogue::find("skill").expect("it is in the catalogue")
 }

@@ -1,4 +1,4 @@
-//! The state of a shard as a file: written by one lab, merged by another, with the scores of one unsharded run.
+//! State of a shard as a file. Labs can exchange and merge such files; the scores equal those of one run over all samples.
 
 mod plan;
 
@@ -18,13 +18,13 @@ use crate::row_ledger::Taken;
 use plan::WrittenPlan;
 use taceva_results::{Provenance, Subject};
 
-/// The schema of a state file.
+/// Schema of a state file.
 pub const STATE_SCHEMA: &str = "taceva.state/1.0";
 
-/// Size limit of a state file that is read, bytes: far above what 64 clusters of every family take.
+/// Size limit of a state file, in bytes; far above the size of 64 clusters of every family.
 const LARGEST: u64 = 1 << 30;
 
-/// The accumulators of a plan after some samples, with all that is needed to continue.
+/// Accumulators of a plan after some samples, with all that is needed to continue.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StateFile {
@@ -38,7 +38,7 @@ pub struct StateFile {
     /// True if the model was fitted on some of the samples.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(crate) seen: bool,
-    /// True if the training part has neighbours of tested samples that resemble them.
+    /// True if the training part has neighbours that resemble tested samples.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(crate) neighbours: bool,
     pub(crate) states: Vec<State>,
@@ -50,14 +50,14 @@ pub struct StateFile {
     seal: Option<serde_json::Value>,
 }
 
-/// A parsed state, and the digest of its content.
+/// A parsed state and the digest of its content.
 pub(crate) struct ReadState {
     pub(crate) file: StateFile,
     pub(crate) digest: String,
 }
 
 impl StateFile {
-    /// The state of `evaluator`.
+    /// State of `evaluator`.
     ///
     /// # Errors
     /// [`EvaluateError::Scores`] for collected samples that it rejects.
@@ -82,8 +82,8 @@ impl StateFile {
         })
     }
 
-    /// The scores of `evaluator` after the samples of this state, with the share of predictions beyond bounds, and marked if the model was
-    /// fitted on the samples.
+    /// Scores of `evaluator` after the samples of this state, with the share of predictions beyond bounds. Marks them if the model was fitted on the
+    /// samples.
     ///
     /// # Errors
     /// [`EvaluateError::Scores`] for collected samples that it rejects.
@@ -113,7 +113,7 @@ impl StateFile {
         }
     }
 
-    /// The same state; `are_learnt` marks a model that was fitted on neighbours that resemble the samples.
+    /// The same state; `are_learnt` marks a model whose training part has neighbours that resemble the samples.
     pub(crate) fn with_neighbours(self, are_learnt: bool) -> StateFile {
         StateFile {
             neighbours: self.neighbours || are_learnt,
@@ -121,7 +121,7 @@ impl StateFile {
         }
     }
 
-    /// True if it counts all rows of its inputs, not only some shards.
+    /// True if the state counts all rows of its inputs, not only some shards.
     pub fn is_whole(&self) -> bool {
         !self.taken.iter().any(Taken::is_of_shard)
     }
@@ -129,7 +129,7 @@ impl StateFile {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// [`EvaluateError::State`] for a file that is no state file, has a newer schema, or was changed after it was sealed.
+    /// [`EvaluateError::State`] for a file that is not a state file, has a newer schema, or was edited after it was sealed.
     pub fn read(path: &Path) -> Result<StateFile, EvaluateError> {
         StateFile::read_whole(path).map(|read| read.file)
     }
@@ -165,10 +165,10 @@ impl StateFile {
         })
     }
 
-    /// Writes the file's content, one line, sealed.
+    /// Writes the sealed content of the file as one line.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// Errors of `out`.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let text = serde_json::to_string(self)?;
         writeln!(
@@ -179,7 +179,7 @@ impl StateFile {
     }
 }
 
-/// The only key that is read before the schema is known.
+/// The only key that is read before the schema is checked.
 #[derive(Deserialize)]
 struct Head {
     schema: String,

@@ -1,9 +1,9 @@
-//! Subjects of evaluations.
+//! Subjects of evaluations: the sensor, as far as known.
 
 use taceva_dataset::{Dataset, SensorFile, Source};
 use taceva_results::Subject;
 
-/// The subject of a dataset.
+/// Subject of a dataset.
 pub fn of(dataset: &Dataset) -> Subject {
     let header = dataset.header();
     let source = match header.source {
@@ -19,7 +19,7 @@ pub fn of(dataset: &Dataset) -> Subject {
     }
 }
 
-/// The subject of tables of numbers, as far as a sensor file names it.
+/// Subject of tables of numbers, as far as a sensor file states it.
 pub(crate) fn of_file(file: &SensorFile) -> Subject {
     let stated = |text: &Option<String>| text.clone().unwrap_or_else(|| "unknown".to_owned());
     Subject {

@@ -1,4 +1,4 @@
-//! Cross-validated fit: a model of every sample, with the scores of models fitted the same way without some of them.
+//! Cross-validated fit: a model of every sample, with scores of models that were fitted without some of them.
 
 use taceva_dataset::Dataset;
 use taceva_models::{Checkpoints, ValidationCard, ValidationScore};
@@ -10,14 +10,14 @@ use crate::evaluate::{EvaluateRequest, ModelChoice, folds};
 use crate::fit::{FitRequest, Fitted, fit};
 use crate::work::Work;
 
-/// Metrics that the card of a model states.
+/// Metrics in the card of a model.
 const METRICS: [&str; 2] = ["mae", "r2"];
 
-/// Fits as [`fit`] does. If the split of `request` is a cross-validation, the models of the folds give scores on unseen samples. The final
-/// model is fitted on every sample and states those scores. Features are computed once for all of them.
+/// Fits like [`fit`]. If the split of `request` is a cross-validation, the models of the folds give scores on unseen samples. The final model is
+/// fitted on every sample and states those scores. Features are computed once.
 ///
 /// # Errors
-/// As of [`fit`] and [`evaluate`](crate::evaluate).
+/// As [`fit`] and [`evaluate`](crate::evaluate).
 pub fn fit_validated(
     dataset: &Dataset,
     request: &FitRequest,
@@ -47,7 +47,7 @@ pub fn fit_validated(
     let fitted = fit(dataset, &of_all, checkpoints, work)?;
     Ok(Fitted {
         model: fitted.model.with_validation(card(&report)),
-        // Features that folds were fitted on are not computed again.
+        // Reused features of the folds are counted once.
         frames_decoded: fitted.frames_decoded.max(report.provenance.frames_decoded),
         ..fitted
     })

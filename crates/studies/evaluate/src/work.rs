@@ -9,10 +9,10 @@ use crate::cache::Cache;
 /// Threads, progress and cache of a stage.
 #[derive(Clone, Copy)]
 pub struct Work<'a> {
-    /// Worker threads.
+    /// Number of worker threads.
     pub jobs: NonZeroUsize,
-    /// Receives progress, and may cancel.
+    /// Receives progress, and may cancel the work.
     pub progress: &'a dyn Progress,
-    /// Cache for features of frames; `None` for no cache.
+    /// Cache for features of frames, if any.
     pub cache: Option<&'a Cache>,
 }

@@ -1,4 +1,4 @@
-//! Ids derived from content: equal contents have equal ids, on every machine and in every version.
+//! Ids computed from content: equal contents have equal ids on every machine and in every version.
 
 use std::fmt;
 
@@ -40,12 +40,12 @@ impl serde::Serialize for ContentId {
     }
 }
 
-/// Hash in progress. Every part includes its length or has a fixed width, so that different contents give different bytes.
+/// Hash in progress. Every part includes its length or has a fixed width, so different contents give different bytes.
 #[derive(Clone, Debug)]
 pub(crate) struct Hasher(u128);
 
 impl Hasher {
-    /// Starts a hash of the kind `schema`; another version of a kind is another schema.
+    /// Starts a hash of the kind `schema`; each version of a kind has its own schema.
     pub(crate) fn new(schema: &str) -> Hasher {
         Hasher(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d).text(schema)
     }
@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn the_hash_is_that_of_the_reference() {
-        // Test vector of the FNV reference for "a".
+        // Test vector of the FNV reference for the text "a".
         let empty = Hasher(0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
         assert_eq!(
             empty.bytes(b"a").finish().to_string(),

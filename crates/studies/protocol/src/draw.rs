@@ -1,4 +1,4 @@
-//! Counter-based random numbers: each is a function of seed, purpose and place, never of earlier draws.
+//! Counter-based random numbers: each depends on seed, purpose and counters, never on earlier draws.
 
 use taceva_core::random::{STEP, fnv_1a, mix};
 use taceva_core::{Footprint, Nanometre};
@@ -9,23 +9,23 @@ pub(crate) struct Draws {
     key: u64,
 }
 
-/// Greatest number of tries at a place within an outline. A disc fills 79 % of its square, so 64 misses in a row occur once in 10⁴³ points.
+/// Greatest number of tries for a place within an outline. A disc fills 79 % of its square, so 64 misses in a row occur once in 10⁴³ points.
 const TRIES: u64 = 64;
 
 impl Draws {
-    /// Random numbers of `seed` for `purpose`.
+    /// Random numbers for `purpose` from `seed`.
     pub(crate) fn new(seed: u64, purpose: &str) -> Draws {
         Draws {
             key: mix(seed ^ fnv_1a(purpose.as_bytes())),
         }
     }
 
-    /// 64 random bits at `place`.
+    /// 64 random bits for the counters `place`.
     pub(crate) fn bits(self, place: [u64; 2]) -> u64 {
         mix(mix(self.key ^ place[0].wrapping_mul(STEP)) ^ place[1].wrapping_mul(STEP))
     }
 
-    /// Random integer from `least` to `greatest`, both included.
+    /// Random integer from `least` to `greatest`, inclusive.
     pub(crate) fn between(self, least: i64, greatest: i64, place: [u64; 2]) -> i64 {
         let span = u128::from(greatest.abs_diff(least)) + 1;
         let up = (u128::from(self.bits(place)) * span) >> 64;
@@ -33,7 +33,7 @@ impl Draws {
             + i64::try_from(up).expect("at most the span, which came from two i64 that are lengths")
     }
 
-    /// Random place of `footprint`, uniform.
+    /// Uniformly random place in `footprint`.
     pub(crate) fn place(self, footprint: &Footprint, point: u64) -> [Nanometre; 2] {
         let [half_x, half_y] = footprint.half_extent();
         let candidate = |attempt: u64| {

@@ -1,21 +1,21 @@
-//! The size at which a recording keeps its frames.
+//! Size of stored frames.
 
 use std::fmt;
 
 use serde::Serialize;
 use taceva_core::FrameInfo;
 
-/// The sides of a frame, in pixels.
+/// Width and height of a frame, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct FrameSize {
-    /// Width, pixels.
+    /// Width, in pixels.
     pub width: u32,
-    /// Height, pixels.
+    /// Height, in pixels.
     pub height: u32,
 }
 
 impl FrameSize {
-    /// Longest accepted side, pixels.
+    /// Longest accepted side, in pixels.
     pub const SIDE_MAX: u32 = 16_384;
 
     /// Parses `WIDTHxHEIGHT`; `None` for other text or a side outside 1 to [`SIDE_MAX`](Self::SIDE_MAX).
@@ -42,7 +42,7 @@ impl FrameSize {
         self.width <= info.width && self.height <= info.height
     }
 
-    /// Format of the frames that are stored: this size, in 8 bits.
+    /// Format of the stored frames: this size, in 8 bits.
     pub fn kept(self, info: FrameInfo) -> FrameInfo {
         FrameInfo {
             width: self.width,

@@ -1,10 +1,10 @@
-//! Limits of a scene: they may only tighten what a device allows.
+//! Limits in a scene, which may only tighten the limits of the devices.
 
 use serde::Deserialize;
 
 use crate::text::Setting;
 
-/// Limits as written; an absent one leaves the limit of the device.
+/// Limits in a scene; an absent one leaves the limit of the device.
 ///
 /// # Units
 /// mm, N and mm/s; `Pz` is the indentation depth, `Fz` the normal force, `Fxy` the magnitude of the shear.

@@ -1,4 +1,4 @@
-//! Limits of a rig: the tightest that scene, rig file or device states. They cannot be switched off or loosened.
+//! Limits of a rig: the tightest value among scene, rig file and devices. They cannot be switched off or loosened.
 
 mod signals;
 
@@ -21,13 +21,13 @@ pub struct RigLimits {
     pub depth_max: Millimetre,
     /// Greatest normal force.
     pub normal_max: Newton,
-    /// Greatest shear force; the limit of the normal force if none is stated.
+    /// Greatest shear force; by default the limit of the normal force.
     pub shear_max: Newton,
     /// Greatest force that the transducer measures; `None` if it states none.
     pub saturation: Option<Newton>,
     /// Greatest speed out of contact, in mm/s.
     pub speed_max_mm_s: f64,
-    /// Travel of the tip beyond a limit before it rests: see [`Overshoot`].
+    /// Travel of the tip beyond a limit until it rests.
     pub overshoot: Overshoot,
     /// True if all devices are simulated.
     pub simulated: bool,
@@ -38,16 +38,15 @@ pub struct RigLimits {
 
 /// Travel of the tip after it passes a limit.
 ///
-/// A tip moves at v. Force is read every t_sample, sent in t_link and answered in t_react. Without segments the tip travels on by
-/// v·(t_sample + t_link + t_react) + v²/2a. Here the tip moves in segments of length s = v·15 ms. After each it rests until force and pose
-/// are stamped later than the stop, so latency adds no travel. A link may delay a force until it counts as stale; the tip does not move
-/// meanwhile.
+/// A tip moves at v. Force is read every t_sample, sent in t_link and answered in t_react. Without segments, the tip travels on by v·(t_sample +
+/// t_link + t_react) + v²/2a. Therefore the tip moves in segments of length s = v·15 ms. After each segment it rests until force and pose are stamped
+/// later than the stop, so latency adds no travel. A link may delay a force until it counts as stale; the tip does not move meanwhile.
 ///
-/// - With healthy signals a limit is passed within one segment: s + b + m.
+/// - With healthy signals, a limit is exceeded by at most s + b + m.
 /// - A frozen force hides later segments, until [`FROZEN_READINGS`](crate::FROZEN_READINGS) = n equal readings halt the rig: n·s + b + m.
 ///
-/// b is the braking distance: v·t for a robot that states a stop time t, else v²/2a. m = 3·√2·σ is the margin for the pose noise σ, since
-/// depth is the difference of two poses. No segment is shorter than 4·σ, so that each one is visible in the pose.
+/// b is the braking distance: v·t for a robot that states a stop time t, else v²/2a. m = 3·√2·σ is the margin for the pose noise σ, because depth is
+/// the difference of two poses. Every segment is at least 4·σ long, so that it is visible in the pose.
 ///
 /// The overshoot in force is this length times the stiffness of the gel, plus the noise of the transducer.
 ///
@@ -63,19 +62,19 @@ pub struct Overshoot {
     pub frozen_mm: f64,
 }
 
-/// Duration of a segment in contact, in s: a limit passed within it is detected at its end.
+/// Duration of a segment in contact, in s. A limit exceeded within it is detected at its end.
 pub const SEGMENT_S: f64 = 0.015;
-/// Readings equal to the last bit, each after a motion, at which the signal counts as frozen.
+/// Number of bit-equal readings, each after a motion, at which the signal counts as frozen.
 pub const FROZEN_READINGS: u32 = 8;
-/// Assumed deceleration of a robot that states none, in mm/s²; an arm of 1 m/s² stops from 5 mm/s within 0.0125 mm.
+/// Assumed deceleration of a robot that states none, in mm/s². At 1 m/s², an arm stops from 5 mm/s within 0.0125 mm.
 const DECELERATION_MM_S2: f64 = 1_000.0;
-/// Least length of a segment, in standard deviations of a reported pose.
+/// Least length of a segment, in standard deviations of the reported pose.
 const SEGMENT_NOISES: f64 = 4.0;
 /// Margin in standard deviations: less than 3 in 1,000 normally distributed values exceed it.
 const NOISE_SPREAD: f64 = 3.0;
 
 impl Overshoot {
-    /// Overshoot at the speed of contact, for a robot with this pose noise.
+    /// Overshoot at the contact speed `speed_mm_s`, for a robot with this pose noise.
     pub(crate) fn at(speed_mm_s: f64, robot: &RobotFacts, pose_noise_mm: f64) -> Overshoot {
         let segment_mm = (speed_mm_s * SEGMENT_S).max(SEGMENT_NOISES * pose_noise_mm);
         let deceleration_mm_s2 = robot.deceleration_mm_s2.unwrap_or(DECELERATION_MM_S2);
@@ -92,7 +91,7 @@ impl Overshoot {
     }
 }
 
-/// Margin of a depth for pose noise, in mm; a depth is the difference of two poses.
+/// Margin of a depth for pose noise, in mm. A depth is the difference of two poses.
 fn margin_mm(pose_noise_mm: f64) -> f64 {
     NOISE_SPREAD * std::f64::consts::SQRT_2 * pose_noise_mm
 }
@@ -117,7 +116,7 @@ impl RigLimits {
     }
 }
 
-/// A limit and the name of the device or file that states it.
+/// A limit, and the name of the device or file that states it.
 struct Stated {
     limit: f64,
     who: String,
@@ -197,7 +196,7 @@ struct Tighten<'a> {
 }
 
 impl Tighten<'_> {
-    /// The least of the stated limits; a scene that states more than a device is rejected.
+    /// Tightest of the stated limits. Rejects a scene with a looser limit than a device.
     fn least(
         &self,
         key: &'static str,
@@ -286,7 +285,7 @@ fn tightened(
 mod tests {
     use super::*;
 
-    /// A length in nm, so that rounding does not show.
+    /// Rounds a length to nm, so that floating-point errors do not show.
     fn nanometres(length_mm: f64) -> f64 {
         (length_mm * 1e6).round()
     }

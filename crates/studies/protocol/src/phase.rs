@@ -1,4 +1,4 @@
-//! Phases of a protocol: each yields its presses as values and moves nothing.
+//! Phases of a protocol. Each phase returns its presses as values and moves nothing.
 
 mod calibration;
 mod gratings;
@@ -17,17 +17,17 @@ use crate::press::{Motion, Press, Waypoint};
 use crate::scene::Protocol;
 use crate::scene::spacings;
 
-/// Inputs from which presses are drawn.
+/// Inputs for drawing presses.
 #[derive(Clone, Debug)]
 pub(crate) struct PhaseInputs<'a> {
     pub(crate) protocol: &'a Protocol,
     pub(crate) footprint: Footprint,
     pub(crate) depth_max: Nanometre,
-    /// Units of the sensor, never empty. All phases but the surface map measure the first.
+    /// Units of the sensor, never empty. All phases except the surface map measure the first unit.
     pub(crate) units: &'a [String],
-    /// Scenes of light, that of calibration first; empty if the light cannot be set.
+    /// Light scenes, the one of calibration first; empty if the light cannot be set.
     pub(crate) lights: &'a [String],
-    /// False if the gel has no markers, so shear leaves no visible trace.
+    /// False if the gel has no markers, so that shear leaves no visible trace.
     pub(crate) markers: bool,
     pub(crate) seed: u64,
 }
@@ -47,7 +47,7 @@ impl PhaseInputs<'_> {
         }
     }
 
-    /// Number of presses that [`presses`](PhaseInputs::presses) returns, computed without drawing one.
+    /// Number of presses that [`presses`](PhaseInputs::presses) returns, computed without drawing them.
     pub(crate) fn count(&self, kind: PhaseKind) -> u64 {
         let protocol = self.protocol;
         match kind {
@@ -101,8 +101,7 @@ impl PhaseInputs<'_> {
             .collect()
     }
 
-    /// Draws a depth between `least_mm` and the greatest depth, within one of `parts` equal parts of that range. This spreads the depths of
-    /// a point.
+    /// Draws a depth between `least_mm` and the greatest depth, within one of `parts` equal parts of that range. This spreads the depths at a point.
     fn depth(&self, draws: Draws, least_mm: f64, part: DepthPart) -> Nanometre {
         let least = nanometres(least_mm).0.min(self.depth_max.0);
         let span = self.depth_max.0 - least;
@@ -133,11 +132,11 @@ struct DepthPart {
     parts: u32,
 }
 
-/// First counters of the random draws of depths, and of shears, of a point. The draws of its place use lower counters.
+/// First counters for the random draws of depths and shears at a point. The draws of its place use lower counters.
 const DEPTH_AXIS: u64 = 1 << 32;
 const SHEAR_AXIS: u64 = 1 << 40;
 
-/// Converts a length in mm that was checked when the scene was read.
+/// Converts a length in mm that was checked during parsing.
 fn nanometres(millimetres: f64) -> Nanometre {
     Nanometre::from_millimetres(millimetres).expect("lengths of a scene are at most 1000 mm")
 }

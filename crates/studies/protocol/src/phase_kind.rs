@@ -1,19 +1,19 @@
-//! The kinds of phases of a protocol.
+//! Kinds of phases of a protocol.
 
 use std::fmt;
 
-/// A part of a protocol.
+/// A phase of a protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PhaseKind {
-    /// Pictures without contact, for the frame rate and the latency of the sensor.
+    /// Frames without contact, for the frame rate and the latency of the sensor.
     Idle,
-    /// Height of the surface, felt at the same points on every unit.
+    /// Surface height, measured at the same points on every unit.
     SurfaceMap,
     /// Presses for fitting and testing a model, straight and sheared.
     Calibration,
     /// Held-out presses all over the surface.
     Spatial,
-    /// Held-out presses, repeated in every scene of light.
+    /// Held-out presses, repeated in every light scene.
     LightSweep,
     /// Points pressed repeatedly.
     Repeatability,

@@ -1,6 +1,6 @@
-//! Plans a study by pure passes, which remove and merge, never add, and store a reason each time.
+//! Plans a study by pure passes. They remove and merge, never add, and store the reason for each removal.
 //!
-//! `collect → resolve → applicability → phases → merge → fields → check → cost`, one pass a file.
+//! `collect → resolve → applicability → phases → merge → fields → check → cost`, one file for each pass.
 
 mod applicability;
 mod check;
@@ -35,32 +35,32 @@ use collect::Collected;
 pub(crate) use collect::{MetricNeeds, SURFACE};
 use study_facts::{Gather, StudyFacts};
 
-/// Plan of one sensor: its metrics, presses and models, and what is skipped with reasons. [`Display`](std::fmt::Display) explains it.
+/// Plan of one sensor: its metrics, presses and models, and skipped parts with reasons. [`Display`](std::fmt::Display) explains it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The name of the study.
     pub name: String,
-    /// Metrics that are computed.
+    /// Metrics to compute.
     pub metrics: Vec<PlannedMetric>,
     /// Phases of the protocol, in order; empty for a recording.
     pub phases: Vec<PhaseKind>,
     /// Presses, in the order of their execution.
     pub presses: Vec<PlannedPress>,
-    /// Models that are fitted.
+    /// Models to fit.
     pub fits: Vec<Fit>,
     /// Fields of samples that a metric reads.
     pub fields: FieldSet,
     /// Channels of the truth.
     pub channels: Vec<String>,
-    /// Units that are measured, in order.
+    /// Units to measure, in order.
     pub units: Vec<String>,
-    /// Scenes of light, that of calibration first.
+    /// Light scenes, the one of calibration first.
     pub lights: Vec<String>,
     /// Skipped metrics, phases, models, fields and channels, with reasons.
     pub skipped: Vec<PlanSkip>,
     /// Limits of every motion; `None` if nothing moves.
     pub limits: Option<RigLimits>,
-    /// Settings for finding and holding contact.
+    /// Settings for finding and keeping contact.
     pub contact: Contact,
     /// Outline of the sensing surface.
     pub footprint: Option<Footprint>,
@@ -75,9 +75,9 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Digest of the acquisition: a recording begun under another digest is not continued.
+    /// Digest of the acquisition. A recording with another digest is not resumed.
     ///
-    /// Excludes metrics, so a finished acquisition serves a scene that wants fewer metrics from the same presses.
+    /// Excludes metrics, so that a finished acquisition also serves a scene with fewer metrics from the same presses.
     pub fn digest(&self) -> ContentId {
         let contact = &self.contact;
         let hasher = Hasher::new("taceva.plan/1")
@@ -114,7 +114,7 @@ impl Plan {
         Channels::new(channels).unwrap_or_default()
     }
 
-    /// Facts of the sensor that metrics read. The reference scene of light is that of calibration.
+    /// Facts of the sensor that metrics read. The reference light scene is that of calibration.
     pub fn sensor_facts(&self) -> SensorFacts {
         let depth_max_mm = self.limits.as_ref().map(|limits| limits.depth_max.0);
         let footprint = self
@@ -155,12 +155,12 @@ impl Plan {
     }
 }
 
-/// Plans the studies of `scene`, each with the facts that `source` returns for it. Opens no device.
+/// Plans the studies of `scene` with the facts that `source` returns for each. Opens no device.
 ///
 /// # Errors
 /// [`SceneError`] with the line:
 ///
-/// - a limit is loosened or absent, or a depth exceeds its limit;
+/// - a limit is loosened or missing, or a depth exceeds its limit;
 /// - two statements contradict each other, or there are too many presses;
 /// - a metric requested by name applies to no study of the scene.
 pub fn plan(
@@ -229,7 +229,7 @@ fn refine(collected: Collected, facts: &StudyFacts<'_>) -> Result<Collected, Sce
     check::pass(collected, facts)
 }
 
-/// Rejects a metric that the scene requests by name and no study can compute.
+/// Rejects a metric that the scene requests by name but no study can compute.
 fn refuse_the_impossible(scene: &Scene, plans: &[Plan]) -> Result<(), SceneError> {
     let named = scene.metrics.want.iter().flatten();
     for name in named.filter(|name| catalogue::find(&name.value).is_some()) {

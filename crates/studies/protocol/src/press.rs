@@ -1,4 +1,4 @@
-//! A press: its place, specimen and depths; a value with an id derived from its content.
+//! A press: its place, specimen and depths, with an id computed from its content.
 
 use taceva_core::{Nanometre, Phase, Specimen};
 
@@ -9,15 +9,15 @@ use crate::content_id::{ContentId, Hasher};
 pub struct Press {
     /// Unit of the sensor model.
     pub unit: String,
-    /// Scene of light; `None` if the light cannot be set.
+    /// Light scene; `None` if the light cannot be set.
     pub light: Option<String>,
     /// Specimen that touches the gel.
     pub specimen: Specimen,
-    /// Place along x and y of the sensor's frame.
+    /// Place along x and y of the sensor frame.
     pub place: [Nanometre; 2],
-    /// Turn of the specimen about z, in thousandths of a degree.
+    /// Rotation of the specimen about z, in thousandths of a degree.
     pub turn_millidegrees: i32,
-    /// Number of the trial, if presses are repeated.
+    /// Number of the trial for repeated presses.
     pub repeat: Option<u32>,
     /// Motion at this place.
     pub motion: Motion,
@@ -26,12 +26,12 @@ pub struct Press {
 /// Motion at a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Motion {
-    /// Pictures from above the gel, touching nothing.
+    /// Frames above the gel without contact.
     Rest {
-        /// Number of pictures.
+        /// Number of frames.
         frames: u32,
     },
-    /// First contact alone, for the height of the surface.
+    /// First contact only, for the surface height.
     Touch,
     /// First contact, then these waypoints in order.
     Indent(Vec<Waypoint>),
@@ -80,7 +80,7 @@ impl Press {
         .finish()
     }
 
-    /// Contact point that its samples share with all others there: the board of a grating, else the place in mm.
+    /// Contact point shared by all its samples: the board of a grating, else the place in mm.
     pub fn point_id(&self) -> String {
         match self.specimen {
             Specimen::Grating { kind, spacing } => format!("{kind} {}", spacing.to_millimetres()),

@@ -1,4 +1,4 @@
-//! Reasons for which a plan skips or merges parts.
+//! Reasons why a plan skips or merges parts.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use taceva_core::{Field, SkipReason, by_count, counted};
 
 use crate::phase_kind::PhaseKind;
 
-/// The lines of a scene that state the sensing surface; either suffices.
+/// Lines of a scene that state the sensing surface; one of them suffices.
 const FOOTPRINT_LINE: &str = "`footprint = { shape = \"disc\", radius_mm = … }` or \
      `footprint = { shape = \"rect\", half_x_mm = …, half_y_mm = … }`";
 
@@ -22,9 +22,9 @@ pub struct PlanSkip {
 /// Parts that a plan can skip.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Subject {
-    /// Metric by its id, or some of its channels: `repeatability (Fx, Fy)`.
+    /// A metric by its id, or some of its channels: `repeatability (Fx, Fy)`.
     Metric(String),
-    /// Phase of the protocol, or some of its presses.
+    /// A phase of the protocol, or some of its presses.
     Phase(PhaseKind),
     /// A model that predicts this field.
     Fit(Field),
@@ -59,31 +59,31 @@ impl fmt::Display for Subject {
     }
 }
 
-/// Reason for which a plan skips a part.
+/// Reasons why a plan skips a part.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum PlanReason {
     /// A reason that any stream of samples may have.
     Skip(SkipReason),
-    /// A field without a source.
+    /// A field has no source.
     Unresolved {
         /// The field.
         field: Field,
         /// Missing source.
         cause: Cause,
     },
-    /// A channel that no device of the rig measures.
+    /// No device of the rig measures a channel.
     Unmeasured {
         /// The channel.
         channel: String,
         /// Missing device.
         cause: Cause,
     },
-    /// The gel has no markers: shear leaves no repeatable trace.
+    /// The gel has no markers, so shear leaves no repeatable trace.
     NoMarkers,
     /// No computed metric needs it.
     NoMetricNeeds,
-    /// Presses shared with another phase, which are made once.
+    /// Presses are shared with another phase and made once.
     VisitedBy {
         /// The other phase.
         phase: PhaseKind,
@@ -106,13 +106,13 @@ pub enum Cause {
     NoAxis,
     /// No model.
     NoModel,
-    /// No model that can be fitted: a finished one predicts its own labels only.
+    /// No model can be fitted; a fitted one predicts its own labels only.
     NoEstimator,
     /// The light cannot be set.
     NoLighting,
-    /// One scene of light, where two are compared.
+    /// There is one light scene; the metric compares two.
     OneLight,
-    /// One unit, where two are compared.
+    /// There is one unit; the metric compares two.
     OneUnit,
 }
 
@@ -150,7 +150,7 @@ impl fmt::Display for Cause {
 }
 
 impl PlanReason {
-    /// One reason of each kind, for tests of every line.
+    /// One reason of each kind, for tests of every message.
     pub fn all() -> Vec<PlanReason> {
         let skips = SkipReason::all().into_iter().map(PlanReason::Skip);
         let causes = Cause::ALL.into_iter().map(|cause| PlanReason::Unresolved {
@@ -250,7 +250,7 @@ mod tests {
         }
     }
 
-    /// Another crate declares the reasons of samples as a non-exhaustive enum, so no match can cover them. The test parses its source.
+    /// Another crate declares these reasons as a non-exhaustive enum, so no match can cover them. The test parses the source of that crate.
     #[test]
     fn every_reason_that_a_stream_may_have_is_among_all() {
         let source = concat!(

@@ -1,4 +1,4 @@
-//! A rig file: the drivers of the devices, their orientation and place, and the limits of the rig.
+//! Rig file: drivers, mounting and limits of the devices of a rig.
 
 mod axes;
 mod changers;
@@ -30,7 +30,7 @@ const GREATEST_LATENCY_MS: f64 = 1_000.0;
 /// Greatest accepted limit, as in a scene, in mm, N or mm/s.
 const GREATEST_LIMIT: f64 = 1_000.0;
 
-/// Rig on which a scene runs, parsed from TOML.
+/// Rig for scenes, parsed from TOML.
 ///
 /// ```
 /// use taceva_protocol::RigFile;
@@ -55,9 +55,9 @@ pub struct RigFile {
     pub force: Option<RigForce>,
     /// The sensor.
     pub sensor: Option<RigSensor>,
-    /// Enabling switch and its operator, if the rig has one.
+    /// Enabling switch and its operator, if any.
     pub operator: Option<RigOperator>,
-    /// Devices that change things without a person.
+    /// Devices that change specimen, unit or light automatically.
     pub changers: RigChangers,
     /// Limits of the rig, which may only tighten those of its devices.
     pub limits: LimitSpec,
@@ -71,13 +71,13 @@ pub struct RigRobot {
     pub driver: Setting<String>,
     /// Body that it moves.
     pub carries: Carried,
-    /// Position in its base frame at which the tip is at the middle of the untouched gel, in mm.
+    /// Position of the tip at the middle of the untouched gel, in the base frame, in mm.
     pub origin_mm: Setting<[f64; 3]>,
     /// Axis of the base for each axis of the sensor.
     pub axes: Setting<SignedAxes>,
-    /// Rotation of its tool in the base frame for an unturned tip: about x, y and z, in degrees. `None` means the rotation at opening.
+    /// Rotation of the tool in the base frame for an unturned tip: about x, y and z, in degrees. `None` uses the rotation at opening.
     pub turned_deg: Option<[f64; 3]>,
-    /// Delay between a pose and its stamp, in ms; `None` means the latency that the driver states.
+    /// Delay between a pose and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
 }
 
@@ -85,9 +85,9 @@ pub struct RigRobot {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Carried {
-    /// Indenter, over a sensor at rest.
+    /// Indenter, above a resting sensor.
     Indenter,
-    /// Sensor, over an indenter at rest.
+    /// Sensor, above a resting indenter.
     Sensor,
 }
 
@@ -96,9 +96,9 @@ pub enum Carried {
 pub struct RigForce {
     /// Selector of its driver.
     pub driver: Setting<String>,
-    /// Axis of the transducer for each axis of the sensor: Fz above 0 presses into the gel.
+    /// Axis of the transducer for each axis of the sensor. Fz above 0 presses into the gel.
     pub axes: Setting<SignedAxes>,
-    /// Delay between a reading and its stamp, in ms; `None` means the latency that the driver states.
+    /// Delay between a reading and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
 }
 
@@ -107,14 +107,14 @@ pub struct RigForce {
 pub struct RigSensor {
     /// Selector of its driver.
     pub driver: Setting<String>,
-    /// Delay between a frame and its stamp, in ms; `None` means the latency that the driver states.
+    /// Delay between a frame and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
 }
 
 /// Operator of a rig, with the enabling switch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigOperator {
-    /// Selector of the enabling switch: released, it halts the robot.
+    /// Selector of the enabling switch. Releasing the switch halts the robot.
     pub enable: Setting<String>,
     /// Longest wait for a held switch, in s.
     pub patience_s: f64,
@@ -170,12 +170,12 @@ struct WrittenOperator {
 }
 
 impl RigFile {
-    /// Parses the rig file `text`; errors call it `source_name`.
+    /// Parses the rig file `text`; `source_name` is its name in errors.
     ///
     /// # Errors
     /// [`SceneError`] with the line:
     ///
-    /// - invalid TOML, or an unknown key, with the nearest known one;
+    /// - invalid TOML, or an unknown key, with the most similar known key;
     /// - axes that form no right-handed frame;
     /// - a place, latency, patience or limit out of range.
     pub fn parse(source_name: &str, text: &str) -> Result<RigFile, SceneError> {
@@ -215,18 +215,18 @@ impl RigFile {
         self.text.source_name()
     }
 
-    /// Digest of the text: a changed file counts as another rig.
+    /// Digest of the text. A changed file counts as another rig.
     pub fn digest(&self) -> ContentId {
         ContentId::of_text(self.text.whole())
     }
 
-    /// Longest wait for a held enabling switch, in s; 0 if the rig has none.
+    /// Longest wait for the enabling switch to be held, in s; 0 without a switch.
     pub fn patience_s(&self) -> f64 {
         let operator = self.operator.as_ref();
         operator.map_or(0.0, |operator| operator.patience_s)
     }
 
-    /// Error for `problem` at the byte `at` of the file.
+    /// Error for `problem` at the byte offset `at` of the file.
     pub fn error(&self, at: Option<usize>, problem: SceneProblem) -> SceneError {
         self.text.error(at, problem)
     }
@@ -330,7 +330,7 @@ impl Check<'_> {
         numbers: &Setting<[f64; 3]>,
         greatest: f64,
     ) -> Result<(), SceneError> {
-        // NaN is in no range.
+        // NaN is outside every range.
         let is_inside = |number: &f64| (-greatest..=greatest).contains(number);
         match numbers.value.iter().find(|number| !is_inside(number)) {
             None => Ok(()),

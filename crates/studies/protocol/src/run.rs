@@ -1,9 +1,9 @@
-//! Runs a plan on borrowed devices: safely, resumably, and without a clock or a file of its own.
+//! Runs a plan on borrowed devices: safely, resumably, and without its own clock or files.
 //!
-//! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms, or in longer
-//! ones if guard threads run and no limit is near. After each segment force and pose are read and shown to the [`Supervisor`]. A limit of
-//! the gel ends the way in, and the run continues. A press interrupted by stale signals is repeated. Any other cause stops the run, and the
-//! same call resumes it. The tip leaves the gel if its signals can be trusted and the robot reports no fault.
+//! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms, or in longer ones if
+//! guard threads run and no limit is near. After each segment, force and pose are read and checked by the [`Supervisor`]. A limit of the gel ends the
+//! descent, and the run continues. A press interrupted by stale signals is repeated. Any other cause stops the run, and the same call resumes it. The
+//! tip leaves the gel if its signals can be trusted and the robot reports no fault.
 
 mod align;
 mod bounds;
@@ -70,7 +70,7 @@ use session::Run;
 pub struct RunSpec<'a> {
     /// The plan.
     pub plan: &'a Plan,
-    /// Unit on the rig; presses of other units are left for another run.
+    /// Unit on the rig; another run makes the presses of other units.
     pub unit: &'a str,
     /// Acquisition or rehearsal.
     pub mode: Mode,
@@ -79,33 +79,33 @@ pub struct RunSpec<'a> {
 /// Acquisition or rehearsal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mode {
-    /// Presses are made and recorded.
+    /// Makes and records presses.
     Acquire,
-    /// Every place is visited at this height above the height of travel, with the same loop and supervisor. Nothing is recorded.
+    /// Visits every place at this height above the travel height, with the same loop and supervisor. Nothing is recorded.
     Rehearse {
-        /// Added to the clearance.
+        /// Height added to the clearance.
         height: Millimetre,
     },
 }
 
 /// Clock, cancellation and the receiver of events.
 pub struct Controls<'a> {
-    /// Clock of the stamps of the devices.
+    /// Clock that stamps the devices.
     pub clock: &'a mut dyn Timekeeper,
     /// Stops the run before its next motion.
     pub cancel: &'a Cancel,
     /// Callback for events.
     pub events: &'a mut dyn FnMut(&Event),
-    /// Operator for manual steps; without one, a plan that needs such a step stops there.
+    /// Operator for manual steps. Without one, a plan that needs such a step stops there.
     pub operator: Option<&'a mut dyn Operator>,
 }
 
 /// Counts of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RunReport {
-    /// Presses of this unit finished in earlier runs.
+    /// Presses of this unit that earlier runs finished.
     pub resumed: usize,
-    /// Durable presses of this run; in a rehearsal, places visited.
+    /// Durable presses of this run; in a rehearsal, visited places.
     pub made: usize,
     /// Interrupted presses that were repeated, after stale signals or a released enabling switch.
     pub redone: u32,
@@ -115,11 +115,11 @@ pub struct RunReport {
     pub without_contact: usize,
     /// Samples recorded in this run.
     pub samples: usize,
-    /// Presses left for another run, because the operator skipped a step that they need.
+    /// Presses left for another run because the operator skipped a step that they need.
     pub skipped: usize,
 }
 
-/// Makes the presses of `spec` that are not yet in `log`, each durable before the next begins.
+/// Makes the presses of `spec` that are missing in `log`. Each is durable before the next begins.
 ///
 /// Starts and stops sensor and transducer; leaves the robot above the gel.
 ///
@@ -134,7 +134,7 @@ pub fn run<'a>(
     run_under(spec, devices, log, controls, None)
 }
 
-/// Makes the presses of `spec` under `guard`, to which threads of the caller show readings.
+/// Makes the presses of `spec` under `guard`, whose threads pass readings to the supervisor.
 ///
 /// # Errors
 /// As [`run`]; a session also fails with [`StopCause::Rig`], [`StopCause::SlowGuard`] or [`StopCause::Touch`] before its first press.

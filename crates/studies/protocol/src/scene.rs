@@ -1,4 +1,4 @@
-//! A scene in TOML: the sensors, their rigs, and the measurements.
+//! Scene in TOML: the sensors, their rigs, and the measurements.
 
 mod boards;
 mod builtin;
@@ -30,7 +30,7 @@ use taceva_core::DriverKind;
 use crate::rig_file::RigFile;
 use crate::text::{SceneError, SceneProblem, Setting, Text};
 
-/// Source of the names of devices.
+/// Source of the device names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NamedBy {
     /// The scene.
@@ -39,7 +39,7 @@ enum NamedBy {
     Rig,
 }
 
-/// A checked scene. [`plan`](crate::plan) checks it against the abilities of the devices.
+/// A checked scene. [`plan`](crate::plan) checks it against the capabilities of the devices.
 ///
 /// ```
 /// use taceva_protocol::Scene;
@@ -74,12 +74,12 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Parses the scene `text`; errors call it `source_name`.
+    /// Parses the scene `text`; `source_name` is its name in errors.
     ///
     /// # Errors
     /// [`SceneError`] with the line:
     ///
-    /// - invalid TOML, or an unknown key or name, with the nearest known one;
+    /// - invalid TOML, or an unknown key or name, with the most similar known one;
     /// - a count or number out of range, or two contradictory statements;
     /// - a limit of a study above that of its scene.
     pub fn parse(source_name: &str, text: &str) -> Result<Scene, SceneError> {
@@ -94,10 +94,10 @@ impl Scene {
         check::checked(Text::new(source_name, text)?, NamedBy::Rig)
     }
 
-    /// Replaces the devices of every study that presses by those of `rig`.
+    /// Replaces the devices of every study that presses with those of `rig`.
     ///
     /// # Errors
-    /// [`SceneError`] of the rig file, if it has no sensor.
+    /// [`SceneError`] of the rig file, if the file has no sensor.
     pub fn put_on(&mut self, rig: &Arc<RigFile>) -> Result<(), SceneError> {
         let pressed = |study: &&mut Study| study.sensor.dataset.is_none();
         for study in self.studies.iter_mut().filter(pressed) {
@@ -124,10 +124,10 @@ impl Scene {
         self.studies.iter().flat_map(Study::drivers)
     }
 
-    /// Rejects a driver that is not in `known`, pairs of a kind and a key such as `sim/gelsight`.
+    /// Rejects a driver that is not in `known`, a list of kinds with keys such as `sim/gelsight`.
     ///
     /// # Errors
-    /// [`SceneProblem::UnknownName`] with the line and the nearest key.
+    /// [`SceneProblem::UnknownName`] with the line and the most similar key.
     pub fn check_drivers(&self, known: &[(DriverKind, &str)]) -> Result<(), SceneError> {
         let named = self
             .studies

@@ -1,4 +1,4 @@
-//! Sources of a study as data: descriptors of its devices, or the contents of a recording. Planning opens nothing.
+//! Sources of a study as data: descriptors of its devices, or the contents of a recording. Planning opens no device.
 
 use taceva_core::{Channels, Descriptor, FieldSet, Footprint, FrameInfo};
 
@@ -11,7 +11,7 @@ pub enum SourceInfo {
     Recording(RecordingInfo),
 }
 
-/// Descriptors of the devices of a rig; `None` for missing ones.
+/// Descriptors of the devices of a rig; `None` for a missing device.
 #[derive(Clone, Debug, Default)]
 pub struct RigInfo {
     /// The sensor.
@@ -27,7 +27,7 @@ pub struct RigInfo {
 /// Contents of a recording.
 #[derive(Clone, Debug)]
 pub struct RecordingInfo {
-    /// Fields of its samples; never predictions, which a model makes.
+    /// Fields of its samples, without predictions, which a model makes.
     pub fields: FieldSet,
     /// The channels of the truth.
     pub channels: Channels,

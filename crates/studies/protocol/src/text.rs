@@ -1,4 +1,4 @@
-//! Text of a scene or a rig file: parsed strictly; errors name the line.
+//! Text of a scene or a rig file. Parsing is strict, and errors name the line.
 
 mod error;
 mod setting;
@@ -12,7 +12,7 @@ pub use setting::Setting;
 /// Greatest length of a scene, in bytes.
 pub const GREATEST_SCENE: usize = 1 << 20;
 
-/// Text of a scene or rig file, with its name in errors.
+/// Text of a scene or rig file, and its name for errors.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Text {
     source_name: String,
@@ -35,7 +35,7 @@ impl Text {
         Ok(whole)
     }
 
-    /// Name of the text in errors.
+    /// Name of the text for errors.
     pub(crate) fn source_name(&self) -> &str {
         &self.source_name
     }
@@ -53,7 +53,7 @@ impl Text {
         })
     }
 
-    /// Error for `problem` at the line of the byte `at`.
+    /// Error for `problem` at the line of the byte offset `at`.
     pub(crate) fn error(&self, at: Option<usize>, problem: SceneProblem) -> SceneError {
         SceneError {
             source_name: self.source_name.clone(),
@@ -85,7 +85,7 @@ impl Text {
     }
 }
 
-/// Converts a message of the parser to a problem; escapes control characters of foreign text.
+/// Converts a parser message to a problem; escapes control characters.
 fn explained(message: &str) -> SceneProblem {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match quoted.as_slice() {

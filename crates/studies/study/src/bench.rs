@@ -1,4 +1,4 @@
-//! Run time against error: the measurements of `taceva bench`, as data.
+//! Benchmarks of `taceva bench`: run time against error.
 
 mod front;
 mod kernels;
@@ -12,5 +12,5 @@ pub use machine::Machine;
 pub use models::{ModelRace, ModelTrial, ModelTrials, TrialError, models};
 pub use stopwatch::{Spread, Stopwatch};
 
-/// The schema of every benchmark as JSON.
+/// Schema of every benchmark as JSON.
 pub const BENCH_SCHEMA: &str = "taceva.bench/1";

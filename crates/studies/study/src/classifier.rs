@@ -1,4 +1,4 @@
-//! The classifier of the spacings of gratings, configured from a scene.
+//! Classifier of grating spacings, configured from a scene.
 
 use taceva_models::{
     ChosenModel, FeatureSpec, ModelSettings, Models, NetworkEstimator, SpacingOutput,
@@ -9,7 +9,7 @@ use taceva_evaluate::EvaluateError;
 
 use crate::settings::settings_of;
 
-/// A classifier of the spacings of gratings.
+/// A classifier of grating spacings.
 #[derive(Debug)]
 pub(crate) enum SpacingClassifier {
     /// Linear discriminants of the radial spectrum.
@@ -19,24 +19,24 @@ pub(crate) enum SpacingClassifier {
     Network(Box<NetworkClassifier>),
 }
 
-/// A model of the radial spectrum, not fitted yet.
+/// A model of the radial spectrum before its fit.
 #[derive(Debug)]
 pub(crate) struct ModelClassifier {
     pub(crate) model: ChosenModel,
     pub(crate) settings: ModelSettings,
 }
 
-/// A network that classifies spacings of gratings, not fitted yet.
+/// A network that classifies grating spacings, before its fit.
 #[derive(Debug)]
 pub(crate) struct NetworkClassifier {
     pub(crate) estimator: NetworkEstimator,
-    /// The features of a picture.
+    /// Features of a frame.
     pub(crate) features: FeatureSpec,
     pub(crate) output: SpacingOutput,
 }
 
 impl SpacingClassifier {
-    /// The classifier of `spec`.
+    /// Classifier of `spec`.
     ///
     /// # Errors
     /// [`EvaluateError`] for an unknown setting, or a model that is not among `models`.
@@ -69,7 +69,7 @@ impl SpacingClassifier {
         })))
     }
 
-    /// The cells of a frame that it reads, along x and y; `None` if it reads the whole frame.
+    /// Grid cells of a frame that it reads, along x and y; `None` if it reads the whole frame.
     pub(crate) fn cells(&self) -> Option<[u32; 2]> {
         match self {
             SpacingClassifier::Network(network) => {
@@ -79,7 +79,7 @@ impl SpacingClassifier {
         }
     }
 
-    /// Method of predicting spacings, for readers of the report.
+    /// Prediction method of spacings, for the report.
     pub(crate) const fn note(&self) -> &'static str {
         match self {
             SpacingClassifier::Spectrum => {

@@ -16,7 +16,7 @@ pub enum StudyError {
     /// An error of evaluation.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),
-    /// A folder of a run that cannot be created, read or resumed.
+    /// A folder of a run cannot be created, read or resumed.
     #[error("{}: {problem}", taceva_core::shown(path))]
     RunFolder {
         /// The folder or a file in it.
@@ -27,7 +27,7 @@ pub enum StudyError {
 }
 
 impl StudyError {
-    /// The kind of the error, from the closed list that all crates share.
+    /// Kind of the error, in the common list of error kinds.
     pub fn kind(&self) -> ErrorKind {
         match self {
             StudyError::Acquire(error) => error.kind(),
@@ -36,12 +36,12 @@ impl StudyError {
         }
     }
 
-    /// True if a device failed, rather than the user's input, a read or a write.
+    /// True if a device failed, not the user's input, a read or a write.
     pub fn is_of_device(&self) -> bool {
         matches!(self, StudyError::Acquire(error) if error.is_of_device())
     }
 
-    /// True if the command line is at fault, rather than a file.
+    /// True if the command line is at fault, not a file.
     pub fn is_usage(&self) -> bool {
         match self {
             StudyError::Acquire(error) => error.is_usage(),

@@ -1,4 +1,4 @@
-//! The models of a scene: those of its studies, and the classifier of gratings.
+//! Models of a scene: those of its studies, and the classifier of gratings.
 
 use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_evaluate::{EvaluateError, FitRequest, Recipe};
@@ -9,9 +9,9 @@ use crate::classifier::SpacingClassifier;
 use crate::error::StudyError;
 use crate::settings::settings_of;
 
-/// Rejects a model to be fitted that this program lacks, or a setting that it does not accept.
+/// Rejects an unknown model to be fitted, or an unknown setting.
 ///
-/// Separate from [`new`](PlannedScene::new), because a plan can be read where it cannot be run.
+/// Separate from [`new`](PlannedScene::new), because programs without these models can still read the plan.
 ///
 /// # Errors
 /// [`AcquireError::Scene`](taceva_acquire::AcquireError::Scene) with the line.
@@ -57,7 +57,7 @@ pub fn check_models(scene: &PlannedScene, models: &Models) -> Result<(), StudyEr
     Ok(())
 }
 
-/// Rejects stored frames below the resolution that a model reads, before the first press rather than after the last.
+/// Rejects stored frames below the resolution that a model reads, before the first press.
 fn check_kept(
     scene: &PlannedScene,
     planned: &PlannedStudy,
@@ -84,7 +84,7 @@ fn check_kept(
     Err(scene.text.error(kept.at(), problem).into())
 }
 
-/// The classifier of the spacings of gratings.
+/// Classifier of grating spacings.
 ///
 /// # Errors
 /// [`AcquireError::Scene`](taceva_acquire::AcquireError::Scene) with the line of an unknown setting or model.
@@ -99,9 +99,9 @@ pub(crate) fn classifier(
     })
 }
 
-/// The fit of the scene, if it has one; contact points are kept whole.
+/// Fit of the scene, if it has one. Contact points are kept whole.
 ///
-/// `seed` is that of the scene, for the division of samples. A model draws from a seed in its own settings.
+/// `seed` is that of the scene and divides the samples. A model draws from the seed in its own settings.
 pub(crate) fn fit_request(
     planned: &PlannedStudy,
     seed: u64,
@@ -122,7 +122,7 @@ pub(crate) fn fit_request(
     Some(request())
 }
 
-/// The file of the finished model that the scene names, relative to its folder.
+/// File of the fitted model that the scene names, relative to the folder of the scene.
 pub(crate) fn model_file(planned: &PlannedStudy) -> Option<&str> {
     let model = planned.study.model.as_ref()?;
     Some(model.file.as_ref()?.value.as_str())

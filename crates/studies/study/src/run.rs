@@ -1,4 +1,4 @@
-//! A whole scene: acquire every study, then fit, predict and score it.
+//! Run of a whole scene: acquires, fits, predicts and scores every study.
 
 mod folder;
 mod layout;
@@ -19,26 +19,26 @@ use crate::models::check_models;
 use crate::stage::{RunContext, assess};
 pub use folder::{Existing, RunFolder};
 
-/// Resources of a run: the workshop that presses, models, a cache and threads.
+/// Resources of a run: workshop, models, cache and threads.
 #[derive(Clone, Copy)]
 pub struct RunSetup<'a> {
-    /// The devices, and the observers.
+    /// Devices and observers.
     pub workshop: Workshop<'a>,
     /// The models of the program.
     pub models: &'a Models,
-    /// The cache of finished stages, if any.
+    /// Cache of finished stages, if any.
     pub cache: Option<&'a Cache>,
-    /// Threads.
+    /// Number of threads.
     pub jobs: NonZeroUsize,
 }
 
-/// The reports of the studies of `scene`, in order. Presses are recorded in `folder`, several studies at a time.
+/// Reports of the studies of `scene`, in order. Records presses in `folder`, several studies at a time.
 ///
-/// Reports depend neither on `jobs`, nor on interruptions and resumptions of the run, nor on the content of a cache.
+/// Reports do not depend on `jobs`, on interruptions of the run, or on the content of a cache.
 ///
 /// # Errors
-/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed or the run was cancelled: the same call with the same folder
-/// resumes it. [`AcquireError::Scene`] for a model that this program lacks; others as [`evaluate`](taceva_evaluate::evaluate).
+/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed or the run was cancelled: the same call resumes it.
+/// [`AcquireError::Scene`] for an unknown model; others as [`evaluate`](taceva_evaluate::evaluate).
 pub fn run_scene(
     scene: &PlannedScene,
     folder: &RunFolder,
@@ -49,7 +49,7 @@ pub fn run_scene(
     let work = Work {
         jobs: setup.jobs,
         progress: setup.workshop.progress,
-        // Besides models and predictions, so that another setting of the model decodes no frame again.
+        // Also caches features, so that other model settings need no decoding.
         cache: setup.cache,
     };
     let studies = scene.studies.iter().zip(&datasets);
@@ -65,12 +65,12 @@ pub fn run_scene(
     assessed.collect()
 }
 
-/// The recordings of all studies of `scene` in `folder`, in order: acquired, resumed or found there, as [`run_scene`] does before it fits
-/// and scores. Each worker takes the next free study. Real devices exist once, so that studies take turns on them.
+/// Recordings of all studies of `scene` in `folder`, in order: acquired, resumed or found, as in [`run_scene`]. Each worker takes the next free
+/// study. Real devices exist only once, so studies on them run in turn.
 ///
 /// # Errors
-/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] as [`run_scene`]; [`AcquireError::Request`] for a scene that needs an operator
-/// where none is present; [`AcquireError::Dataset`] if it cannot be recorded.
+/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] as [`run_scene`]; [`AcquireError::Request`] for a scene that needs an operator if there
+/// is none; [`AcquireError::Dataset`] if the recording cannot be written.
 pub fn acquire_scene(
     scene: &PlannedScene,
     folder: &RunFolder,
@@ -102,7 +102,7 @@ pub fn acquire_scene(
                     };
                     let dataset = obtain(study, number, folder, setup, &cancel);
                     if dataset.is_err() {
-                        // The others stop at their next motion, so that a failure is reported at once.
+                        // The other studies stop at their next motion, so that a failure is reported at once.
                         cancel.cancel();
                     }
                     done.lock().unwrap_or_else(PoisonError::into_inner)[number] = Some(dataset);
@@ -114,12 +114,12 @@ pub fn acquire_scene(
     let done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
     let done: Vec<Result<Dataset, StudyError>> = done.into_iter().flatten().collect();
     let (datasets, mut errors): (Vec<_>, Vec<_>) = done.into_iter().partition(Result::is_ok);
-    // Cancelled studies come after the one that failed.
+    // Cancelled studies sort after the one that failed.
     errors.sort_by_key(|result| matches!(result, Err(error) if is_cancelled(error)));
     errors.into_iter().chain(datasets).collect()
 }
 
-/// The recording of one study, acquired now or found.
+/// Recording of one study, acquired now or found.
 fn obtain(
     study: &PlannedStudy,
     number: usize,
@@ -138,7 +138,7 @@ fn obtain(
             .fold(key, |key, (name, part)| key.part(name, part));
         Some(key.finish())
     });
-    // A real rig is never replayed, so it has no key.
+    // A study on a real rig has no key, because it cannot be repeated.
     let Some(key) = key else {
         return press();
     };
@@ -152,7 +152,7 @@ fn obtain(
 }
 
 impl<'a> RunSetup<'a> {
-    /// The cache for study `number`, counted from 0.
+    /// Cache for study `number`, counted from 0.
     fn cache_of(self, study: &'a PlannedStudy, number: usize) -> StudyCache<'a> {
         StudyCache {
             cache: self.cache,

@@ -1,4 +1,4 @@
-//! Recording of a study to its report: fit, predict and score, each on the presses that the plan assigns to it.
+//! Stages from the recording of a study to its report: fit, predict and score, each on its planned presses.
 
 mod context;
 mod gratings;
@@ -32,7 +32,7 @@ use gratings::PredictedSpacings;
 use phase_rows::{PhaseRows, seen};
 use score::{Scores, score};
 
-/// The report of `study`, whose recording is `dataset`.
+/// Report of `study` with the recording `dataset`.
 pub(crate) fn assess(
     scene: &PlannedScene,
     study: &PlannedStudy,
@@ -145,7 +145,7 @@ pub(crate) fn assess(
     Ok(taceva_evaluate::assess(rows, beyond, context)?.report)
 }
 
-/// The model of a study, and the split it was fitted on.
+/// Model of a study, and the split of its fit.
 struct Learnt {
     model: Model,
     divided: Option<Divided>,
@@ -153,7 +153,7 @@ struct Learnt {
 }
 
 impl Learnt {
-    /// Fits or opens the model that the plan needs, with its own seed if one is given; `None` if no metric reads a prediction.
+    /// Fits or opens the model that the plan needs, with `seed` if given; `None` if no metric reads predictions.
     fn new(
         scene: &PlannedScene,
         study: &PlannedStudy,
@@ -189,7 +189,7 @@ impl Learnt {
         let recipe = Recipe::of(&request)?;
         let divided = phase_rows.divided(&request)?;
         let mut plan = FitPlan::on(dataset, &request, recipe, divided.clone())?;
-        // Only one training has a checkpoint: finished ones of other seeds are in the cache.
+        // Only one training keeps a checkpoint; the cache holds the finished ones of other seeds.
         if seed == scene.seeds.first().copied() {
             plan.keep_checkpoints(Checkpoints::at(context.checkpoint.to_owned()));
         }
@@ -209,7 +209,7 @@ impl Learnt {
         }))
     }
 
-    /// Predictions of all rows that a metric reads and that the model was not fitted on.
+    /// Predictions of all rows that a metric reads, except the rows of the fit.
     fn predict(
         &self,
         study: &PlannedStudy,

@@ -1,4 +1,4 @@
-//! The tasks of a sweep with their results, and groups of tasks that differ only in their seed.
+//! Tasks of a sweep with their results, and groups of tasks that differ only in their seed.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ pub(crate) struct Loaded<'a> {
     pub(crate) found: Found,
 }
 
-/// The state of a task: its result, the reason of its failure, or neither.
+/// State of a task: its result, the reason of its failure, or neither.
 #[derive(Clone, Debug)]
 pub(crate) enum Found {
     Result(Box<TaskResult>),
@@ -55,14 +55,14 @@ pub(crate) struct Group<'a> {
     pub(crate) dataset: &'a str,
     pub(crate) split: Option<&'a str>,
     pub(crate) configuration: String,
-    /// The results in the order of the tasks, each with its seed.
+    /// Results in the order of the tasks, each with its seed.
     pub(crate) results: Vec<(u64, &'a TaskResult)>,
     /// True if every seed has a result.
     pub(crate) is_whole: bool,
 }
 
 impl Group<'_> {
-    /// The mean over seeds of the validation error of `channel`, with its unit.
+    /// Mean over seeds of the validation error of `channel`, with its unit.
     pub(crate) fn validation(&self, channel: &str) -> Option<(f64, &str)> {
         let mut sum = 0.0;
         let mut unit = None;
@@ -75,7 +75,7 @@ impl Group<'_> {
         Some((sum / self.results.len() as f64, unit?))
     }
 
-    /// The scores of each seed.
+    /// Scores for each seed.
     pub(crate) fn values(&self, metric: &str, channel: &str) -> Vec<f64> {
         let results = self.results.iter();
         let scores =
@@ -83,13 +83,13 @@ impl Group<'_> {
         scores.collect()
     }
 
-    /// The recording and the split of the group.
+    /// Recording and split of the group.
     pub(crate) fn place(&self) -> (&str, Option<&str>) {
         (self.dataset, self.split)
     }
 }
 
-/// The tasks by recording, split and configuration, in the order of the table.
+/// Groups the tasks by recording, split and configuration, in the order of the table.
 pub(crate) fn groups<'a>(loaded: &'a [Loaded<'a>]) -> Vec<Group<'a>> {
     let mut positions: BTreeMap<(&str, Option<&str>, String), usize> = BTreeMap::new();
     let mut groups: Vec<Group<'a>> = Vec::new();
@@ -119,7 +119,7 @@ pub(crate) fn groups<'a>(loaded: &'a [Loaded<'a>]) -> Vec<Group<'a>> {
     groups
 }
 
-/// The channels with known errors, in the order of the first result.
+/// Channels with known errors, in the order of the first result.
 pub(crate) fn channels(loaded: &[Loaded<'_>]) -> Vec<String> {
     let mut channels: Vec<String> = Vec::new();
     for result in loaded.iter().filter_map(Loaded::result) {

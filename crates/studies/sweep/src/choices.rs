@@ -1,4 +1,4 @@
-//! The best configuration for each channel: chosen on validation parts, scored on test parts.
+//! Best configuration for each channel: chosen on validation parts, scored on test parts.
 
 mod table;
 
@@ -19,7 +19,7 @@ pub(crate) struct Choice {
     unit: String,
 }
 
-/// The choice for each recording, split and channel. Configurations without a result for every seed are skipped.
+/// Choice for each recording, split and channel. Configurations without a result for every seed are skipped.
 pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> {
     let mut places: Vec<(&str, Option<&str>)> = Vec::new();
     for group in groups {
@@ -38,7 +38,7 @@ pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> 
                     Some((at, rmse, unit))
                 })
                 .collect();
-            // The first of the file among equals.
+            // Of equals, the first in the file.
             let best = known
                 .iter()
                 .min_by(|left, right| left.1.total_cmp(&right.1));

@@ -12,18 +12,18 @@ use crate::units::Unit;
 pub struct Collected {
     /// Tasks with a result.
     pub scored: usize,
-    /// Tasks that failed.
+    /// Number of failed tasks.
     pub failed: usize,
-    /// Tasks that were not run yet.
+    /// Number of tasks that were not run yet.
     pub missing: usize,
-    /// The digest of the table. For shards of two tables, the digest of their scores, or empty while a shard is missing.
+    /// Digest of the table. For shards of two tables, the digest of their scores, or empty while a shard is missing.
     pub digest: String,
-    /// True if tasks were shards of two tables, merged to their scores.
+    /// True if the tasks were shards of two tables and were merged.
     #[serde(default)]
     pub is_of_tables: bool,
-    /// Units checked against limits, if the file names limits.
+    /// Units checked against limits, if the sweep file names limits.
     pub units: Vec<Unit>,
-    /// Digest of the inputs of the table.
+    /// Digest of all inputs of the table.
     pub(crate) made_of: String,
 }
 

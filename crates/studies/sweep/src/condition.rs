@@ -34,7 +34,7 @@ impl Condition {
     /// ```
     ///
     /// # Errors
-    /// [`SweepError::Condition`] with the term that is not valid.
+    /// [`SweepError::Condition`] with the invalid term.
     pub fn parse(text: &str) -> Result<Condition, SweepError> {
         let trimmed = text.trim();
         let is_digits = trimmed.bytes().all(|byte| byte.is_ascii_hexdigit());
@@ -61,7 +61,7 @@ impl Condition {
     /// Rejects a name that no task of the sweep has.
     ///
     /// # Errors
-    /// [`SweepError::Condition`] with the nearest name.
+    /// [`SweepError::Condition`] with the most similar name.
     pub(crate) fn check_names(&self, settings: &BTreeSet<String>) -> Result<(), SweepError> {
         let known = || {
             let settings = settings.iter().map(String::as_str);

@@ -1,4 +1,4 @@
-//! Tests of each choice against the other configurations; the family of tests is the sweep.
+//! Tests of each choice against the other configurations. All tests of the sweep form one family.
 
 mod reach;
 mod trainings;
@@ -88,7 +88,7 @@ fn unit_of(group: &Group<'_>, channel: &str) -> &'static str {
     score.map_or("", |score| score.unit.symbol())
 }
 
-/// The errors of all seeds by contact point: a press counts once, however often it was in a test part.
+/// Errors of all seeds by contact point. A press counts once, however often it was in a test part.
 fn pooled(group: &Group<'_>, channel: &str) -> ClusterSums {
     let mut all: BTreeMap<u64, ClusterSums> = BTreeMap::new();
     for (seed, result) in &group.results {

@@ -1,4 +1,4 @@
-//! Effect of each setting, paired within everything else.
+//! Effect of each setting, between tasks that are otherwise equal.
 
 mod dimension;
 
@@ -13,10 +13,10 @@ use crate::choices::{ends, number};
 use crate::task_list::TaskList;
 use dimension::{Dimension, dimensions};
 
-/// Minimum pairs for an interval.
+/// Least number of pairs for an interval.
 const LEAST: usize = 2;
 
-/// One row for each setting, value and channel: the mean difference of test errors to the first value, over otherwise equal tasks.
+/// One row for each setting, value and channel: mean difference of test errors from the first value, over otherwise equal tasks.
 pub(crate) fn table(loaded: &[Loaded<'_>], list: &TaskList, channels: &[String]) -> Table {
     let columns = [
         "setting",
@@ -43,7 +43,7 @@ pub(crate) fn table(loaded: &[Loaded<'_>], list: &TaskList, channels: &[String])
     }
     table.note("Each pair is two tasks that differ only in this setting, on their test parts; a negative difference is a smaller error. A \
         model is listed with the settings that only it has. A channel with several units has no row. The interval assumes independent \
-        pairs, which pairs of one recording are only in part: it describes this sweep. It is not used for choices.");
+        pairs. Pairs of one recording are only partly independent, so it describes this sweep alone. It is not used for choices.");
     table
 }
 
@@ -54,7 +54,7 @@ fn row(
     channel: &str,
 ) -> Option<Vec<Cell>> {
     let mut pairs: BTreeMap<String, [Option<f64>; 2]> = BTreeMap::new();
-    // Errors in several units have no mean; a row needs one unit of the channel throughout.
+    // Errors in different units have no mean, so a row needs the same unit throughout.
     let mut units: Vec<Unit> = Vec::new();
     for one in loaded {
         let word = dimension.word(one.task);

@@ -12,39 +12,39 @@ use taceva_tables::TableError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SweepError {
-    /// A sweep file or a recording that cannot be read.
+    /// A sweep file or a recording cannot be read.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// A model, a setting or a metric that does not exist.
+    /// An unknown model, setting or metric, or another error of evaluation.
     #[error(transparent)]
     Study(#[from] EvaluateError),
-    /// A sweep file that parses but is not valid.
+    /// A sweep file has valid syntax but an invalid value.
     #[error("{}{}: {problem}", shown(path), line.map_or_else(String::new, |line| format!(", line {line}")))]
     Meaning {
         /// The file.
         path: PathBuf,
         /// The line, if known.
         line: Option<usize>,
-        /// The fault, and the accepted form.
+        /// The fault and the accepted form.
         problem: String,
     },
-    /// An invalid condition, of `--only` or of a file.
+    /// A condition, of `--only` or of a file, is invalid.
     #[error("`{}`: {problem}", shown(text))]
     Condition {
         /// As typed.
         text: String,
-        /// The fault, and the accepted form.
+        /// The fault and the accepted form.
         problem: String,
     },
-    /// A file in the folder of a sweep that was not written by this program, or was changed.
+    /// A file in the folder of a sweep was edited, or not written by this program.
     #[error("{}: {problem}", shown(path))]
     Kept {
         /// The file.
         path: PathBuf,
-        /// The fault, and the remedy.
+        /// The fault and the remedy.
         problem: String,
     },
-    /// A recording, a table, the sensor file or a plugin that changed after the sweep was planned.
+    /// A recording, a table, the sensor file or a plugin has changed since the sweep was planned.
     #[error("{}: {problem}; start the sweep again", shown(path))]
     Changed {
         /// The file, the folder, or the name of the model.
@@ -52,31 +52,31 @@ pub enum SweepError {
         /// The change.
         problem: String,
     },
-    /// An input or output error.
+    /// An input or output operation failed.
     #[error("cannot {doing} {}: {source}", shown(path))]
     Io {
         /// The operation that failed.
         doing: &'static str,
         /// The file or folder.
         path: PathBuf,
-        /// The error of the system.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// The Parquet table that cannot be written.
+    /// A Parquet table cannot be written.
     #[error(transparent)]
     Table(#[from] TableError),
-    /// A command of the scheduler that is missing or failed, with its message.
+    /// A command of the scheduler is missing or failed.
     #[error("{command}: {words}")]
     Scheduler {
-        /// The command: `sbatch`.
+        /// Name of the command, such as `sbatch`.
         command: &'static str,
-        /// The message of the command, or why it could not be started.
+        /// Message of the command, or the reason why it did not start.
         words: String,
     },
 }
 
 impl SweepError {
-    /// Converts an error of the system into one of this crate.
+    /// Converts an error of the operating system.
     pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> SweepError {
         let path = path.to_owned();
         move |source| SweepError::Io {
@@ -86,7 +86,7 @@ impl SweepError {
         }
     }
 
-    /// True if the file or the arguments are wrong; no data was read.
+    /// True if the file or the arguments are wrong. No data was read.
     pub fn is_usage(&self) -> bool {
         match self {
             SweepError::Condition { .. } => true,

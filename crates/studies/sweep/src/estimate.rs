@@ -1,4 +1,4 @@
-//! Estimate of the cost of a sweep, from the tasks measured so far.
+//! Estimated cost of a sweep, from the tasks measured so far.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -12,20 +12,20 @@ use crate::times::TaskTime;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Estimate {
-    /// Wanted tasks.
+    /// Number of wanted tasks.
     pub tasks: usize,
-    /// Results found.
+    /// Number of existing results.
     pub found: usize,
-    /// Tasks that failed before.
+    /// Number of tasks that failed before.
     pub failed: usize,
-    /// Time of the remaining tasks on one worker; `None` if nothing was measured yet.
+    /// Time of the remaining tasks on one worker; `None` before the first measurement.
     pub time: Option<Duration>,
-    /// Bytes that they write; `None` if nothing was measured yet.
+    /// Bytes that the remaining tasks write; `None` before the first measurement.
     pub bytes: Option<u64>,
 }
 
 impl Estimate {
-    /// Estimates the tasks at `wanted`, by the times of the same configuration, or by the mean of all measured tasks.
+    /// Estimates the tasks at `wanted` from times of the same configuration, or else from the mean of all measured tasks.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be read.

@@ -40,7 +40,7 @@ impl Failure {
         }
     }
 
-    /// Removes the record of the failure of `key`, if there is one.
+    /// Removes the failure record of `key`, if any.
     pub(crate) fn forget(folder: &SweepFolder, key: &TaskKey) -> Result<(), SweepError> {
         let path = folder.failure(key);
         match fs::remove_file(&path) {

@@ -1,4 +1,4 @@
-//! The sweep file: settings that vary, and settings that stay.
+//! Sweep file: varied and fixed settings.
 
 mod model_entry;
 mod place;
@@ -20,33 +20,33 @@ use place::FilePlace;
 pub use model_entry::ModelEntry;
 pub use tables::TablesEntry;
 
-/// The sweep file, parsed and checked; no recording was read.
+/// A parsed and checked sweep file. No recording was read.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct SweepFile {
     /// Path of the file.
     pub path: PathBuf,
-    /// The digest of its text.
+    /// Digest of its text.
     pub digest: Digest,
     /// Name of the sweep.
     pub name: String,
-    /// Folders of recordings, and patterns of such, relative to the folder of the file.
+    /// Folders of recordings, or patterns of folders, relative to the folder of the file.
     pub datasets: Vec<String>,
-    /// The view of recordings whose samples have several pictures, or several side by side: `left+right`.
+    /// View of recordings whose samples have several pictures; `left+right` puts two side by side.
     pub view: Option<String>,
-    /// Scenes whose recordings are acquired first: files, relative to the folder of the file, or names of built-in scenes.
+    /// Scenes whose recordings are acquired first: files relative to the folder of the file, or names of built-in scenes.
     pub scenes: Vec<String>,
     /// The models, each with its own settings.
     pub models: Vec<ModelEntry>,
     /// The seeds.
     pub seeds: Vec<u64>,
-    /// The splits; a single `None` for the default split of each recording.
+    /// Splits; a single `None` for the default split of each recording.
     pub splits: Vec<Option<String>>,
-    /// Metrics and groups by name.
+    /// Names of metrics and of groups of metrics.
     pub metrics: Vec<String>,
-    /// The file of sensor facts.
+    /// File of sensor facts.
     pub sensor: Option<PathBuf>,
-    /// The file of limits for each unit.
+    /// File of limits for each unit.
     pub limits: Option<PathBuf>,
     /// Settings that vary, each with its values.
     pub vary: BTreeMap<String, Vec<String>>,
@@ -54,17 +54,17 @@ pub struct SweepFile {
     pub skip: Vec<Condition>,
     /// Tables that are scored in shards, instead of recordings and models.
     pub tables: Option<TablesEntry>,
-    /// Resources that jobs request.
+    /// Resources that Slurm jobs request.
     pub slurm: SlurmSpec,
 }
 
 impl SweepFile {
-    /// The folder that paths of the file are relative to.
+    /// Base folder of relative paths in the file.
     pub fn folder(&self) -> &Path {
         folder_of(&self.path)
     }
 
-    /// The error for a value below `key`, with its line.
+    /// Error for a value below `key`, with its line.
     pub fn wrong(&self, key: &str, problem: String) -> SweepError {
         let text = fs::read_to_string(&self.path).unwrap_or_default();
         FilePlace {

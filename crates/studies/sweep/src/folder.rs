@@ -1,15 +1,15 @@
-//! The folder of a sweep: results by key, and other files.
+//! Folder of a sweep: results by key, and other files.
 //!
 //! ```text
-//! FOLDER/results/KEY.json       scores of a task: absent or whole
+//! FOLDER/results/KEY.json       scores of a task: absent or complete
 //!       /evaluations/KEY.json   the whole evaluation, as `taceva evaluate` writes it
-//!       /failed/KEY.json        why a task has no scores
-//!       /logs/KEY.log           what it did, stage by stage
-//!       /times/KEY.json         how long it took, and where
-//!       /claims/KEY             who is at it
-//!       /scenes/NAME/           the run of a scene whose recordings tasks are of
-//!       /cache/                 what tasks have in common
-//!       /slurm/                 scripts, lists of tasks, words of jobs
+//!       /failed/KEY.json        reason why a task has no scores
+//!       /logs/KEY.log           log of a task, stage by stage
+//!       /times/KEY.json         run time and host of a task
+//!       /claims/KEY             claim of the worker that runs a task
+//!       /scenes/NAME/           run of a scene that acquires recordings for tasks
+//!       /cache/                 cache that tasks share
+//!       /slurm/                 scripts, task lists and output of jobs
 //!       table.csv, table.parquet, times.csv, page.html, times.html
 //! ```
 
@@ -28,12 +28,12 @@ pub struct SweepFolder {
 }
 
 impl SweepFolder {
-    /// The folder at `path`, which may not be there yet.
+    /// Folder at `path`, which may not exist yet.
     pub fn new(path: PathBuf) -> SweepFolder {
         SweepFolder { path }
     }
 
-    /// The default folder for results, beside the sweep file: `which.sweep` of `which.toml`.
+    /// Default folder for results, beside the sweep file: `which.sweep` for `which.toml`.
     pub fn beside(file: &Path) -> SweepFolder {
         SweepFolder::new(file.with_extension("sweep"))
     }
@@ -43,22 +43,22 @@ impl SweepFolder {
         &self.path
     }
 
-    /// The cache that tasks share.
+    /// Cache that tasks share.
     pub fn cache(&self) -> PathBuf {
         self.path.join("cache")
     }
 
-    /// The folder of the runs of scenes, each under the name of its scene.
+    /// Folder of the runs of scenes, each named after its scene.
     pub fn scenes(&self) -> PathBuf {
         self.path.join("scenes")
     }
 
-    /// The claim for acquiring the scene `name`.
+    /// Claim for acquiring the scene `name`.
     pub fn scene_claim(&self, name: &str) -> PathBuf {
         self.path.join(format!("claims/scene-{name}"))
     }
 
-    /// The folder of the times of scenes.
+    /// Folder of the acquisition times of scenes.
     pub(crate) fn scene_times(&self) -> PathBuf {
         self.path.join("times/scenes")
     }
@@ -66,7 +66,7 @@ impl SweepFolder {
     /// Creates the folder and its subfolders.
     ///
     /// # Errors
-    /// [`SweepError::Io`].
+    /// [`SweepError::Io`] if a folder cannot be created.
     pub fn make(&self) -> Result<(), SweepError> {
         for name in [
             "results",
@@ -94,7 +94,7 @@ impl SweepFolder {
         self.path.join(format!("failed/{key}.json"))
     }
 
-    /// The log of a task, stage by stage.
+    /// Log of a task, stage by stage.
     pub fn log(&self, key: &TaskKey) -> PathBuf {
         self.path.join(format!("logs/{key}.log"))
     }
@@ -111,15 +111,15 @@ impl SweepFolder {
         self.path.join(format!("claims/{key}"))
     }
 
-    /// Scripts of the scheduler.
+    /// Folder of scheduler scripts.
     pub fn slurm(&self) -> PathBuf {
         self.path.join("slurm")
     }
 
-    /// Writes a file atomically: it is absent or complete at any moment. Two processes that write one file write the same.
+    /// Writes a file atomically: it is absent or complete at any moment. Two processes always write the same content to one path.
     ///
     /// # Errors
-    /// [`SweepError::Io`].
+    /// [`SweepError::Io`] if the file cannot be written.
     pub fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), SweepError> {
         taceva_files::replace(path, |staged| fs::write(staged, bytes))
             .map_err(SweepError::io("write", path))

@@ -1,16 +1,16 @@
-//! Folders by pattern: `units/*`, `week-?/unit-*`.
+//! Folder patterns: `units/*`, `week-?/unit-*`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// True if `text` is a pattern and not one path.
+/// True if `text` is a pattern, not a path.
 pub(crate) fn is_pattern(text: &str) -> bool {
     text.contains(['*', '?'])
 }
 
-/// The folders below `base` that match `pattern`, sorted by name, as paths relative to `base`.
+/// Folders below `base` that match `pattern`, sorted by name, as paths relative to `base`.
 ///
-/// `*` matches any letters but `/`, `?` matches one. Names that begin with a dot match only a pattern that does.
+/// `*` matches any characters except `/`, `?` matches one. Only a pattern that begins with a dot matches names with a leading dot.
 pub(crate) fn folders(base: &Path, pattern: &str) -> std::io::Result<Vec<String>> {
     let (root, rest) = match pattern.strip_prefix('/') {
         Some(rest) => (PathBuf::from("/"), rest),
@@ -56,7 +56,7 @@ fn joined(before: &str, name: &str) -> String {
 fn matches(pattern: &str, name: &str) -> bool {
     let pattern: Vec<char> = pattern.chars().collect();
     let name: Vec<char> = name.chars().collect();
-    // Position of the last `*`, and the number of letters it has matched.
+    // Position of the last `*`, and the number of characters that it has matched.
     let (mut at, mut of, mut star) = (0, 0, None);
     while of < name.len() {
         match pattern.get(at) {

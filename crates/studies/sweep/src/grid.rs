@@ -1,4 +1,4 @@
-//! Every combination of the varying settings, as tasks.
+//! Tasks for every combination of the varied settings.
 
 mod builds;
 mod checks;
@@ -20,26 +20,26 @@ use combinations::Common;
 pub(crate) use builds::build_of;
 pub(crate) use shards::PlannedTables;
 
-/// The tasks of a sweep, in the order of its file: recordings, splits, seeds, settings, models; or shards of two tables.
+/// Tasks of a sweep, in the order of its file: recordings, splits, seeds, settings, models; or shards of two tables.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Grid {
     /// The tasks.
     pub tasks: Vec<Task>,
-    /// Number of combinations that `[skip]` leaves out.
+    /// Number of combinations that `[skip]` excludes.
     pub skipped: usize,
-    /// The tables whose shards are the tasks.
+    /// Tables whose shards are the tasks.
     pub(crate) tables: Option<PlannedTables>,
 }
 
 impl Grid {
-    /// The tasks of `file`, including those on recordings that `scenes` acquire. Each recording is opened once, for its digest, and no
-    /// frame is read; tables are scanned once. Tasks on a recording that is not acquired yet have keys without results. They can be counted
-    /// and checked, and are planned again once the recording exists.
+    /// Tasks of `file`, including those on recordings that `scenes` acquire. Opens each recording once for its digest, without reading frames; scans
+    /// tables once. Tasks on a recording that is not acquired yet have keys without results. They can be counted and checked, and are planned again
+    /// once the recording exists.
     ///
     /// # Errors
-    /// [`SweepError`] for a grid that is empty or larger than [`MOST_TASKS`](crate::MOST_TASKS), a model, a setting or a metric that does not
-    /// exist, and a recording or a table that cannot be read.
+    /// [`SweepError`] for a grid that is empty or larger than [`MOST_TASKS`](crate::MOST_TASKS), for an unknown model, setting or metric, and for a
+    /// recording or a table that cannot be read.
     pub fn of(
         file: &SweepFile,
         scenes: &[SceneRecording],
@@ -77,7 +77,7 @@ impl Grid {
     }
 }
 
-/// The digest of the file of sensor facts, if there is one.
+/// Digest of the file of sensor facts, if any.
 pub(crate) fn sensor_digest(file: &SweepFile) -> Result<Option<Digest>, SweepError> {
     let Some(path) = &file.sensor else {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! The key of a task's result: the digest of all its inputs.
+//! Key of the result of a task: the digest of all its inputs.
 
 mod shard;
 
@@ -10,17 +10,17 @@ use taceva_dataset::Digest;
 
 pub(crate) use shard::ShardParts;
 
-/// Version of the result; incremented when the same inputs give another result within a version of this program.
+/// Version of the result; incremented when the same inputs give another result within one version of this program.
 const VERSION: &str = "2";
-/// Hexadecimal digits of a key, 128 bits.
+/// Hexadecimal digits of a key; they encode 128 bits.
 const DIGITS: usize = 32;
 
-/// The key of a task's result.
+/// Key of the result of a task.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct TaskKey(String);
 
-/// Inputs that decide the result of a task.
+/// Inputs that determine the result of a task.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct KeyParts<'a> {
     pub(crate) dataset: Digest,
@@ -29,9 +29,9 @@ pub(crate) struct KeyParts<'a> {
     pub(crate) split: Option<&'a str>,
     pub(crate) seed: u64,
     pub(crate) metrics: &'a [String],
-    /// The digest of the file of sensor facts.
+    /// Digest of the file of sensor facts.
     pub(crate) sensor: Option<Digest>,
-    /// The build of the plugin with the model.
+    /// Build of the plugin with the model.
     pub(crate) plugin: Option<&'a str>,
 }
 
@@ -77,12 +77,12 @@ impl TaskKey {
         bytes.finish()
     }
 
-    /// The digits.
+    /// Digits of the key.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// True if `text` has the form of a key, so that it may be a file name.
+    /// True if `text` has the form of a key, so that it is a safe file name.
     pub(crate) fn is_one(text: &str) -> bool {
         let is_digit = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
         text.len() == DIGITS && text.bytes().all(is_digit)

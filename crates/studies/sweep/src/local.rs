@@ -25,11 +25,11 @@ pub struct Runner<'a> {
     pub folder: &'a SweepFolder,
     /// The available models.
     pub models: &'a Models,
-    /// Cache that tasks share.
+    /// Cache that tasks share, if any.
     pub cache: Option<&'a Cache>,
-    /// Number of tasks at once.
+    /// Number of concurrent tasks.
     pub jobs: NonZeroUsize,
-    /// True if tasks that failed before are tried again.
+    /// True if failed tasks are retried.
     pub retry_failed: bool,
     /// Receives progress, and may cancel.
     pub progress: &'a dyn Progress,
@@ -39,18 +39,18 @@ pub struct Runner<'a> {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Ran {
-    /// Results that existed before.
+    /// Number of results that existed before.
     pub found: usize,
-    /// Tasks scored now, by this or by another process.
+    /// Number of tasks scored now, by this or another process.
     pub scored: usize,
-    /// Tasks without a result: the position in the list, and the reason.
+    /// Tasks without a result: position in the list, and reason.
     pub failed: Vec<(usize, String)>,
     /// True if the run was cancelled with tasks left.
     pub is_stopped: bool,
 }
 
 impl Runner<'_> {
-    /// Runs those of the tasks at `wanted` that have no result yet. A failed task leaves its reason, and the others continue.
+    /// Runs the tasks at `wanted` that have no result yet. A failed task stores its reason, and the others continue.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be used.

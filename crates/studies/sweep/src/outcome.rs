@@ -23,9 +23,9 @@ use errors::errors;
 pub enum Outcome {
     /// The result is in the folder.
     Scored,
-    /// The task cannot be carried out, for this reason.
+    /// The task cannot run, for this reason.
     Failed(String),
-    /// The task was cancelled and left nothing.
+    /// The task was cancelled and stored nothing.
     Stopped,
 }
 
@@ -41,7 +41,7 @@ pub(crate) struct Common<'a> {
 /// Fits and scores `task`, and writes its result.
 ///
 /// # Errors
-/// [`SweepError`] if it cannot be carried out; nothing is written then.
+/// [`SweepError`] if it fails; nothing is written then.
 pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Result<(), SweepError> {
     if let Some(tables) = &common.list.tables {
         return shard::carry_out(task, tables, common, work);
@@ -88,7 +88,7 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
     result = result.with_scores(&evaluated.report);
     result.errors = errors(&evaluated.report);
     result.evaluation = Digest::of(text.as_bytes()).to_string();
-    // The evaluation first, so that a result implies an evaluation.
+    // The evaluation is written first, so that every result has one.
     let folder = common.folder;
     folder.write(&folder.evaluation(&task.key), text.as_bytes())?;
     folder.write(&folder.result(&task.key), result.text()?.as_bytes())
@@ -104,7 +104,7 @@ pub(crate) fn is_stop(error: &SweepError) -> bool {
     kind == ErrorKind::Interrupted
 }
 
-/// The evaluation as `taceva evaluate --format json` writes it.
+/// Evaluation in the format of `taceva evaluate --format json`.
 pub(crate) fn sealed(report: &EvaluationReport) -> Result<String, SweepError> {
     taceva_results::sealed(report).map_err(|error| SweepError::Kept {
         path: "evaluation".into(),
@@ -112,7 +112,7 @@ pub(crate) fn sealed(report: &EvaluationReport) -> Result<String, SweepError> {
     })
 }
 
-/// The samples that settings were chosen by, and the error of each channel on them.
+/// Samples that settings were chosen by, and the error of each channel on them.
 fn validation(model: &Model) -> (String, Vec<ValidationError>) {
     let card = model.card();
     let by = match card.choice.by {

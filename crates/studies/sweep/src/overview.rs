@@ -1,4 +1,4 @@
-//! Results of a sweep as a table of text: means by any of the varying words.
+//! Results of a sweep as a text table: means by any of the varied names.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,10 +13,10 @@ use crate::error::SweepError;
 use crate::folder::SweepFolder;
 use crate::task_list::TaskList;
 
-/// The mean of `metric` for each combination of the words in `by`, channel by channel.
+/// Mean of `metric` for each combination of the names in `by`, channel by channel.
 ///
 /// # Errors
-/// [`SweepError::Condition`] for a word that no task has; [`SweepError`] if results cannot be read.
+/// [`SweepError::Condition`] for a name that no task has; [`SweepError`] if results cannot be read.
 pub fn show(
     folder: &SweepFolder,
     list: &TaskList,

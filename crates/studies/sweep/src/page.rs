@@ -1,4 +1,4 @@
-//! The pages of a sweep: results, and separately their run times.
+//! Pages of a sweep: results, and separately run times.
 
 mod times;
 
@@ -16,7 +16,7 @@ use crate::units;
 
 pub(crate) use times::times;
 
-/// The page of results; the same results give the same bytes.
+/// Page of results; the same results give the same bytes.
 pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collected) -> String {
     let channels = analysis::channels(loaded);
     let groups = analysis::groups(loaded);
@@ -82,13 +82,13 @@ fn title(list: &TaskList) -> String {
     }
 }
 
-/// The badge of a page whose samples are all or partly simulated or synthetic.
+/// Badge of a page with simulated or synthetic samples.
 fn badge(loaded: &[Loaded<'_>]) -> Option<String> {
     let results = loaded.iter().filter_map(Loaded::result);
     not_measured(results.map(|result| result.source.as_str()))
 }
 
-/// The tasks without a result.
+/// Tasks without a result.
 fn left(loaded: &[Loaded<'_>]) -> Table {
     let columns = ["task", "recording", "model", "split", "seed", "why"];
     let mut table = Table::new("Tasks without a result", columns.map(Column::new));

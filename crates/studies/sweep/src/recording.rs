@@ -6,10 +6,10 @@ use taceva_dataset::{Dataset, Digest};
 
 use crate::error::SweepError;
 
-/// The recording at `path`, seen by `view` if samples have several pictures, and the digest of its whole content.
+/// Recording at `path` with the digest of its whole content. `view` selects the pictures if samples have several.
 ///
-/// The digest covers samples, frames, signals and every byte of the header: the sensor, its serial number, its footprint, and whether
-/// anything was measured.
+/// The digest covers samples, frames, signals and every byte of the header: the sensor, its serial number, its footprint, and the source of the
+/// samples.
 ///
 /// # Errors
 /// [`SweepError`] if it cannot be opened, or has no such view.

@@ -13,7 +13,7 @@ use crate::key::TaskKey;
 
 const SCHEMA: &str = "taceva.sweep-result/1.0";
 
-/// By channel: contact point, number of its samples, and the sum of their absolute errors.
+/// Contact point, number of its samples, and sum of their absolute errors, by channel.
 pub(crate) type PointErrors = BTreeMap<String, Vec<(String, u64, f64)>>;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -24,25 +24,25 @@ pub(crate) struct TaskResult {
     pub(crate) taceva: String,
     /// Origin of the samples: `recorded`, `simulated`, `synthetic`.
     pub(crate) source: String,
-    /// The sensor model, and the serial number of the unit.
+    /// Sensor model, and serial number of the unit.
     pub(crate) sensor: String,
     pub(crate) serial: String,
-    /// The digest of the fitted model.
+    /// Digest of the fitted model.
     pub(crate) model_digest: String,
-    /// The samples that settings were chosen by: `validation`, …; never the test part.
+    /// Samples that settings were chosen by, such as `validation`; never the test part.
     pub(crate) chosen_by: String,
-    /// The root mean square error of each channel on those samples.
+    /// Root mean square error of each channel on those samples.
     pub(crate) validation: Vec<ValidationError>,
-    /// The scores on the test part.
+    /// Scores on the test part.
     #[serde(rename = "metrics", with = "by_metric")]
     pub(crate) scores: Vec<Score>,
-    /// The errors on the test part, by contact point.
+    /// Errors on the test part, by contact point.
     pub(crate) errors: PointErrors,
-    /// The digest of the file of its evaluation.
+    /// Digest of the file of its evaluation.
     pub(crate) evaluation: String,
 }
 
-/// The error of a channel on the samples that settings were chosen by.
+/// Error of a channel on the samples that settings were chosen by.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ValidationError {
     pub(crate) channel: String,
@@ -69,7 +69,7 @@ impl TaskResult {
         }
     }
 
-    /// The result with those scores of `report` that are at most one number; maps and curves are in the evaluation only.
+    /// The result with those scores of `report` that are at most one number. Only the evaluation has maps and curves.
     pub(crate) fn with_scores(mut self, report: &EvaluationReport) -> TaskResult {
         self.source.clone_from(&report.subject.source);
         self.sensor.clone_from(&report.subject.sensor);
@@ -89,12 +89,12 @@ impl TaskResult {
         scores.find(|score| score.metric == metric && score.channel == channel)
     }
 
-    /// The absolute errors of a channel by contact point.
+    /// Absolute errors of a channel by contact point.
     pub(crate) fn sums(&self, channel: &str) -> Option<ClusterSums> {
         let mut sums = ClusterSums::default();
         for (point, n, sum) in self.errors.get(channel)? {
             sums.try_add(point, *sum).ok()?;
-            // The sum of a point counts once for each of its samples.
+            // Counts the other samples of the point; the sum is already complete.
             for _ in 1..*n {
                 sums.try_add(point, 0.0).ok()?;
             }

@@ -4,20 +4,20 @@ use std::path::PathBuf;
 
 use taceva_dataset::Digest;
 
-/// A recording that a scene of a sweep acquires, known before it exists.
+/// A recording that a scene of a sweep will acquire.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SceneRecording {
-    /// Name in tasks: the scene and its study.
+    /// Name in tasks, from the scene and its study.
     pub name: String,
-    /// Path, also before the recording exists.
+    /// Path, known before the recording exists.
     pub path: PathBuf,
     /// Placeholder for its digest until it exists.
     pub(crate) planned: Digest,
 }
 
 impl SceneRecording {
-    /// The recording of `study` of `scene`, acquired to `path`.
+    /// Recording of `study` of `scene`, acquired to `path`.
     ///
     /// ```
     /// use taceva_sweep::SceneRecording;
@@ -27,7 +27,7 @@ impl SceneRecording {
     pub fn new(scene: &str, study: &str, path: PathBuf) -> SceneRecording {
         let name = format!("{scene}/{study}");
         SceneRecording {
-            // No recording has this digest: that of an existing one is over two digests.
+            // No recording has this digest, because a recording's digest is computed from two digests.
             planned: Digest::of(format!("to be acquired: {name}").as_bytes()),
             name,
             path,

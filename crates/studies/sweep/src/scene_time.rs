@@ -1,4 +1,4 @@
-//! Times that scenes took to acquire, stored apart from the inputs of results.
+//! Acquisition times of scenes, stored apart from the inputs of results.
 
 use std::fs;
 use std::time::Duration;
@@ -7,18 +7,18 @@ use serde::{Deserialize, Serialize};
 
 use crate::folder::SweepFolder;
 
-/// Time that the presses of a scene took.
+/// Duration of the presses of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SceneTime {
     /// Number of presses.
     pub presses: u64,
-    /// Duration of the presses, s.
+    /// Duration of the presses, in s.
     pub seconds: f64,
 }
 
 impl SceneTime {
-    /// `presses` that took `time`.
+    /// Duration `time` of `presses` presses.
     pub fn new(presses: u64, time: Duration) -> SceneTime {
         SceneTime {
             presses,
@@ -26,7 +26,7 @@ impl SceneTime {
         }
     }
 
-    /// Stores this as the time of the scene `name`. A failed write is ignored, because no result needs it.
+    /// Stores this as the time of the scene `name`. Ignores a failed write, because no result needs the time.
     pub fn keep(self, folder: &SweepFolder, name: &str) {
         let times = folder.scene_times();
         let made = fs::create_dir_all(&times).ok();
@@ -35,7 +35,7 @@ impl SceneTime {
         }
     }
 
-    /// Estimates the time of `presses` by all scenes that were acquired into `folder`; `None` if none was timed.
+    /// Estimates the time of `presses` presses from all scenes acquired into `folder`; `None` if none was timed.
     pub fn estimate(folder: &SweepFolder, presses: u64) -> Option<Duration> {
         let mut all = SceneTime::new(0, Duration::ZERO);
         for entry in fs::read_dir(folder.scene_times()).ok()?.flatten() {

@@ -1,4 +1,4 @@
-//! Values as JSON with a seal, which detects later changes of a file.
+//! Sealed JSON; the seal detects later edits of a file.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 
 use crate::error::SweepError;
 
-/// The text of the file at `path`; `None` if there is no such file.
+/// Text of the file at `path`; `None` if it does not exist.
 pub(crate) fn read(path: &Path) -> Result<Option<String>, SweepError> {
     match fs::read_to_string(path) {
         Ok(text) => Ok(Some(text)),
@@ -17,13 +17,13 @@ pub(crate) fn read(path: &Path) -> Result<Option<String>, SweepError> {
     }
 }
 
-/// `value` as JSON with its seal; the error is a message if it has no JSON form.
+/// `value` as sealed JSON; the error is a message if it has no JSON form.
 pub(crate) fn text(value: &impl Serialize) -> Result<String, String> {
     let text = serde_json::to_string(value).map_err(|error| error.to_string())?;
     taceva_files::seal::json::seal(&text).map_err(|error| error.to_string())
 }
 
-/// Parses sealed `text`; the error is a message if it is not valid or was changed.
+/// Parses sealed `text`; the error is a message if it is invalid or was edited.
 pub(crate) fn value<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     taceva_files::seal::json::check(text).map_err(|error| error.to_string())?;
     serde_json::from_str(text).map_err(|error| error.to_string())

@@ -1,8 +1,8 @@
-//! Seeds in a sweep file: a list, or the first and the last.
+//! Seeds in a sweep file: a list, or a range.
 
 use crate::limits::MOST_TASKS;
 
-/// The greatest seed: tables store signed 64-bit numbers.
+/// Greatest seed, because tables store signed 64-bit numbers.
 const GREATEST: u64 = i64::MAX.unsigned_abs();
 const EXPECTED: &str = "expected a list such as [1, 2, 3], or a range such as \"1-5\"";
 
@@ -36,7 +36,7 @@ fn range(text: &str) -> Result<Vec<u64>, String> {
             "`seeds = \"{text}\"`: expected whole numbers from 0 to {GREATEST}"
         ));
     }
-    // Counted first, so that too many are rejected before allocation.
+    // Counted first, so that too many seeds are rejected before they are allocated.
     match last - first {
         span if span < MOST_TASKS => Ok((first..=last).collect()),
         span => Err(format!(

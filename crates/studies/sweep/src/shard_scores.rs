@@ -1,4 +1,4 @@
-//! Scores of all rows from the shards of two tables, equal to those of one pass.
+//! Scores of all rows from the shards of two tables, equal to those of one run.
 
 use std::fs;
 use std::path::PathBuf;
@@ -14,13 +14,13 @@ use crate::outcome::sealed;
 use crate::task_list::TaskList;
 use crate::times;
 
-/// The file of the scores, with the bytes that `taceva score --format json` writes.
+/// File of the scores, with the bytes of `taceva score --format json`.
 const RESULT: &str = "score.json";
 
-/// Merges the shards in `folder` to the scores if none is missing; else there is no file of scores.
+/// Merges the shards in `folder` into the scores. While a shard is missing, there is no file of scores.
 ///
 /// # Errors
-/// [`SweepError`] for a state that was changed or is of other tables, and if the folder cannot be written.
+/// [`SweepError`] for a state that was edited or is of other tables, and if the folder cannot be written.
 pub(crate) fn join(
     folder: &SweepFolder,
     list: &TaskList,
@@ -40,7 +40,7 @@ pub(crate) fn join(
         &times::csv(folder, &list.tasks)?,
     )?;
     if !collected.is_whole() {
-        // Scores merged from other tasks are not the result of these.
+        // Removes scores that were merged from other tasks.
         return match fs::remove_file(&path) {
             Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
                 Err(SweepError::io("remove", &path)(error))
@@ -61,7 +61,7 @@ pub(crate) fn join(
         return Err(SweepError::Kept {
             path: folder.path().join("results"),
             problem: format!(
-                "its states are not all shards of {}; remove the folder to make them again",
+                "its states are not all shards of {}; remove the folder to compute them again",
                 shown(list.tasks.first().map_or("", |task| task.dataset.as_str()))
             ),
         });

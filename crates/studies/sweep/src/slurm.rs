@@ -1,7 +1,7 @@
-//! Tasks as Slurm jobs: scripts to read and keep, arrays, and one job that collects.
+//! Tasks as Slurm jobs: readable scripts, arrays, and one job that collects the results.
 //!
-//! No daemon is needed: jobs find their tasks in the shared folder, results show what is done, and the scheduler knows what runs. A job
-//! that runs twice, as after a restart of the controller, finds the results of its first run.
+//! No daemon is needed. Jobs find their tasks in the shared folder, results mark finished tasks, and the scheduler lists running jobs. A job that
+//! runs twice, as after a restart of the controller, finds the results of its first run.
 
 mod command;
 mod queue;
@@ -27,17 +27,17 @@ pub use submission::submit;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Submission {
-    /// The scripts of arrays, in their order.
+    /// Scripts of the arrays, in order.
     pub arrays: Vec<PathBuf>,
-    /// The script that collects.
+    /// Script that collects the results.
     pub collect: PathBuf,
     /// Number of tasks.
     pub tasks: usize,
-    /// Number of jobs, without the one that collects.
+    /// Number of jobs, excluding the one that collects.
     pub jobs: usize,
 }
 
-/// Tasks of one array, which request the same resources.
+/// Tasks of one array; all request the same resources.
 struct Array<'a> {
     name: &'static str,
     tasks: Vec<usize>,
@@ -47,7 +47,7 @@ struct Array<'a> {
 /// Writes the scripts that run the tasks at `wanted`.
 ///
 /// # Errors
-/// [`SweepError::Io`].
+/// [`SweepError::Io`] if a script cannot be written.
 pub fn scripts(
     folder: &SweepFolder,
     list: &TaskList,
@@ -101,7 +101,7 @@ pub fn scripts(
         let blocks: Vec<&[usize]> = array.tasks.chunks(a_job).collect();
         for (number, blocks) in blocks.chunks(most as usize).enumerate() {
             let name = format!("{}-{}", array.name, number + 1);
-            // One line for each job: the positions of its tasks.
+            // One line for each job: positions of its tasks.
             let lines = blocks.iter().map(|block| {
                 let positions = block.iter().map(usize::to_string);
                 positions.collect::<Vec<_>>().join(",")

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Resources that Slurm jobs request; absent values are left to the defaults of the site.
+/// Resources that Slurm jobs request. `None` leaves a value to the default of the site.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SlurmSpec {
@@ -12,16 +12,16 @@ pub struct SlurmSpec {
     pub time: Option<String>,
     /// The memory of a job: `4G`.
     pub memory: Option<String>,
-    /// Processors of a job, and the number of tasks it runs at once.
+    /// Processors of a job; also its number of concurrent tasks.
     pub cpus: Option<u16>,
     /// Devices of a job whose tasks need one, in the format of Slurm: `gpu:1`.
     pub gres: Option<String>,
-    /// Tasks for each job, run in turn or as many at once as it has processors.
+    /// Number of tasks for each job. A job runs as many at once as it has processors.
     pub tasks_a_job: Option<u32>,
-    /// Maximum jobs that run at once.
+    /// Greatest number of concurrent jobs.
     pub most_jobs: Option<u32>,
     /// Shell lines to run before the program.
     pub setup: Vec<String>,
-    /// The program [default: the one that submits].
+    /// Program to run; `None` for the program that submits.
     pub program: Option<String>,
 }

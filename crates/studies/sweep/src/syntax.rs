@@ -1,4 +1,4 @@
-//! The sweep file as written, key by key.
+//! Written form of the sweep file, key by key.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::slurm_spec::SlurmSpec;
 
-/// The sweep file as written.
+/// Written form of the sweep file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenSweep {
@@ -42,7 +42,7 @@ pub(crate) struct WrittenSweep {
     pub(crate) slurm: Option<SlurmSpec>,
 }
 
-/// One word, or a list of them.
+/// One word or a list of words.
 #[derive(Debug, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Words {

@@ -1,4 +1,4 @@
-//! The table of a sweep: one row for each task, metric and channel.
+//! Table of a sweep: one row for each task, metric and channel.
 
 mod rows;
 
@@ -19,7 +19,7 @@ pub(crate) struct TidyTable {
 }
 
 impl TidyTable {
-    /// The table of all tasks, in their order.
+    /// Table of all tasks, in their order.
     pub(crate) fn of(loaded: &[Loaded<'_>]) -> TidyTable {
         let settings: BTreeSet<&str> = loaded
             .iter()
@@ -37,7 +37,7 @@ impl TidyTable {
         ]
         .map(text)
         .into();
-        // The prefix keeps a setting apart from a column of the same name.
+        // The prefix separates a setting from a column of the same name.
         columns.extend(settings.iter().map(|name| text(&format!("set.{name}"))));
         columns.push(text("split"));
         columns.push(("seed".to_owned(), WrittenKind::Integer));
@@ -85,7 +85,7 @@ impl TidyTable {
         }
     }
 
-    /// As CSV: numbers in shortest round-trip form.
+    /// CSV form, with numbers in shortest round-trip form.
     pub(crate) fn csv(&self) -> Vec<u8> {
         let mut out = Vec::new();
         let line = |out: &mut Vec<u8>, cells: Vec<String>| {
@@ -108,7 +108,7 @@ impl TidyTable {
         out
     }
 
-    /// As Parquet, into the new file at `path`.
+    /// Writes a Parquet file to `path`, which must not exist.
     pub(crate) fn write_parquet(&self, path: &Path) -> Result<(), SweepError> {
         let columns = self.columns.iter();
         let columns = columns.map(|(name, kind)| WrittenColumn::new(name.as_str(), kind.clone()));
@@ -121,7 +121,7 @@ impl TidyTable {
     }
 }
 
-/// A cell as CSV, quoted if necessary, and escaped so that no spreadsheet reads it as a formula.
+/// A CSV cell, quoted if necessary, and escaped so that no spreadsheet reads it as a formula.
 fn field(text: &str) -> String {
     let text = escape_csv(text);
     match text.contains([',', '"', '\n', '\r']) {

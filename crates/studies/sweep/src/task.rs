@@ -10,35 +10,35 @@ use taceva_models::{ModelSettings, Models};
 use crate::folder::SweepFolder;
 use crate::key::TaskKey;
 
-/// One evaluation of a sweep: a model with its settings, fitted on and scored on one recording, divided by one split and seed.
+/// One evaluation of a sweep: a model with its settings, fitted and scored on one recording with one split and seed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Task {
-    /// The key of its result.
+    /// Key of its result.
     pub key: TaskKey,
     /// The recording as named in the sweep file.
     pub dataset: String,
     /// Path of the recording.
     pub path: PathBuf,
-    /// The digest of the whole recording, including its header, when the sweep was planned.
+    /// Digest of the whole recording, including its header, at the time of planning.
     pub digest: String,
     /// The model.
     pub model: String,
     /// All settings from the sweep file.
     pub settings: BTreeMap<String, String>,
-    /// The split; `None` for the default of the recording.
+    /// Split; `None` for the default of the recording.
     pub split: Option<String>,
-    /// The seed of the division and of the model's random draws.
+    /// Seed of the division and of the random draws of the model.
     pub seed: u64,
-    /// The build of the plugin with the model, when the sweep was planned.
+    /// Build of the plugin with the model, at the time of planning.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plugin: Option<String>,
 }
 
-/// The name of the setting that holds the shard of a task: `2/7`.
+/// Name of the setting that holds the shard of a task: `2/7`.
 pub(crate) const SHARD: &str = "shard";
 
 impl Task {
-    /// Value of `name` for this task: of a setting, or of `dataset`, `model`, `split` or `seed`.
+    /// Value of `name` for this task: a setting, or `dataset`, `model`, `split` or `seed`.
     pub fn word(&self, name: &str) -> Option<String> {
         match name {
             "dataset" => Some(self.dataset.clone()),
@@ -49,15 +49,15 @@ impl Task {
         }
     }
 
-    /// The model with its settings, without the recording, the split and the seed: `ridge size=32x32`.
+    /// Model with its settings, without recording, split and seed: `ridge size=32x32`.
     pub fn configuration(&self) -> String {
         let settings = self.settings.iter();
         let settings = settings.map(|(key, value)| format!(" {key}={value}"));
         format!("{}{}", self.model, settings.collect::<String>())
     }
 
-    /// `reason` without the folders of this machine: with the recording's name in the file, and paths relative to the folder of the sweep.
-    /// The text is the same wherever the task runs.
+    /// `reason` with the recording's name in place of its path, and paths relative to the folder of the sweep. The text is then the same on every
+    /// machine.
     pub(crate) fn without_folders(&self, reason: &str, folder: &SweepFolder) -> String {
         let mut reason = reason.to_owned();
         let own = folder.path();
@@ -80,10 +80,10 @@ impl Task {
         device.is_some_and(|device| device != "cpu")
     }
 
-    /// The request of the fit.
+    /// Request of the fit.
     ///
     /// # Errors
-    /// [`EvaluateError`] for a model that does not exist or a setting that it does not have.
+    /// [`EvaluateError`] for an unknown model or setting.
     pub(crate) fn request(&self, models: &Models) -> Result<FitRequest, EvaluateError> {
         const SEED: &str = "seed";
         let model = models.find(&self.model)?;

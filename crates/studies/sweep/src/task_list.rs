@@ -1,4 +1,4 @@
-//! The tasks of a sweep as a file, so that a job elsewhere runs what was planned here.
+//! Task list of a sweep as a file, so that jobs on other machines run the planned tasks.
 
 mod file;
 mod selection;
@@ -15,7 +15,7 @@ use crate::task::Task;
 
 pub use selection::Counts;
 
-/// The schema of the list.
+/// Schema of the list.
 const SCHEMA: &str = "taceva.sweep-tasks/1.1";
 
 /// The tasks of a sweep, with everything needed to run and collect them.
@@ -24,33 +24,33 @@ const SCHEMA: &str = "taceva.sweep-tasks/1.1";
 pub struct TaskList {
     schema: String,
     taceva: String,
-    /// The digest of the file that the list was made from.
+    /// Digest of the sweep file behind the list.
     file: Digest,
     /// Name of the sweep.
     pub name: String,
-    /// The view of recordings whose samples have several pictures.
+    /// View of recordings whose samples have several pictures.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
-    /// Metrics and groups by name.
+    /// Names of metrics and of groups of metrics.
     pub metrics: Vec<String>,
-    /// The file of sensor facts.
+    /// File of sensor facts.
     pub sensor: Option<PathBuf>,
-    /// The digest of that file when the sweep was planned.
+    /// Digest of that file at the time of planning.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) sensor_digest: Option<Digest>,
-    /// The file of limits for each unit.
+    /// File of limits for each unit.
     pub limits: Option<PathBuf>,
-    /// Settings that vary, each with its values in order.
+    /// Varied settings, each with its values in order.
     pub vary: Vec<(String, Vec<String>)>,
-    /// The tasks, in the order of the table.
+    /// Tasks, in the order of the table.
     pub tasks: Vec<Task>,
-    /// The tables whose shards are the tasks.
+    /// Tables whose shards are the tasks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) tables: Option<PlannedTables>,
 }
 
 impl TaskList {
-    /// The tasks of `grid`.
+    /// Tasks of `grid`.
     ///
     /// # Errors
     /// [`SweepError::Io`] if the working folder is unknown.
@@ -73,7 +73,7 @@ impl TaskList {
         })
     }
 
-    /// True if the file at `path` is unchanged since the list was made from it, or cannot be read.
+    /// True if the sweep file at `path` is unchanged, or cannot be read.
     pub fn is_of(&self, path: &Path) -> bool {
         std::fs::read(path).map_or(true, |text| Digest::of(&text) == self.file)
     }

@@ -1,4 +1,4 @@
-//! Run times and hosts of tasks, stored outside the table because no two runs agree on them.
+//! Run times and hosts of tasks, stored outside the table because they differ between runs.
 
 use std::fs;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
@@ -14,12 +14,12 @@ use crate::task::Task;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct TaskTime {
     pub(crate) seconds: f64,
-    /// Bytes of its result and its evaluation.
+    /// Size of its result and its evaluation, in bytes.
     pub(crate) bytes: u64,
     pub(crate) host: String,
-    /// Start time, seconds since 1970 by the clock of that host.
+    /// Start time in seconds since 1970, by the clock of that host.
     pub(crate) began: u64,
-    /// The job of a scheduler, if there is one.
+    /// Job id of the scheduler, if any.
     pub(crate) job: Option<String>,
 }
 
@@ -38,7 +38,7 @@ impl Timer {
         }
     }
 
-    /// Stores the time of `key`. A failed write is ignored, because no result needs it.
+    /// Stores the time of `key`. Ignores a failed write, because no result needs the time.
     pub(crate) fn keep(&self, folder: &SweepFolder, key: &TaskKey) {
         let size = |path: &std::path::Path| fs::metadata(path).map_or(0, |facts| facts.len());
         let time = TaskTime {

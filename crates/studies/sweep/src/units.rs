@@ -19,15 +19,15 @@ pub struct Unit {
     pub dataset: String,
     /// The serial number of the unit.
     pub serial: String,
-    /// The model with its settings, the split and the seed.
+    /// Model with its settings, split and seed.
     pub task: String,
     /// True if every limit is met.
     pub is_passed: bool,
-    /// The limits that are not met, each with the value found; or why there is no result.
+    /// Unmet limits with the values found, or the reason why there is no result.
     pub broken: Vec<String>,
 }
 
-/// Checks every task against the limits of the sweep; empty if there are no limits.
+/// Checks every task against the limits of the sweep; empty without limits.
 pub(crate) fn units(
     folder: &SweepFolder,
     list: &TaskList,
@@ -86,7 +86,7 @@ fn unit(folder: &SweepFolder, one: &Loaded<'_>, limits: &LimitsFile) -> Result<U
                     .value
                     .map_or_else(|| "no value".to_owned(), |value| format!("{value}"));
                 let limit = &finding.limit;
-                let why = finding.reason.as_deref().unwrap_or("not kept");
+                let why = finding.reason.as_deref().unwrap_or("not met");
                 unit.broken.push(format!(
                     "{} {}: {value} {}, {why}",
                     limit.metric, limit.channel, limit.unit
@@ -100,7 +100,7 @@ fn unit(folder: &SweepFolder, one: &Loaded<'_>, limits: &LimitsFile) -> Result<U
 
 /// One row for each unit.
 pub(crate) fn table(units: &[Unit]) -> Table {
-    let columns = ["recording", "serial", "model", "verdict", "limits not kept"];
+    let columns = ["recording", "serial", "model", "verdict", "limits not met"];
     let mut table = Table::new("Units", columns.map(Column::new));
     for unit in units {
         table.push([
@@ -112,6 +112,6 @@ pub(crate) fn table(units: &[Unit]) -> Table {
         ]);
     }
     let passed = units.iter().filter(|unit| unit.is_passed).count();
-    table.note(format!("{passed} of {} keep every limit.", units.len()));
+    table.note(format!("{passed} of {} meet every limit.", units.len()));
     table
 }

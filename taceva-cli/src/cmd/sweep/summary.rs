@@ -67,7 +67,7 @@ pub(super) fn print(folder: &SweepFolder, collected: &Collected) -> anyhow::Resu
 }
 
 fn units(collected: &Collected) -> Table {
-    let columns = ["recording", "serial", "model", "verdict", "limits not kept"];
+    let columns = ["recording", "serial", "model", "verdict", "limits not met"];
     let mut table = Table::new("", columns.map(Column::new));
     for unit in &collected.units {
         table.push([

@@ -13,7 +13,7 @@ use crate::short_digests::short_digests;
 use crate::table::{Cell, Column, Table};
 use taceva_results::{SampleChannel, not_measured};
 
-/// Schema of an acceptance as JSON. 1.1: each finding states which values are good.
+/// Schema of an acceptance as JSON. 1.1: each finding states the better direction.
 pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.1";
 
 /// Findings of one sensor unit, with the facts of its data sheet.
@@ -23,11 +23,11 @@ pub struct Acceptance<'a> {
     pub name: &'a str,
     /// Tested sensor.
     pub study: &'a Study,
-    /// One finding per limit.
+    /// One finding for each limit.
     pub findings: &'a [LimitCheck],
     /// Date of the test: `2026-11-22`.
     pub date: Option<&'a str>,
-    /// Pictures of the sensor, if available.
+    /// Frames of the sensor, if available.
     pub pictures: Option<&'a Triple>,
 }
 
@@ -37,7 +37,7 @@ impl Acceptance<'_> {
         self.findings.iter().all(|finding| finding.is_kept)
     }
 
-    /// Table with one row per limit.
+    /// Table with one row for each limit.
     pub fn table(&self) -> Table {
         let verdict = if self.is_passed() { "passed" } else { "failed" };
         let name = match self.name {

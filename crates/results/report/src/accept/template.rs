@@ -1,4 +1,4 @@
-//! Initial limits that a result itself meets, each with the result's value beside it.
+//! Initial limits that a result itself meets, each beside the value of the result.
 
 use taceva_metrics::{Better, Range};
 
@@ -14,8 +14,8 @@ const MARGIN: f64 = 0.2;
 /// Significant digits of a limit; more would suggest an accuracy that it lacks.
 const DIGITS: i32 = 3;
 
-/// Limits that `study` meets, as a file for [`super::LimitsFile::read`]. Each score with a better direction gets one limit: a fifth worse
-/// than the value, or the worse end of its interval if that is further away.
+/// Limits that `study` meets, as a file for [`super::LimitsFile::read`]. Each score with a better direction gets one limit: a fifth worse than the
+/// value, or the worse end of its interval if that is farther away.
 ///
 /// ```
 /// use taceva_report::{LimitsFile, Study, accept, limits_template};
@@ -62,7 +62,7 @@ pub fn limits_template(study: &Study) -> String {
     out + &left_out(&barred)
 }
 
-/// Comments on scores that meet no limit at any value, grouped by reason; empty if there are none.
+/// Comments on scores that meet no limit, grouped by reason; empty if there are none.
 fn left_out(barred: &[&Score]) -> String {
     let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
     for score in barred.iter().filter(|score| score.value.number().is_some()) {
@@ -93,7 +93,7 @@ fn limit(score: &Score) -> Option<String> {
     let room = value.abs() * MARGIN;
     let bounds = match score.better() {
         Better::Lower => format!("most = {:?}\n", upwards((value + room).max(high))),
-        // The margin applies to the unexplained share 1 − value.
+        // The margin applies to 1 − value, the unexplained share.
         Better::Higher if is_below_one(score) => {
             let room = (1.0 - value).abs() * MARGIN;
             format!("least = {:?}\n", -upwards(-(value - room).min(low)))
@@ -118,7 +118,7 @@ fn limit(score: &Score) -> Option<String> {
     ))
 }
 
-/// True for explained shares of 1, such as R² and skill.
+/// True for explained shares of at most 1, such as R² and skill.
 fn is_below_one(score: &Score) -> bool {
     let metric = taceva_metrics::catalogue::find(&score.metric);
     metric.is_some_and(|metric| metric.range == Range::BelowOne)
@@ -129,7 +129,7 @@ fn line(text: &str) -> String {
     terminal(text).replace(['\n', '\r'], " ")
 }
 
-/// `number` rounded towards plus infinity to [`DIGITS`] digits.
+/// `number` rounded up to [`DIGITS`] digits.
 fn upwards(number: f64) -> f64 {
     if number.abs() < f64::MIN_POSITIVE {
         return 0.0;
@@ -137,7 +137,7 @@ fn upwards(number: f64) -> f64 {
     let digits = usize::try_from(DIGITS - 1).unwrap_or(0);
     let rounded = |number: f64| format!("{number:.digits$e}").parse().unwrap_or(number);
     let nearest = rounded(number);
-    // Rounding errors of a product add no further digit.
+    // A rounding error of a product adds no digit.
     if nearest >= number - number.abs() * 1e-12 {
         return nearest;
     }
@@ -206,7 +206,7 @@ mod tests {
             .iter()
             .map(|limit| (limit.metric.as_str(), limit.least))
             .collect();
-        // 1 − 1.2 × 0.091, and 1 − 1.2 × 1.5; a share within a tolerance is itself a fifth less.
+        // 1 − 1.2 × 0.091, and 1 − 1.2 × 1.5. A share within a tolerance is reduced by a fifth.
         assert_eq!(
             least,
             [

@@ -4,10 +4,10 @@ use taceva_core::Unit;
 
 use super::{Published, Sensor};
 
-/// Definitions of this program, with the catalogue's words for the same definition. Other pairs are not comparable.
+/// Definitions of this program, with the equivalent definition in the catalogue. Other pairs are not comparable.
 ///
-/// Success rates are excluded: ours depend on the number of spacings in a scene, and fewer spacings are easier to predict. Robustness over
-/// the surface is excluded too. In its publication the table is not half the sum of what the figure shows, so the definition is unclear.
+/// Success rates are excluded, because ours depend on the number of spacings in a scene, and fewer spacings are easier to predict. Robustness over
+/// the surface is excluded too: the published table differs from half the sum of the numbers in the figure, so its definition is unclear.
 const SAME: [(&str, &str); 6] = [
     (
         "mae/1",
@@ -27,8 +27,8 @@ const SAME: [(&str, &str); 6] = [
 ];
 
 impl Sensor {
-    /// Published number of a metric and channel that is comparable with ours of `definition` and `unit`; `None` if there is none, or its
-    /// definition differs.
+    /// Published number of a metric and channel that is comparable with ours of `definition` and `unit`; `None` if there is none, or its definition
+    /// differs.
     pub fn published_alike(
         &self,
         metric: &str,
@@ -68,10 +68,10 @@ mod tests {
             None,
             "only the plane is published"
         );
-        // Told among 31 spacings there, among as many as the scene has here.
+        // The publication has 31 spacings; ours has as many as the scene.
         assert!(gelsight.result("sr", "line").is_some());
         assert_eq!(of("sr", "line", "sr/1", Unit::One), None);
-        // The same name with other words is another definition.
+        // The same name with another definition text is another definition.
         let mut other = gelsight.clone();
         for result in &mut other.results {
             result.definition.push_str(", over gel and glass");

@@ -1,6 +1,6 @@
 //! Definitions of metrics that share a column with results of this program. A number with another definition needs another name.
 
-/// Metrics, with their channel where it matters, and the definition of published numbers.
+/// Metrics, with their channel if it matters, and the definition of published numbers.
 const DEFINITIONS: &[(&str, &str)] = &[
     (
         "mae",
@@ -47,10 +47,10 @@ const DEFINITIONS: &[(&str, &str)] = &[
     ("intrinsic thickness", "thickness of the sensor"),
 ];
 
-/// Definition required of a published number called `metric`; `None` for names that this program does not use.
+/// Required definition of a published number called `metric`; `None` for names that this program does not use.
 pub(super) fn of(metric: &str, channel: &str) -> Option<&'static str> {
     let family = metric.split_once('.').map_or(metric, |(family, _)| family);
-    // Variants with their own definition precede their metric.
+    // A variant with its own definition precedes its metric.
     let named = |name: &str| {
         name == metric || name == family || name.split_once(' ') == Some((family, channel))
     };
@@ -58,7 +58,7 @@ pub(super) fn of(metric: &str, channel: &str) -> Option<&'static str> {
     found.next().map(|(_, definition)| *definition)
 }
 
-/// True if results of this program have scores of that name.
+/// True if results of this program have scores with that name.
 pub(super) fn is_ours(metric: &str) -> bool {
     taceva_metrics::catalogue::find(metric).is_some()
 }

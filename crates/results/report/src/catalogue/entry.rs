@@ -16,17 +16,17 @@ pub struct Sensor {
     pub(super) catalogue_version: u32,
     /// Name of the sensor.
     pub name: String,
-    /// Other names that stand for it, whatever their case.
+    /// Other names of the sensor; case is ignored.
     #[serde(default)]
     pub aliases: Vec<String>,
-    /// `sensor`, or `study` of an evaluation of others.
+    /// `sensor`, or `study` for an evaluation of several sensors.
     pub kind: Kind,
-    /// IMM (intensity mapping), MDM (marker displacement), MFM (modality fusion) of a sensor with a camera; `magnetic`, `capacitive`, `resistive` or
-    /// `optical` of taxels.
+    /// IMM (intensity mapping), MDM (marker displacement) or MFM (modality fusion) for a sensor with a camera; `magnetic`, `capacitive`, `resistive`
+    /// or `optical` for taxels.
     pub mechanism: Vec<String>,
     /// Shape of the sensor.
     pub shape: Option<String>,
-    /// True if no outside light reaches the camera.
+    /// True if no ambient light reaches the camera.
     pub opaque: Option<bool>,
     /// True if the gel has markers.
     pub markers: Option<bool>,
@@ -36,7 +36,7 @@ pub struct Sensor {
     pub limits: Option<Limits>,
     /// Outer dimensions.
     pub size: Option<Size>,
-    /// Prices that were seen.
+    /// Prices with their dates.
     #[serde(default, rename = "price")]
     pub prices: Vec<Price>,
     /// Ways to get one.
@@ -48,10 +48,10 @@ pub struct Sensor {
     /// Published numbers.
     #[serde(default, rename = "result")]
     pub results: Vec<Published>,
-    /// Unpublished numbers, with the reason.
+    /// Numbers that are not published, with the reason.
     #[serde(default)]
     pub missing: Vec<Missing>,
-    /// Properties that the work reports, each `yes`, `no` or `partial`, with the key `source` for their source.
+    /// Properties that the work reports, each `yes`, `no` or `partial`; the key `source` names their source.
     #[serde(default)]
     pub reported: BTreeMap<String, String>,
     /// Applications in its evaluation, by theme.
@@ -77,19 +77,19 @@ impl Sensor {
         named.find(|result| result.channel == channel)
     }
 
-    /// Frame rate, Hz; `None` if unknown.
+    /// Frame rate in Hz; `None` if unknown.
     pub fn frame_rate_hz(&self) -> Option<f64> {
         let built = self.intrinsic.as_ref().map(|of| of.frame_rate_hz);
         built.or_else(|| Some(self.result("intrinsic", "frame_rate")?.value))
     }
 
-    /// Area of the sensing surface, mm²; `None` if unknown.
+    /// Area of the sensing surface in mm²; `None` if unknown.
     pub fn field_of_view_mm2(&self) -> Option<f64> {
         let built = self.intrinsic.as_ref().map(|of| of.field_of_view_mm2);
         built.or_else(|| Some(self.result("intrinsic", "field_of_view")?.value))
     }
 
-    /// Number of known values: of construction, limits and published results.
+    /// Number of known values among construction, limits and published results.
     pub fn known(&self) -> usize {
         let built = if self.intrinsic.is_some() { 4 } else { 0 };
         let limits = if self.limits.is_some() { 3 } else { 0 };
@@ -101,7 +101,7 @@ impl Sensor {
         self.sources.iter().find(|source| source.id == id)
     }
 
-    /// Name for files and links: ASCII letters in lower case and digits; `-` for any other character.
+    /// Name for files and links: lower-case ASCII letters and digits; `-` for any other character.
     pub fn slug(&self) -> String {
         let letters = self.name.chars().map(|letter| {
             if letter.is_ascii_alphanumeric() {

@@ -1,4 +1,4 @@
-//! Facts about a sensor that are no scores: construction, limits and outer dimensions.
+//! Facts about a sensor other than scores: construction, limits and outer dimensions.
 
 use serde::Deserialize;
 
@@ -8,14 +8,14 @@ use serde::Deserialize;
 pub struct Intrinsic {
     /// Id of the source.
     pub source: String,
-    /// Camera resolution, megapixels.
+    /// Camera resolution, in megapixels.
     #[serde(rename = "camera_MP")]
     pub camera_mp: f64,
-    /// Thickness, mm.
+    /// Thickness, in mm.
     pub thickness_mm: f64,
-    /// Area of the sensing surface, mm².
+    /// Area of the sensing surface, in mm².
     pub field_of_view_mm2: f64,
-    /// Frame rate, Hz.
+    /// Frame rate, in Hz.
     #[serde(rename = "frame_rate_Hz")]
     pub frame_rate_hz: f64,
 }
@@ -26,17 +26,17 @@ pub struct Intrinsic {
 pub struct Limits {
     /// Id of the source.
     pub source: String,
-    /// Greatest indentation, mm.
+    /// Greatest indentation, in mm.
     #[serde(rename = "Pz_max_mm")]
     pub pz_max_mm: f64,
-    /// Greatest normal force, N.
+    /// Greatest normal force, in N.
     #[serde(rename = "Fz_max_N")]
     pub fz_max_n: f64,
-    /// Greatest distance of a contact from the centre, mm.
+    /// Greatest distance of a contact from the centre, in mm.
     pub radius_max_mm: f64,
 }
 
-/// The outer dimensions of a sensor.
+/// Outer dimensions of a sensor.
 ///
 /// ```
 /// let digit = taceva_report::catalogue::find("DIGIT").expect("there");
@@ -45,24 +45,24 @@ pub struct Limits {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Size {
-    /// Width, depth and height in mm as the source orders them, or a diameter and a length, or a diameter alone.
+    /// Width, depth and height in mm in the order of the source; or a diameter and a length; or a diameter.
     pub mm: Vec<f64>,
-    /// The id of the source.
+    /// Id of the source.
     pub source: String,
-    /// The place in the source: `table`, `figure` or `text`.
+    /// Place in the source: `table`, `figure` or `text`.
     pub read_from: String,
-    /// The part that was measured: `housing`, `fingertip`.
+    /// Measured part: `housing`, `fingertip`.
     pub conditions: String,
 }
 
 impl Size {
-    /// The dimensions in mm: `20 × 27 × 18`.
+    /// Dimensions in mm: `20 × 27 × 18`.
     pub fn shown(&self) -> String {
         let sides = self.mm.iter().map(f64::to_string);
         sides.collect::<Vec<_>>().join(" × ")
     }
 
-    /// True of one to three dimensions, all of them above zero.
+    /// True for one to three positive dimensions.
     pub(super) fn is_possible(&self) -> bool {
         let is_length = |side: &f64| side.is_finite() && *side > 0.0;
         (1..=3).contains(&self.mm.len()) && self.mm.iter().all(is_length)

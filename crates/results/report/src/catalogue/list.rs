@@ -5,7 +5,7 @@ use taceva_metrics::Better;
 use super::{Kind, Sensor};
 use crate::table::{Column, Direction, Table};
 
-/// Table with one row per sensor. Studies of sensors are named in a note.
+/// Table with one row for each sensor. A note names the studies of sensors.
 pub fn list(sensors: &[Sensor]) -> Table {
     let error = |name: &str, unit: &str| {
         let column = Column::new(name).unit(unit);
@@ -58,7 +58,7 @@ pub fn list(sensors: &[Sensor]) -> Table {
     table
 }
 
-/// Rows of size, prices and ways to get a sensor, as wide as [`details`] is.
+/// Rows for size, prices and ways to get a sensor, with the columns of [`details`].
 fn offers(sensor: &Sensor) -> Vec<[String; 7]> {
     let source = |id: &str, place: &str| format!("{id}, {place}");
     let size = sensor.size.iter().map(|size| {

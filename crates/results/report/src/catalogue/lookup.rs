@@ -4,7 +4,7 @@ use super::entry::Sensor;
 use super::{all, hint};
 use crate::names::listed;
 
-/// Reason that a name identifies no entry of the catalogue.
+/// Reason why a name does not identify an entry of the catalogue.
 ///
 /// ```
 /// use taceva_report::catalogue::{NameError, named};
@@ -13,16 +13,16 @@ use crate::names::listed;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NameError {
-    /// No entry has the name or an alias like it.
+    /// No entry has this name or alias.
     #[error("no such name in the catalogue; {hint}")]
     Unknown {
-        /// The nearest name, or the command that lists all.
+        /// The most similar name, or the command that lists all.
         hint: String,
     },
     /// Several entries have the alias.
     #[error("several entries of the catalogue have this alias: {}; give one of these names", quoted(.names))]
     Ambiguous {
-        /// The names of these entries.
+        /// Names of these entries.
         names: Vec<String>,
     },
 }
@@ -32,10 +32,10 @@ fn quoted(names: &[String]) -> String {
     listed(&names)
 }
 
-/// The entry called `name`, or the only one with that alias; case does not matter.
+/// Entry called `name`, or the only entry with that alias; ignores case.
 ///
 /// # Errors
-/// [`NameError`] for a name that no entry has, and for an alias that several have.
+/// [`NameError`] for an unknown name, and for an alias of several entries.
 ///
 /// ```
 /// let sensor = taceva_report::catalogue::named("digit 360")?;

@@ -4,10 +4,10 @@ use serde::Deserialize;
 
 use super::published::Roughly;
 
-/// The form of a day in the catalogue.
+/// Format of a date in the catalogue.
 pub(super) const DAY: &str = "a day such as 2026-11-28";
 
-/// A price, and the day on which it was seen.
+/// A price and its date.
 ///
 /// ```
 /// use taceva_report::catalogue;
@@ -17,33 +17,33 @@ pub(super) const DAY: &str = "a day such as 2026-11-28";
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Price {
-    /// The amount, in `currency`.
+    /// Amount, in `currency`.
     pub amount: f64,
-    /// The currency, by its three letters: `USD`.
+    /// Currency as three letters: `USD`.
     pub currency: String,
-    /// The goods for that amount: `parts of one sensor, of 1000 made`.
+    /// Goods for that amount: `parts of one sensor, of 1000 made`.
     pub of: String,
-    /// The relation of the true price to the amount, where it is not stated exactly.
+    /// Relation of the true price to the amount, if the amount is inexact.
     pub bound: Option<Roughly>,
-    /// The id of the source.
+    /// Id of the source.
     pub source: String,
-    /// The place in the source: `table`, `text` or `abstract`.
+    /// Place in the source: `table`, `text` or `abstract`.
     pub read_from: String,
-    /// The day on which it was seen.
+    /// Date of the price.
     pub seen: String,
     /// Remarks for readers.
     pub note: Option<String>,
 }
 
 impl Price {
-    /// The amount with its currency, and `≈`, `>` or `<` where it is not exact.
+    /// Amount with its currency, and `≈`, `>` or `<` if inexact.
     pub fn shown(&self) -> String {
         let sign = self.bound.map_or("", Roughly::sign);
         format!("{sign}{} {}", self.amount, self.currency)
     }
 
-    /// The class of the price, of a power of ten from 100 in its currency: `below 100 USD`, `below 1000 USD`; `1000 USD and more` of a price that
-    /// is stated as above 1000.
+    /// Class of the price by powers of ten from 100 in its currency: `below 100 USD`, `below 1000 USD`. A price stated as above 1000 is `1000 USD and
+    /// more`.
     pub fn class(&self) -> String {
         let edges = (2..=9).map(|power| 10_f64.powi(power));
         let is_open = self.bound == Some(Roughly::Above);
@@ -54,7 +54,7 @@ impl Price {
         }
     }
 
-    /// The remarks and the day.
+    /// Remarks and date.
     pub fn conditions(&self) -> String {
         let note = self.note.as_ref();
         let note = note.map_or_else(String::new, |note| format!("; {note}"));
@@ -66,28 +66,28 @@ impl Price {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Availability {
-    /// The way.
+    /// Kind of the way.
     pub way: Way,
-    /// The seller, or the files that are published.
+    /// Seller, or published files.
     pub conditions: String,
-    /// The id of the source.
+    /// Id of the source.
     pub source: String,
-    /// The day on which that was seen.
+    /// Date of this information.
     pub seen: String,
 }
 
-/// The way to a sensor: bought ready, or built from published files.
+/// Ways to get a sensor: bought, or built from published files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Way {
     /// Ready to buy.
     Bought,
-    /// Made at home, by published drawings or instructions.
+    /// Built from published drawings or instructions.
     Built,
 }
 
 impl Way {
-    /// The word for it.
+    /// Word in tables.
     pub const fn word(self) -> &'static str {
         match self {
             Way::Bought => "bought",
@@ -96,7 +96,7 @@ impl Way {
     }
 }
 
-/// True of a day of the form that [`DAY`] shows.
+/// True for a date in the format of [`DAY`].
 pub(super) fn is_day(text: &str) -> bool {
     let is_number =
         |part: &str, digits| part.len() == digits && part.bytes().all(|byte| byte.is_ascii_digit());
@@ -111,7 +111,7 @@ pub(super) fn is_day(text: &str) -> bool {
         && ("01"..="31").contains(&day)
 }
 
-/// True of a currency in the form of ISO 4217.
+/// True for a currency code in the format of ISO 4217.
 pub(super) fn is_currency(text: &str) -> bool {
     text.len() == 3 && text.bytes().all(|byte| byte.is_ascii_uppercase())
 }

@@ -7,9 +7,9 @@ use taceva_metrics::Standing;
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Source {
-    /// Id that numbers of the same file refer to.
+    /// Id to which numbers in the same file refer.
     pub id: String,
-    /// Authors, title, place and year of publication.
+    /// Authors, title, journal and year of the publication.
     pub text: String,
     /// URL, if there is one.
     pub link: Option<String>,
@@ -23,7 +23,7 @@ pub struct Published {
     pub metric: String,
     /// Channel or plane.
     pub channel: String,
-    /// Number, in `unit`.
+    /// Number in `unit`.
     pub value: f64,
     /// Unit.
     pub unit: String,
@@ -39,7 +39,7 @@ pub struct Published {
     pub bound: Option<Roughly>,
     /// Remark for readers.
     pub note: Option<String>,
-    /// Standing, by the published R² of its channel.
+    /// Standing by the published R² of the channel.
     #[serde(skip)]
     pub standing: Standing,
     /// Interval of 95 %; `None` for published numbers.
@@ -55,7 +55,7 @@ impl Published {
     }
 }
 
-/// Relation of the true value to an inexact published number, which is displayed but not compared.
+/// Relation of the true value to an inexact published number. Such a number is displayed but not compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Roughly {
@@ -78,12 +78,12 @@ impl Roughly {
     }
 }
 
-/// Number that was not published.
+/// A number that was not published.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Missing {
     /// Metric.
     pub metric: String,
-    /// Reason that it is missing.
+    /// Reason why it is missing.
     pub reason: String,
 }

@@ -1,4 +1,4 @@
-//! Questions of a reader who chooses a sensor, and the answers in an entry.
+//! Questions of a reader who chooses a sensor, and whether an entry answers them.
 
 use super::entry::Sensor;
 
@@ -11,26 +11,26 @@ use super::entry::Sensor;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Question {
-    /// The outer dimensions.
+    /// Outer dimensions.
     Size,
-    /// The thickness of the sensor or of its gel.
+    /// Thickness of the sensor or of its gel.
     Thickness,
-    /// The area of the sensing surface.
+    /// Area of the sensing surface.
     Area,
-    /// Pictures or measurements a second.
+    /// Frames or measurements per second.
     Rate,
-    /// Pixels of a picture, or the least detail that is resolved.
+    /// Pixels of a frame, or the smallest resolved detail.
     Resolution,
-    /// An error of position, depth or force.
+    /// Error of position, depth or force.
     Accuracy,
-    /// A price.
+    /// Price.
     Price,
-    /// A seller, or files to build it by.
+    /// Seller, or files for building it.
     Availability,
 }
 
 impl Question {
-    /// All of them, in the order of tables.
+    /// All questions, in the order of tables.
     pub const ALL: [Question; 8] = [
         Question::Size,
         Question::Thickness,
@@ -44,7 +44,7 @@ impl Question {
 }
 
 impl Sensor {
-    /// True where the entry answers `question` with a number, or with a way to get the sensor.
+    /// True if the entry answers `question` with a number, or with a way to get the sensor.
     pub fn answers(&self, question: Question) -> bool {
         let built = self.intrinsic.is_some();
         let of = |metric: &str| self.results.iter().any(|result| result.metric == metric);

@@ -11,7 +11,7 @@ use super::offer::{self, DAY};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CatalogueError {
-    /// The file is no TOML, or has unknown keys.
+    /// The file is not TOML, or has unknown keys.
     #[error("{file}: {source}")]
     Toml {
         /// Name of the file.
@@ -19,7 +19,7 @@ pub enum CatalogueError {
         /// TOML error with its line.
         source: Box<toml::de::Error>,
     },
-    /// A value is not accepted.
+    /// A value is invalid.
     #[error("{file}: {what} `{found}`: expected {expected}")]
     Value {
         /// Name of the file.
@@ -33,7 +33,7 @@ pub enum CatalogueError {
     },
 }
 
-/// Sensing mechanisms: by camera, in the words of the TacEva study, or by taxels.
+/// Sensing mechanisms: for cameras as in the TacEva study, or for taxels.
 const MECHANISMS: [&str; 7] = [
     "IMM",
     "MDM",
@@ -80,7 +80,7 @@ impl Sensor {
             if let Some(expected) = expected
                 && result.definition != expected
             {
-                // One column, one definition.
+                // All numbers of a column have one definition.
                 return Err(refuse("definition", &result.definition, expected));
             }
             if expected.is_none() && definition::is_ours(&result.metric) {

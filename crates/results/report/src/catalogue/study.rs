@@ -11,8 +11,8 @@ use crate::results::{Fact, Made, PUBLISHED, Study, by_published_r2};
 use taceva_results::{Interval, Score};
 
 impl Sensor {
-    /// Converts results to a sensor for `choose`: their numbers, and opacity as far as results state it. Limits come from
-    /// the catalogue sensor of the same name; they stay unknown without one, and for simulated sensors.
+    /// Converts results to a sensor for `choose`: their numbers, and opacity if the results state it. Limits come from the catalogue sensor of the
+    /// same name; without one, and for simulated sensors, they stay unknown.
     pub fn of_study(study: &Study) -> Sensor {
         let result = |score: &Score| {
             let decided_by = score.decided_by().map(|variant| variant.name.clone());
@@ -24,11 +24,11 @@ impl Sensor {
                 unit: score.unit.symbol().to_owned(),
                 source: "result".to_owned(),
                 read_from: study.source.clone(),
-                conditions: "as its provenance says".to_owned(),
+                conditions: "see its provenance".to_owned(),
                 definition: score.definition.clone(),
                 bound: None,
                 note: decided_by
-                    .map(|variant| format!("the variant {variant}, by which verdicts go")),
+                    .map(|variant| format!("the variant {variant}, which verdicts use")),
                 standing: score.standing,
                 interval: score.interval.as_ref().and_then(Interval::ends),
             })
@@ -60,7 +60,7 @@ impl Sensor {
         }
     }
 
-    /// Published numbers as results for tables and comparisons. Their source is `published`, and none has an interval.
+    /// Converts published numbers to results for tables and comparisons. Their source is `published`, and none has an interval.
     pub fn as_study(&self) -> Study {
         let score = |metric: &str, channel: &str, value: f64, unit: Unit| Score {
             interval: Some(Interval::Absent("published without one".to_owned())),
@@ -103,15 +103,13 @@ impl Sensor {
             skipped: Vec::new(),
             provenance: sources.collect(),
             made: Made::default(),
-            notes: vec![
-                "published numbers; nothing here was measured with this program".to_owned(),
-            ],
+            notes: vec!["published numbers, not measured with this program".to_owned()],
             over_seeds: None,
             samples: None,
         }
     }
 
-    /// Numbers that no test compares: of other definitions, stated roughly, of size, price and limits; and ways to get a sensor.
+    /// Values without a test: numbers of other definitions, inexact numbers, size, price and limits; and ways to get a sensor.
     fn facts(&self) -> Vec<Fact> {
         let size = self.size.iter();
         let mut facts: Vec<Fact> = size.map(|of| fact("size", of.shown(), "mm")).collect();
@@ -124,7 +122,7 @@ impl Sensor {
             facts.push(fact("greatest Pz", depth, "mm"));
             facts.push(fact("greatest Fz", force, "N"));
         }
-        // Variants of our metrics stand beside their metric on the page of the sensor.
+        // Variants of our metrics are shown beside their metric on the page of the sensor.
         let is_fact = |result: &&Published| {
             let family = result.metric.split('.').next().unwrap_or_default();
             !definition::is_ours(family) || result.bound.is_some()

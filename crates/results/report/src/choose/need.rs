@@ -11,7 +11,7 @@ use super::words::{QUANTITIES, Quantity, WORDS};
 pub struct Need {
     /// Need as written.
     pub words: String,
-    /// Bounds; a sensor that breaks one is dropped.
+    /// Bounds; a sensor that does not meet one is excluded.
     pub bounds: Vec<Bound>,
     /// Properties that rank the remaining sensors.
     pub ranks: Vec<Property>,
@@ -40,7 +40,7 @@ pub enum NeedError {
     /// Unknown word.
     #[error("`{0}`: unknown need, expected one of {known}", known = known())]
     Unknown(String),
-    /// The number or its unit is invalid.
+    /// A number or its unit is invalid.
     #[error("`{words}`: expected a number above 0{unit}, such as `{example}`", unit = of_unit(unit))]
     Number {
         /// Need as written.
@@ -50,22 +50,20 @@ pub enum NeedError {
         /// The need with a valid number.
         example: String,
     },
-    /// The need asks for a price.
-    #[error(
-        "`{0}`: prices take part in no ranking; `taceva catalogue show NAME` shows those that are known"
-    )]
+    /// The need concerns a price.
+    #[error("`{0}`: prices are not ranked; `taceva catalogue show NAME` shows known prices")]
     Price(String),
-    /// The file is no TOML of the form `needs = ["…", …]`.
+    /// The file is not TOML of the form `needs = ["…", …]`.
     #[error("needs: {0}")]
     Toml(#[from] toml::de::Error),
 }
 
 impl Need {
-    /// Parses needs separated by commas: words such as `accurate shear`, bounds such as `rate >= 50 Hz` or `force <= 1 N`, and
-    /// `localisation 0.3 mm`, which limits the error.
+    /// Parses needs separated by commas: words such as `accurate shear`, bounds such as `rate >= 50 Hz` or `force <= 1 N`, and error limits such as
+    /// `localisation 0.3 mm`.
     ///
     /// # Errors
-    /// [`NeedError`] with the need and the known ones.
+    /// [`NeedError`] with the invalid need and the known ones.
     pub fn parse(text: &str) -> Result<Vec<Need>, NeedError> {
         let words = text
             .split(',')
@@ -81,7 +79,7 @@ impl Need {
     /// Parses needs from a file: `needs = ["shear", "rate >= 50 Hz"]`.
     ///
     /// # Errors
-    /// [`NeedError`] with the line or the need.
+    /// [`NeedError`] with the line or the invalid need.
     pub fn read(text: &str) -> Result<Vec<Need>, NeedError> {
         #[derive(serde::Deserialize)]
         #[serde(deny_unknown_fields)]
@@ -92,7 +90,7 @@ impl Need {
         Need::parse(&written.needs.join(","))
     }
 
-    /// All needs that can be written, a line each: words with the properties by which they rank or exclude, then quantities with their units.
+    /// All accepted needs, one on each line: words with the properties by which they rank or exclude, then quantities with their units.
     ///
     /// ```
     /// assert!(taceva_report::Need::vocabulary().contains("force >= <number> N"));
@@ -131,7 +129,7 @@ impl Need {
     }
 }
 
-/// Words that ask for a price.
+/// Words for a price.
 const PRICES: [&str; 5] = ["affordable", "cheap", "cost", "inexpensive", "price"];
 
 fn one(words: &str) -> Result<Need, NeedError> {
@@ -154,7 +152,7 @@ fn one(words: &str) -> Result<Need, NeedError> {
     if PRICES.iter().any(|price| lower.starts_with(price)) {
         return Err(NeedError::Price(shown(words).to_string()));
     }
-    // Longest name first: `depth error` contains `depth`.
+    // Longest name first, because `depth error` contains `depth`.
     let named = QUANTITIES
         .iter()
         .filter(|quantity| lower.starts_with(quantity.name));
@@ -168,7 +166,7 @@ fn one(words: &str) -> Result<Need, NeedError> {
     })
 }
 
-/// Parses `<= 1 N`, `>= 50 Hz`, or a bare number, which bounds the worse side.
+/// Parses `<= 1 N`, `>= 50 Hz`, or a bare number, which limits the worse direction.
 fn bound(quantity: &Quantity, words: &str, rest: &str) -> Result<Bound, NeedError> {
     let refuse = || NeedError::Number {
         words: shown(words).to_string(),

@@ -8,7 +8,7 @@ const FIRST: &str = "first";
 const SECOND: &str = "second";
 
 impl Choice {
-    /// Place of each ranked sensor, from 1. Equal shares have equal places, and the next place follows after all of them.
+    /// Place of each ranked sensor, from 1. Equal shares have equal places; the next place counts all of them.
     pub fn places(&self) -> Vec<usize> {
         let mut places: Vec<usize> = Vec::new();
         for (at, candidate) in self.ranked.iter().enumerate() {

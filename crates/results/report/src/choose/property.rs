@@ -1,4 +1,4 @@
-//! Properties of a sensor that needs refer to.
+//! Properties of a sensor to which needs refer.
 
 use std::fmt;
 
@@ -7,32 +7,32 @@ use taceva_metrics::{Better, Standing};
 use crate::catalogue::Sensor;
 use crate::number::FormattedValue;
 
-/// Property of a sensor that needs refer to.
+/// Property of a sensor to which needs refer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Property {
-    /// Mean absolute error of a channel or plane, mm or N.
+    /// Mean absolute error of a channel or plane, in mm or N.
     Error(&'static str),
-    /// Repeatability of a channel or plane, mm or N.
+    /// Repeatability of a channel or plane, in mm or N.
     Repeatability(&'static str),
-    /// Spatial robustness of a channel or plane, mm or N.
+    /// Spatial robustness of a channel or plane, in mm or N.
     Spatial(&'static str),
-    /// Share of gratings, of lines or dots, with a spacing predicted to within 0.05 mm.
+    /// Share of line or dot gratings whose spacing is predicted to within 0.05 mm.
     Resolution(&'static str),
-    /// Indentation over normal force, mm/N.
+    /// Indentation per normal force, in mm/N.
     Sensitivity,
     /// Uniformity of the sensitivity over the surface.
     Uniformity,
-    /// Frame rate, Hz.
+    /// Frame rate, in Hz.
     FrameRate,
-    /// Sensing area, mm².
+    /// Sensing area, in mm².
     FieldOfView,
-    /// Thickness of the sensor, mm.
+    /// Thickness of the sensor, in mm.
     Thickness,
-    /// Greatest indentation, mm.
+    /// Greatest indentation, in mm.
     GreatestDepth,
-    /// Greatest normal force, N.
+    /// Greatest normal force, in N.
     GreatestForce,
-    /// Opacity to outside light: 1 or 0.
+    /// Opacity to ambient light: 1 or 0.
     Opaque,
 }
 
@@ -60,12 +60,12 @@ impl Property {
         }
     }
 
-    /// True of greatest depths and forces: the greatest that a source tried, which need not be the limit of the gel.
+    /// True for greatest depths and forces. Their values are the greatest tested ones, which may be below the limit of the gel.
     pub(super) fn is_reached(self) -> bool {
         matches!(self, Property::GreatestDepth | Property::GreatestForce)
     }
 
-    /// True of errors in a plane, which are the mean of both axes and no distance.
+    /// True for errors in a plane. Their value is the mean of both axes, not a distance.
     pub(super) fn is_of_both_axes(self) -> bool {
         matches!(self, Property::Error("Pxy" | "Fxy"))
     }
@@ -88,13 +88,13 @@ impl Property {
         }
     }
 
-    /// Interval of 95 % of the number of `sensor`, if there is one.
+    /// 95 % interval of the number of `sensor`, if any.
     pub fn interval(self, sensor: &Sensor) -> Option<[f64; 2]> {
         let (metric, channel) = self.score()?;
         sensor.result(metric, channel)?.interval
     }
 
-    /// Standing of the number of `sensor`. Properties other than scores count.
+    /// Standing of the number of `sensor`. Properties other than scores always count.
     pub fn standing(self, sensor: &Sensor) -> Standing {
         let score = self.score();
         let result = score.and_then(|(metric, channel)| sensor.result(metric, channel));
@@ -158,12 +158,12 @@ impl Property {
         }
     }
 
-    /// Share of the best of `sensors` that `value` has.
+    /// Share of the best of `sensors` that `value` reaches.
     pub(super) fn share(self, value: f64, sensors: &[&Sensor]) -> Option<f64> {
         let known = sensors.iter().filter_map(|sensor| self.of(sensor));
         if self.better() == Better::Lower {
             let best = known.fold(f64::INFINITY, f64::min);
-            // Nothing is better than no error at all.
+            // An error of 0 is the best possible.
             return Some(if value > 0.0 { best / value } else { 1.0 });
         }
         let best = known.fold(0.0, f64::max);

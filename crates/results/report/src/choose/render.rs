@@ -12,16 +12,16 @@ use crate::names::listed;
 use crate::number::{fixed, numeral};
 use crate::table::{Column, Direction, Table};
 
-/// Schema of a choice as JSON. 1.1: `open` lists sensors with an undecided hard need. 1.2: each step states which numbers are good. 1.3:
-/// place and tie of each ranked sensor. 1.4: intervals, and significant differences. 1.5: sensors with limits from the catalogue. 1.6:
-/// `unplaced` lists sensors without a number for a need that ranks.
+/// Schema of a choice as JSON. 1.1: `open` lists sensors with an unknown number for a hard need. 1.2: each step states the better direction. 1.3:
+/// place and tie of each ranked sensor. 1.4: intervals, and significant differences. 1.5: sensors with limits from the catalogue. 1.6: `unplaced`
+/// lists sensors without a number for a ranking need.
 pub const CHOICE_SCHEMA: &str = "taceva.choice/1.6";
 
-/// Most names in a sentence.
+/// Greatest number of names in a sentence.
 const SHOWN: usize = 6;
 
 impl Choice {
-    /// Table with one row per sensor, need and number, from the best sensor to the dropped ones.
+    /// Table with one row for each sensor, need and number, from the best sensor to the excluded ones.
     pub fn table(&self) -> Table {
         let columns = [
             Column::new("place"),
@@ -114,7 +114,7 @@ impl Choice {
         if !self.unknown.is_empty() {
             let known = self.ranked.len() + self.others.len();
             table.note(format!(
-                "{known} of {} {} a requested number; none is known of: {}.",
+                "{known} of {} {} a requested number; none is known for: {}.",
                 counted(known + self.unknown.len(), "sensor"),
                 by_count(known, "has", "have"),
                 first(&self.unknown)
@@ -123,7 +123,7 @@ impl Choice {
         table
     }
 
-    /// Result in one sentence.
+    /// One sentence with the result.
     pub fn headline(&self) -> String {
         match self.ranked.as_slice() {
             [] if !self.unplaced.is_empty() => {
@@ -133,14 +133,14 @@ impl Choice {
                     false => "; others are excluded",
                 };
                 format!(
-                    "No sensor is ranked: a number for a need that ranks is not known of {}{others}",
+                    "No sensor is ranked: a number for a ranking need is unknown for {}{others}",
                     first(&names)
                 )
             }
             [] => "No sensor meets every need, as far as is known".to_owned(),
             [best] if !self.unplaced.is_empty() => {
                 format!(
-                    "{} alone is ranked; of others a number is not known",
+                    "{} alone is ranked; for others a number is unknown",
                     best.name
                 )
             }
@@ -213,7 +213,7 @@ impl Choice {
     }
 }
 
-/// Names; the number of the others in place of many.
+/// The first names, and the number of the others.
 fn first(names: &[String]) -> String {
     match names.len().checked_sub(SHOWN) {
         Some(others) if others > 1 => format!(

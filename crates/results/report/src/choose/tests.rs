@@ -1,9 +1,9 @@
-//! Choices among the catalogue and among results.
+//! Tests of choices among the catalogue and among results.
 
 use super::*;
 use crate::catalogue;
 
-/// The names of the four sensors of the study, ranked for `needs`.
+/// Names of the four sensors of the study, ranked for `needs`.
 fn ranked(needs: &str) -> Vec<String> {
     let needs = Need::parse(needs).unwrap_or_else(|error| panic!("{error}"));
     let of_study = ["GelSight", "GelSightWM", "MagicTac", "ViTacTip"];

@@ -11,7 +11,7 @@ use crate::scores::sign;
 use crate::table::{Cell, Column, Direction, Table};
 
 impl Choice {
-    /// Values of all sensors with a requested number side by side: one row per sensor, one column per number, the ranked ones first.
+    /// Values of all sensors with a requested number: one row for each sensor, one column for each number, ranked sensors first.
     ///
     /// ```
     /// use taceva_report::{Need, catalogue, choose};
@@ -62,7 +62,7 @@ impl Choice {
         table
     }
 
-    /// `1`, `2 (tie)`; or the reason in a word that the sensor has no place.
+    /// `1`, `2 (tie)`, or a word for the reason why the sensor has no place.
     fn place_of(&self, name: &str) -> String {
         let mut ranked = self.ranked.iter().zip(self.places()).enumerate();
         let found = ranked.find(|(_, (candidate, _))| candidate.name == name);
@@ -77,7 +77,7 @@ impl Choice {
         }
     }
 
-    /// True for a sensor whose numbers were considered and which is not ranked.
+    /// True for a sensor with considered numbers but without a rank.
     pub(super) fn sets_aside(&self, sensor: &Sensor) -> bool {
         let dropped = self.dropped.iter().chain(&self.barred);
         let dropped = dropped.chain(&self.unplaced);
@@ -87,7 +87,7 @@ impl Choice {
     }
 }
 
-/// Sign of the standing of a number; empty if it counts without remark or is unknown.
+/// Sign for the standing of a number; empty if it counts without remark or is unknown.
 fn mark(step: &Step) -> &'static str {
     step.value.map_or("", |_| sign(step.standing))
 }

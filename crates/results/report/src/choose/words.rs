@@ -4,7 +4,7 @@ use taceva_metrics::Better;
 
 use super::property::Property;
 
-/// Word with its meaning.
+/// A word and its meaning.
 pub(super) struct Word {
     /// Synonyms.
     pub(super) names: &'static [&'static str],
@@ -101,12 +101,13 @@ pub(super) const WORDS: &[Word] = &[
     },
 ];
 
-/// Quantity with a number.
+/// A quantity that can be bounded.
 pub(super) struct Quantity {
     pub(super) name: &'static str,
     pub(super) unit: &'static str,
     pub(super) property: Property,
-    /// True if the sensor needs at least this number, even if the need says "up to". A press of up to 1 N requires a sensor that withstands 1 N.
+    /// True if the sensor must reach at least this number, even if the need says "up to". For instance, a press of up to 1 N requires a sensor that
+    /// withstands 1 N.
     pub(super) is_reach: bool,
 }
 
@@ -116,14 +117,14 @@ impl Quantity {
         self.is_reach || self.property.better() == Better::Higher
     }
 
-    /// Need with `number`, as it is written: `rate >= 30 Hz`.
+    /// Need with `number` in its written form: `rate >= 30 Hz`.
     pub(super) fn written(&self, number: &str) -> String {
         let sign = if self.is_least() { ">=" } else { "<=" };
         let need = format!("{} {sign} {number} {}", self.name, self.unit);
         need.trim_end().to_owned()
     }
 
-    /// Need with a number of a usual size.
+    /// Need with a typical number.
     pub(super) fn example(&self) -> String {
         self.written(match self.unit {
             "Hz" => "30",
@@ -150,7 +151,7 @@ const fn quality(name: &'static str, unit: &'static str, property: Property) -> 
     }
 }
 
-/// Quantities that may be bounded.
+/// Quantities that can be bounded.
 pub(super) const QUANTITIES: &[Quantity] = &[
     reach("force", "N", Property::GreatestForce),
     reach("depth", "mm", Property::GreatestDepth),

@@ -1,4 +1,4 @@
-//! Decides whether two scores are comparable: their standing, and the samples on which skill was shown.
+//! Decides whether two scores are comparable: by their standing, and by the samples that showed skill.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use crate::names::listed;
 use crate::results::Study;
 use taceva_results::Score;
 
-/// Reason that two scores give no verdict, such as `ViTacTip: not better than predicting the mean: …`.
+/// Reason why two scores give no verdict, such as `ViTacTip: not better than predicting the mean: …`.
 pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String> {
     let sides = [(scores.a, names.a), (scores.b, names.b)];
     let reasons: Vec<String> = sides
@@ -22,7 +22,7 @@ pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String
     (!reasons.is_empty()).then(|| reasons.join("; "))
 }
 
-/// Reason that a difference between units gives no verdict: a single pair, at any number of points, says nothing about other units.
+/// Reason why a difference between units gives no verdict: a single pair of units cannot represent other units.
 fn of_one_pair(score: &Score) -> Option<&'static str> {
     let pairs = score.counts.iter().find(|(name, _)| name == "pairs_valid");
     pairs
@@ -30,7 +30,7 @@ fn of_one_pair(score: &Score) -> Option<&'static str> {
         .map(|_| "only one pair of units was compared")
 }
 
-/// Note if the skill of the studies was shown on different samples.
+/// Note if different samples showed the skill of the studies.
 pub(super) fn notes(studies: &[Study], names: &[String]) -> Option<String> {
     let shown: Vec<(&str, String)> = studies
         .iter()
@@ -51,7 +51,7 @@ pub(super) fn notes(studies: &[Study], names: &[String]) -> Option<String> {
     })
 }
 
-/// Description of the samples on which a study's skill was shown.
+/// Description of the samples that showed the skill of a study.
 fn ground(study: &Study) -> String {
     let of = |key: &str| {
         let found = study.provenance.iter().find(|(name, _)| name == key);
@@ -84,5 +84,5 @@ fn ground(study: &Study) -> String {
 /// Length of a shortened digest: `sha256:` and twelve digits.
 const SHORT: usize = 19;
 
-/// Length of a shortened list of tables: the first table, with twelve digits of its digest.
+/// Length of a shortened list of tables: the first table with twelve digits of its digest.
 const TABLES: usize = 40;

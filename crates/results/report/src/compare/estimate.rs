@@ -4,14 +4,14 @@ use taceva_metrics::{Estimate, Sides, StatedInterval};
 
 use taceva_results::{Interval, Score};
 
-/// Flag of a skill with another constant than that of the training part.
+/// Flag of a skill whose constant is not the mean of the training part.
 const MEAN_OF_TRUTH: &str = "constant is the mean of truth";
 
-/// Estimates of both scores; an error in words if their meanings differ.
+/// Estimates of both scores; an error message if their meanings differ.
 pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> {
     let Sides { a, b } = scores;
     let meaning = |score: &Score| {
-        // By name: a file may state constants in any order.
+        // Sorted by name, because a file may state constants in any order.
         let mut constants = score.parameters.clone();
         constants.sort_by(|left, right| left.0.cmp(&right.0));
         let constants = constants.iter();
@@ -34,8 +34,7 @@ pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> 
     })
 }
 
-/// Estimate of a score with its stated interval. If an older result states no degrees of freedom, they are the number of clusters minus
-/// one.
+/// Estimate of a score with its interval. If an older result states no degrees of freedom, they are the number of clusters minus one.
 fn estimate(score: &Score) -> Result<Estimate, String> {
     let Some(value) = score.value.number() else {
         let reason = score.value.reason();

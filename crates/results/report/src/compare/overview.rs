@@ -11,9 +11,9 @@ use crate::number::{at_most, numeral, spaced};
 use crate::tie::best;
 use crate::wrap::wrapped;
 
-/// Limit of lines in [`Comparison::overview`], before they are wrapped.
+/// Greatest number of lines in [`Comparison::overview`] before wrapping.
 pub const OVERVIEW_LINES: usize = 12;
-/// Limit of characters in a terminal line.
+/// Greatest number of characters in a terminal line.
 pub const OVERVIEW_WIDTH: usize = 100;
 
 /// First questions of a reader: metric, channel and words.
@@ -43,11 +43,11 @@ pub struct Decision {
     pub decided_by: Option<String>,
     /// Better direction of the values.
     pub better: Better,
-    /// Position of the study that is significantly better than every other.
+    /// Position of the study that is significantly better than all others.
     pub winner: Option<usize>,
-    /// Positions of the studies tied for the best value, bit by bit; empty without a tie.
+    /// Positions of the studies with exactly equal best values; empty without a tie.
     pub tied: Vec<usize>,
-    /// Best study and value, the studies that it is significantly better than, and the p value.
+    /// Best study and value, the studies that it significantly beats, and the p value.
     pub words: String,
 }
 
@@ -73,8 +73,8 @@ impl Decision {
 }
 
 impl Comparison {
-    /// First questions with their answers: the named ones, and the first score of each other metric that was asked for. If no question has
-    /// a name, the first score of each metric.
+    /// First questions with their answers: the named ones, and the first score of each other requested metric. If no question has a name, the first
+    /// score of each metric.
     pub fn decisions(&self) -> Vec<Decision> {
         let named = QUESTIONS.iter();
         let named =
@@ -91,7 +91,7 @@ impl Comparison {
         decisions
     }
 
-    /// Counts of the answers, in one line.
+    /// Counts of the answers, on one line.
     pub fn summary(&self) -> String {
         let all = self.answers.len();
         if all == 0 {
@@ -139,8 +139,8 @@ impl Comparison {
         format!("{pairs} of scores: {shown}{others}{why} (5 %, Holm-corrected per metric)")
     }
 
-    /// First questions with their answers, in at most [`OVERVIEW_LINES`] lines before wrapping. With a `width`, lines are wrapped between words
-    /// to that many characters. Omitted questions are counted.
+    /// First questions with their answers, in at most [`OVERVIEW_LINES`] lines before wrapping. With a `width`, wraps lines between words to that
+    /// many characters. Counts the omitted questions.
     pub fn overview(&self, width: Option<usize>) -> String {
         let line = |words: &str| {
             let words = crate::escape::terminal(words);
@@ -183,7 +183,7 @@ impl Comparison {
         let valued = values(&answers, |_| true);
         let tested = values(&answers, |answer| answer.difference.is_some());
         let (winner, words) = match (best(tested, better), &aside.tie) {
-            // Studies tied for the best are not winners, even if they beat others.
+            // Studies tied for the best value are not winners, even if they beat others.
             (_, Some(tie)) => {
                 let others = valued.iter().map(|(at, _)| *at);
                 let unbeaten = tie.unbeaten(&answers, others, &self.names);
@@ -297,7 +297,7 @@ impl Answer {
         matches!(self.verdict, Verdict::Equivalent { .. })
     }
 
-    /// Short reason that the pair was not tested: `not better than predicting the mean`.
+    /// Short reason why the pair was not tested: `not better than predicting the mean`.
     fn cause(&self) -> &str {
         let sides = [self.standings.a, self.standings.b];
         let barred = sides.into_iter().find(|standing| !standing.takes_part());
@@ -344,7 +344,7 @@ fn values(answers: &[&Answer], is_wanted: impl Fn(&Answer) -> bool) -> Vec<(usiz
     values
 }
 
-/// Reason that nothing is decided.
+/// Reason why nothing is decided.
 fn untested(
     metric: &str,
     answers: &[&Answer],

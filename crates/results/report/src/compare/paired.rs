@@ -11,16 +11,17 @@ use crate::results::Study;
 use taceva_results::Score;
 use taceva_results::{SampleChannel, Samples};
 
-/// Difference of both mean absolute errors, or the reason that the two are not compared in pairs.
+/// Difference of both mean absolute errors, or the reason why the two are not compared in pairs.
 ///
-/// Pairing requires three conditions. Both results name the same truth, or none. Both have the same ids with the same truth, bit by bit.
-/// The errors of the samples have the mean stated by the score; otherwise the table belongs to other results. Two sensors pressed by the
-/// same plan share ids and commanded positions, but not samples.
+/// Pairing requires three conditions. Both results name the same truth, or neither names one. Both have the same ids with bit-equal truth. The sample
+/// errors have the mean that the score states; otherwise the table belongs to other results. Two sensors pressed by the same plan share ids and
+/// commanded positions, but not samples.
 ///
-/// Trainings of both models that differ make it a paired t test with their variance; otherwise it is the sign-flip test.
+/// Uses a paired t test with the variance between trainings if either model has several trainings with different errors, otherwise the sign-flip
+/// test.
 ///
 /// # Errors
-/// The reason in words if both results name the same truth; `None` if nothing says that they do.
+/// The reason in words if both results name the same truth; `None` if they do not.
 pub(super) fn difference(
     scores: Sides<&Score>,
     studies: Sides<&Study>,
@@ -53,7 +54,7 @@ pub(super) fn difference(
     })
 }
 
-/// Digest of the truth: of the predicted dataset, or of the truth table, if the result states it.
+/// Digest of the truth: of the predicted dataset or of the truth table, if the result states it.
 fn truth(study: &Study) -> Option<&str> {
     let mut provenance = study.provenance.iter();
     let dataset = provenance.find(|(term, _)| term == "dataset");
@@ -71,7 +72,7 @@ struct Errors<'a> {
 }
 
 impl<'a> Errors<'a> {
-    /// Prediction errors of the samples of `score`, or the reason that they are unknown.
+    /// Prediction errors of the samples of `score`, or the reason why they are unknown.
     fn of(study: &'a Study, score: &Score) -> Result<Errors<'a>, &'static str> {
         let samples = study
             .samples
@@ -80,7 +81,7 @@ impl<'a> Errors<'a> {
         let strange = "the score does not match the table of samples";
         let channel = samples.channel(&score.channel).ok_or(strange)?;
         let rows = scored(samples, channel, score.n).ok_or(strange)?;
-        // Samples are their own points only if the interval of the score agrees.
+        // Each sample counts as a point only if the interval of the score agrees.
         let is_alone = score
             .interval
             .as_ref()

@@ -1,4 +1,4 @@
-//! Remarks on a verdict: ties, light that hardly changed, and labels of different spread.
+//! Remarks on a verdict: ties, light that hardly changed, and labels with different spreads.
 
 use taceva_metrics::Standing;
 
@@ -14,9 +14,9 @@ pub(super) struct Remarks {
     pub(super) channel: String,
     /// Tie for the best value.
     pub(super) tie: Option<Tie>,
-    /// Studies without a part in verdicts, with the reason.
+    /// Studies that are excluded from verdicts, with the reason.
     pub(super) barred: Vec<(usize, String)>,
-    /// Difference in label spread between the other studies; empty if there is none.
+    /// Difference in label spread between the other studies; empty if none.
     pub(super) spread: String,
 }
 

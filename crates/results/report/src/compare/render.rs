@@ -10,7 +10,7 @@ use crate::number::{fixed, numeral, significant, spaced};
 use crate::table::{Column, Table};
 use crate::wrap::wrapped;
 
-/// Indent of answers, below the score that they are about.
+/// Indent of answers below their score.
 const INDENT: usize = 2;
 
 /// Schema of a comparison as JSON.
@@ -39,7 +39,7 @@ fn level(confidence: f64) -> String {
 }
 
 impl Comparison {
-    /// Table with one row per answer.
+    /// Table with one row for each answer.
     pub fn table(&self) -> Table {
         let columns = [Column::of_metrics()].into_iter();
         let mut table = Table::new("Comparison", columns.chain(HEAD.map(Column::new)));
@@ -60,8 +60,8 @@ impl Comparison {
             .map(|difference| difference.test.to_string())
             .collect();
         let rule = "All pairs and channels of a metric are one family, in which Holm's procedure shows a false difference in at most one case of twenty: \
-                    p is that of the pair alone, p by Holm is adjusted for the family, and the interval has the level at which its pair was decided. \
-                    A difference is shown where p by Holm is at most 0.05, and there alone the interval leaves out 0.";
+                    p is for the pair alone, p by Holm is adjusted for the family, and the interval has the level of the decision on its pair. \
+                    A difference is shown if p by Holm is at most 0.05; only then the interval excludes 0.";
         let mut notes = vec![rule.to_owned()];
         notes.extend(self.notes.iter().map(|note| format!("Note: {note}.")));
         notes.extend(tests.into_iter().map(|test| format!("Test: {test}.")));
@@ -166,7 +166,7 @@ impl Comparison {
         )
     }
 
-    /// JSON of [`COMPARISON_SCHEMA`]; an open end of an interval is null.
+    /// JSON of [`COMPARISON_SCHEMA`]; an infinite end of an interval is null.
     pub fn json(&self) -> String {
         let answer = |answer: &Answer| {
             let difference = answer.difference.as_ref().map(|difference| {
@@ -221,7 +221,7 @@ impl Comparison {
     }
 }
 
-/// End of an interval, which may be open.
+/// End of an interval, which may be infinite.
 fn end(end: f64) -> String {
     if end.is_finite() {
         numeral(end)

@@ -1,4 +1,4 @@
-//! Names in a request: metrics, groups of them, and margins of scores.
+//! Names in a request: metrics, groups of metrics, and margins of scores.
 
 use std::collections::BTreeSet;
 
@@ -8,22 +8,22 @@ use taceva_metrics::{Better, UnknownMetric, catalogue};
 use super::CompareRequest;
 use crate::results::Study;
 
-/// Name in a request that means no score.
+/// A name in a request matches no score.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RequestError {
     /// Neither the catalogue nor a result has the metric.
     #[error(transparent)]
     Metric(UnknownMetric),
-    /// No result has the score of a margin; the words name it and what would be accepted.
+    /// No result has the score of a margin; the text names it and the accepted names.
     #[error("{0}")]
     Margin(String),
 }
 
 impl CompareRequest {
-    /// The request with the metrics of its groups, if its names are known.
+    /// The request with each group replaced by its metrics, if all names are known.
     ///
-    /// Names are those of the catalogue and of scores of `studies`. A group means those of its metrics that have scores and a better direction.
+    /// Names are those of the catalogue and of the scores in `studies`. A group stands for its metrics with scores and a better direction.
     ///
     /// ```
     /// use taceva_report::{CompareRequest, catalogue};
@@ -40,7 +40,7 @@ impl CompareRequest {
     /// ```
     ///
     /// # Errors
-    /// [`RequestError`] for a name of a metric or margin that means no score.
+    /// [`RequestError`] for the name of a metric or margin that matches no score.
     pub fn resolved(self, studies: &[Study]) -> Result<CompareRequest, RequestError> {
         let mut metrics: Vec<String> = Vec::new();
         for name in &self.metrics {
@@ -56,7 +56,7 @@ impl CompareRequest {
         Ok(CompareRequest { metrics, ..self })
     }
 
-    /// Notes on metrics that the request names and no result has.
+    /// Notes on requested metrics that no result has.
     pub fn absent(&self, studies: &[Study]) -> Vec<String> {
         let absent = self.metrics.iter();
         let absent = absent.filter(|metric| !is_scored(metric, studies));
@@ -64,7 +64,7 @@ impl CompareRequest {
     }
 }
 
-/// The metrics that `name` of a metric, a group or a score means.
+/// Metrics that `name`, a metric, a group or a score, stands for.
 fn meant(name: &str, studies: &[Study]) -> Result<Vec<String>, UnknownMetric> {
     if is_scored(name, studies) {
         return Ok(vec![name.to_owned()]);
@@ -77,7 +77,7 @@ fn meant(name: &str, studies: &[Study]) -> Result<Vec<String>, UnknownMetric> {
     let directed: Vec<String> = directed.map(|metric| metric.id.to_owned()).collect();
     let scored = directed.iter().filter(|metric| is_scored(metric, studies));
     let scored: Vec<String> = scored.cloned().collect();
-    // A request without metrics would mean all.
+    // An empty list of metrics would select all.
     Ok(match scored.is_empty() {
         true => directed,
         false => scored,
@@ -101,7 +101,7 @@ fn no_score(metric: &str, studies: &[Study]) -> String {
     )
 }
 
-/// Names in a row, or `none`.
+/// Names separated by commas, or `none`.
 fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     let names: Vec<String> = names.map(|name| shown(name).to_string()).collect();
     match names.is_empty() {
@@ -110,7 +110,7 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     }
 }
 
-/// Refuses a margin of a score that no result has, which would change nothing.
+/// Rejects the margin of a score that no result has, because it would have no effect.
 fn check_margin(name: &str, studies: &[Study]) -> Result<(), RequestError> {
     let metric = name.split('.').next().unwrap_or_default();
     if !is_scored(metric, studies) {

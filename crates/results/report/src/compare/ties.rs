@@ -1,13 +1,12 @@
-//! Studies that tied studies are not significantly better than.
+//! Studies that tied studies do not significantly beat.
 
 use super::{Answer, CompareRequest, compare};
 use crate::names::listed;
 use crate::results::Study;
 use crate::tie::{GRATINGS, Tie, tie};
 
-/// Ties of `studies` in predicting the spacing of gratings, one line each: `sr line: tie: GelSight and TacTip both predict the spacing of
-/// gratings down to 0.25 mm to within
-/// 0.05 mm`.
+/// Ties of `studies` in predicting the spacing of gratings, one line each: `sr line: tie: GelSight and TacTip both predict the spacing of gratings
+/// down to 0.25 mm to within 0.05 mm`.
 pub fn ties(studies: &[Study]) -> Vec<String> {
     let names = crate::names::names(studies);
     let mut channels: Vec<&str> = Vec::new();
@@ -37,7 +36,7 @@ pub fn ties(studies: &[Study]) -> Vec<String> {
 }
 
 impl Tie {
-    /// Clause on studies that the tied ones do not beat, by `answers` about this score. Example: `; neither is shown to be better than MagicTac and
+    /// Clause on studies that the tied ones do not beat, from `answers` about this score. Example: `; neither is shown to be better than MagicTac and
     /// ViTacTip`.
     pub(crate) fn unbeaten(
         &self,
@@ -93,7 +92,7 @@ mod tests {
     use super::*;
     use taceva_results::Samples;
 
-    /// A study whose success rate is `share`, with exact predictions for the share `exact`, and with samples if there are any.
+    /// A study with the success rate `share`, exact predictions for the share `exact`, and the samples, if not empty.
     fn study(name: &str, [share, exact]: [f64; 2], samples: &str) -> Study {
         let text = format!(
             r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "{name}"}}, "metrics": {{"sr": {{"line":
@@ -131,7 +130,7 @@ mod tests {
         assert_eq!(apart, expected);
         let close = tied("1,line,0.5,0.5\n2,line,0.46,0.46\n3,line,0.25,0.25\n");
         assert!(close.contains("to within 0.05 mm, each time as one of 3 learnt boards"));
-        // A model that predicts a length is not one that names a board.
+        // A model that predicts a length does not choose a learnt board.
         let between = tied("1,line,0.5,0.51\n2,line,0.4,0.4\n");
         assert!(!between.contains("learnt"), "{between}");
     }

@@ -1,6 +1,6 @@
-//! Canvas of a figure: ordered marks, each of one ink.
+//! Canvas of a figure: marks in drawing order, each in one ink.
 
-/// Colour role. The page maps it to a colour for light and dark mode.
+/// Colour role. The page maps it to colours for light and dark mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Ink {
     /// Primary text.
@@ -36,7 +36,7 @@ impl Stroke {
         }
     }
 
-    /// Line of a series, distinguished by dashes as well as colour.
+    /// Line of a series, with its own dashes as well as colour.
     pub(crate) fn series(position: usize) -> Stroke {
         const DASHES: [&str; 4] = ["", "7 3", "2 2.5", "9 3 2 3"];
         Stroke {
@@ -64,7 +64,7 @@ pub(crate) struct Label {
     pub(crate) ink: Ink,
     pub(crate) size: f64,
     pub(crate) bold: bool,
-    /// True for text that reads upwards.
+    /// True for text that runs upwards.
     pub(crate) upwards: bool,
 }
 
@@ -96,7 +96,7 @@ impl Label {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Points {
     pub(crate) at: Vec<[f64; 2]>,
-    /// Tooltip of each dot; empty, or one per dot.
+    /// Tooltips of the dots: none, or one for each dot.
     pub(crate) words: Vec<String>,
 }
 
@@ -127,7 +127,7 @@ pub(crate) enum Mark {
     Label(Label),
 }
 
-/// The size of one figure in print, and its font.
+/// Size of a figure in print, and its font.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Print {
     pub(crate) width_pt: Option<f64>,
@@ -141,7 +141,7 @@ pub(crate) struct Canvas {
     pub(crate) height: f64,
     pub(crate) marks: Vec<Mark>,
     pub(crate) print: Print,
-    /// True if a remark on it says why a value is not drawn.
+    /// True if a remark on it explains why a value is not drawn.
     pub(crate) is_remarked: bool,
 }
 
@@ -174,7 +174,7 @@ impl Canvas {
         });
     }
 
-    /// Adds a filled box with the tooltip `words`, unless that is empty.
+    /// Adds a filled box with the tooltip `words`, unless empty.
     pub(crate) fn fill(&mut self, place: [f64; 4], ink: Ink, words: String) {
         self.marks.push(Mark::Box { place, ink, words });
     }
@@ -194,7 +194,7 @@ impl Canvas {
         self.marks.push(Mark::Label(label));
     }
 
-    /// Adds a text on a coloured cell, always dark, as the cell does not follow the page's mode.
+    /// Adds a text on a coloured cell. It is always dark, because cell colours are the same in both modes.
     pub(crate) fn cell_label(&mut self, label: Label) {
         let ink = Ink::Rgb([27, 31, 36]);
         self.marks.push(Mark::Label(Label { ink, ..label }));
@@ -245,7 +245,7 @@ impl Canvas {
 
 use super::words::short;
 
-/// Approximate width of a text. East Asian letters, and all beyond them, are as wide as they are high.
+/// Approximate width of a text. East Asian letters, and those after them in Unicode, are as wide as high.
 pub(crate) fn width_of(text: &str, size: f64) -> f64 {
     let wide = text
         .chars()

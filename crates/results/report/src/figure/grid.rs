@@ -3,9 +3,9 @@
 use super::canvas::Canvas;
 use super::panel::Area;
 
-/// The width of the narrowest panel, in units of the canvas: its labels have room.
+/// Width of the narrowest panel with enough room for its labels, in canvas units.
 const NARROWEST: f64 = 96.0;
-/// Height over width of the flattest panel that was made narrower.
+/// Ratio of height to width of the flattest panel after narrowing.
 const FLATTEST: f64 = 0.62;
 
 /// Equal panels in rows.
@@ -19,7 +19,7 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// Grid of `count` panels of the size of `first`, the upper left one, at most `most` per row. `gaps` are the horizontal and vertical
+    /// Grid of `count` panels of the size of `first`, the upper left one, with at most `most` in a row. `gaps` are the horizontal and vertical
     /// distances.
     pub(crate) fn new(count: usize, most: usize, first: Area, gaps: [f64; 2]) -> Grid {
         let columns = count.min(most).max(1);
@@ -32,8 +32,8 @@ impl Grid {
         }
     }
 
-    /// The same panels on a canvas as wide as `room`, with `right` behind the last of a row: fewer a row where they would be too narrow, and
-    /// narrower or wider ones with the proportions that they had.
+    /// The same panels on a canvas of the width `room`, with the margin `right` after the last one of a row. Fewer panels are in a row if they would
+    /// be too narrow. Panels keep their proportions.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "a handful of rows and columns")]
     pub(crate) fn within(self, room: Option<f64>, right: f64) -> Grid {
@@ -59,7 +59,7 @@ impl Grid {
         }
     }
 
-    /// Grid of `count` square maps, two per row, each with room for a colour scale, and its canvas.
+    /// Grid of `count` square maps, two in a row, each with room for a colour scale; and its canvas.
     pub(crate) fn of_maps(count: usize, room: Option<f64>) -> (Grid, Canvas) {
         let first = Area {
             left: 58.0,

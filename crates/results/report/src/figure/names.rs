@@ -3,10 +3,10 @@
 use super::canvas::{Anchor, Ink, Label, width_of};
 use super::panel::Area;
 
-/// Half side of the square that a dot takes.
+/// Half the side of the square around a dot.
 const DOT: f64 = 6.5;
 const SIZE: f64 = 11.0;
-/// Positions of a name beside its dot, the best first.
+/// Positions of a name beside its dot, best first.
 const PLACES: [([f64; 2], Anchor); 10] = [
     // Above a line that continues from the dot.
     ([8.0, -7.0], Anchor::Start),
@@ -24,7 +24,7 @@ const PLACES: [([f64; 2], Anchor); 10] = [
 /// Left, top, right, bottom.
 type Bounds = [f64; 4];
 
-/// Label for each dot inside `area`, at the position that covers least.
+/// Label for each dot inside `area`, at the position with the least overlap.
 pub(crate) fn beside(dots: &[([f64; 2], String)], area: Area) -> Vec<Label> {
     let around = |[x, y]: [f64; 2]| [x - DOT, y - DOT, x + DOT, y + DOT];
     let mut taken: Vec<Bounds> = dots.iter().map(|(at, _)| around(*at)).collect();
@@ -75,14 +75,14 @@ fn bounds(label: &Label) -> Bounds {
     ]
 }
 
-/// Area shared by two bounds.
+/// Common area of two bounds.
 fn shared(a: Bounds, b: Bounds) -> f64 {
     let across = a[2].min(b[2]) - a[0].max(b[0]);
     let down = a[3].min(b[3]) - a[1].max(b[1]);
     across.max(0.0) * down.max(0.0)
 }
 
-/// Penalty for the area of bounds outside `area`; worse than covering another name.
+/// Penalty for the area of bounds outside `area`, greater than for covering another name.
 fn outside(bounds: Bounds, area: Area) -> f64 {
     let inside = [area.left, area.top, area.right(), area.bottom()];
     let size = (bounds[2] - bounds[0]) * (bounds[3] - bounds[1]);

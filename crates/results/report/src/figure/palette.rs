@@ -3,7 +3,7 @@
 /// Number of series with their own colour.
 pub const SERIES: usize = 7;
 
-/// Series colours on white, by Okabe and Ito, with yellow darkened for paper.
+/// Series colours on white, by Okabe and Ito, with a darker yellow.
 pub const LIGHT: [&str; SERIES] = [
     "#0072b2", "#d55e00", "#009e73", "#b5568d", "#c98a00", "#3d9bd6", "#857c00",
 ];
@@ -12,7 +12,7 @@ pub const DARK: [&str; SERIES] = [
     "#5cb3ea", "#ff8d4a", "#3fcba1", "#e59ac8", "#f2b94b", "#9ad4f7", "#d8cd3a",
 ];
 
-/// Cividis in ten steps: uniform in lightness, and equal under red or green blindness (Nuñez, Anderton and Renslow, 2018).
+/// Cividis in ten steps: uniform in lightness, and equal for red-green colour blindness (Nuñez, Anderton and Renslow, 2018).
 const CIVIDIS: [[u8; 3]; 10] = [
     [0, 34, 78],
     [18, 53, 112],
@@ -25,7 +25,7 @@ const CIVIDIS: [[u8; 3]; 10] = [
     [225, 204, 85],
     [254, 232, 56],
 ];
-/// Diverging scale from blue over near white to orange.
+/// Diverging scale from blue through near white to orange.
 const SIGNED: [[u8; 3]; 5] = [
     [27, 94, 160],
     [146, 190, 222],

@@ -55,7 +55,7 @@ impl Panel {
         [self.x.at(x), self.y.at(y)]
     }
 
-    /// Draws grid, ticks and names, to be followed by the data.
+    /// Draws grid, ticks and names; draw the data afterwards.
     pub(crate) fn axes(&self, axes: &Axes, canvas: &mut Canvas) {
         let (top, bottom) = (self.area.top, self.area.bottom());
         let room = (self.area.width / 62.0).clamp(2.0, 8.0);
@@ -67,7 +67,7 @@ impl Panel {
         self.frame(axes, bottom + 32.0, canvas);
     }
 
-    /// As [`Panel::axes`], with a column on the x axis for each of `names`. Names are set upright if they are too long for a row.
+    /// As [`Panel::axes`], with a column on the x axis for each of `names`. Names run upwards if they are too long for a row.
     #[expect(clippy::cast_precision_loss, reason = "a handful of names")]
     pub(crate) fn axes_of_names(&self, axes: &Axes, names: &[String], canvas: &mut Canvas) {
         let (top, bottom) = (self.area.top, self.area.bottom());
@@ -90,7 +90,7 @@ impl Panel {
         self.frame(axes, bottom + below, canvas);
     }
 
-    /// Draws the y axis, both axis lines and both titles, that of x at `below`.
+    /// Draws the y axis, both axis lines and both titles, with the x title at `below`.
     fn frame(&self, axes: &Axes, below: f64, canvas: &mut Canvas) {
         let Area { left, top, .. } = self.area;
         let (right, bottom) = (self.area.right(), self.area.bottom());
@@ -116,7 +116,7 @@ impl Panel {
         canvas.label(y);
     }
 
-    /// Draws a line through levels with a value, with gaps elsewhere.
+    /// Draws a line through the levels with a value, with gaps elsewhere.
     pub(crate) fn curve(
         &self,
         levels: impl Iterator<Item = (f64, Option<f64>)>,
@@ -133,7 +133,7 @@ impl Panel {
         self.end_run(&mut run, stroke, canvas);
     }
 
-    /// Ends a run of levels; a single level between two gaps becomes a dot.
+    /// Ends a section of levels; a single level between two gaps becomes a dot.
     fn end_run(&self, run: &mut Vec<[f64; 2]>, stroke: Stroke, canvas: &mut Canvas) {
         if let [alone] = run[..] {
             let points = Points {
@@ -145,7 +145,7 @@ impl Panel {
         canvas.path(std::mem::take(run), stroke);
     }
 
-    /// Draws the band between two curves, with a gap at levels without a band.
+    /// Draws the band between two curves, with gaps at levels without a band.
     pub(crate) fn band(
         &self,
         levels: impl Iterator<Item = (f64, Option<[f64; 2]>)>,

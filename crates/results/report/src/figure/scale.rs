@@ -2,7 +2,7 @@
 
 use crate::number::{fixed, minus, numeral};
 
-/// Room beyond the values at both ends, as a part of their range.
+/// Margin beyond the values at both ends, as a part of their range.
 const BEYOND: f64 = 0.04;
 
 /// Linear or logarithmic scale from values to positions.
@@ -30,7 +30,7 @@ impl Scale {
         }
     }
 
-    /// Linear scale with a margin beyond both values, so that no mark lies on an edge.
+    /// Linear scale with a margin beyond both values, so that no mark is on an edge.
     pub(crate) fn padded(values: [f64; 2], places: [f64; 2]) -> Scale {
         let [low, high] = widened(values);
         let beyond = (high - low) * BEYOND;

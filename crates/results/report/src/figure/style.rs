@@ -1,18 +1,18 @@
-//! Size and lettering of figures for print.
+//! Size and text of figures for print.
 
 use super::Figure;
 use super::canvas::{Mark, Print};
 
-/// Letters of most labels, in units of a canvas.
+/// Size of most letters, in canvas units.
 const LETTERS: f64 = 11.0;
-/// Letter size if only a width is set, points.
+/// Letter size in points if only a width is set.
 const USUAL_PT: f64 = 8.0;
-/// Points in a millimetre.
+/// Points per millimetre.
 pub(super) const PT_PER_MM: f64 = 72.0 / 25.4;
-/// Largest factor by which letters grow if a drawing is wider than its place.
+/// Greatest factor by which letters grow in a drawing that is wider than its place.
 const MOST_GROWN: f64 = 1.3;
 
-/// Size and lettering of figures for print. Unset fields keep the form for a screen.
+/// Size and text of figures for print. Unset fields keep the screen layout.
 ///
 /// ```
 /// use taceva_report::{FigureStyle, figures_for};
@@ -21,17 +21,17 @@ const MOST_GROWN: f64 = 1.3;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FigureStyle {
-    /// The width of each figure, mm.
+    /// Width of each figure, in mm.
     pub width_mm: Option<f64>,
-    /// Size of most letters, points (1/72 in); 8 if only a width is set. Larger in drawings narrower than the page, smaller in drawings more than 1.3
-    /// times too wide.
+    /// Size of most letters, in points (1/72 in); 8 if only a width is set. Drawings narrower than the page have larger letters; drawings more than
+    /// 1.3 times too wide have smaller ones.
     pub letters_pt: Option<f64>,
     /// Preferred font family of SVG. PDF embeds Arimo, which has the widths of Arial and Helvetica.
     pub font: Option<String>,
 }
 
 impl FigureStyle {
-    /// Canvas width at which letters have the requested size in print; `None` if no width is set.
+    /// Canvas width at which letters have the requested size in print; `None` without a set width.
     pub(crate) fn room(&self) -> Option<f64> {
         let letters = self.letters_pt.unwrap_or(USUAL_PT);
         self.width_mm
@@ -42,7 +42,7 @@ impl FigureStyle {
     pub(crate) fn apply(&self, mut figure: Figure) -> Figure {
         let grown = match self.room() {
             Some(room) => (figure.canvas.width / room).clamp(1.0, MOST_GROWN),
-            // Only a letter size is set: a unit of the canvas is a point.
+            // If only a letter size is set, a canvas unit is a point.
             None => self.letters_pt.map_or(1.0, |letters| letters / LETTERS),
         };
         for mark in &mut figure.canvas.marks {

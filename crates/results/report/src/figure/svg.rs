@@ -1,4 +1,4 @@
-//! Figures as SVG: classes for inks, so that a page can be light or dark without inline styles.
+//! Figures as SVG, with classes for inks, so that a page can be light or dark without inline styles.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use super::canvas::{Anchor, Ink, Label, Mark, Points, Stroke};
 use super::palette::LIGHT;
 use crate::escape;
 
-/// Style of figures, required in a page or standalone figure besides the values of its variables.
+/// Style of figures. A page or a standalone figure also needs the values of its variables.
 pub const STYLE: &str = "\
 svg text{font-family:system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;font-variant-numeric:tabular-nums}\
 svg .b{font-weight:600}\
@@ -148,7 +148,7 @@ fn dots(points: &Points, ink: Ink, radius: f64, opacity: f64, alone: bool, out: 
     out.push_str("</g>");
 }
 
-/// Ends an element. `words` become data for the page's tooltip, or a title in a standalone figure.
+/// Ends an element. `words` become data for the tooltip of the page, or a title in a standalone figure.
 fn close(words: &str, element: &str, alone: bool, out: &mut String) {
     match (words.is_empty(), alone) {
         (true, _) => out.push_str("/>"),

@@ -1,4 +1,4 @@
-//! Names as printed in figures.
+//! Names for figures.
 
 use taceva_core::Unit;
 use taceva_metrics::Better;
@@ -26,7 +26,7 @@ pub(crate) fn short(name: &str, most: usize) -> String {
     format!("{start}…")
 }
 
-/// `name` cut in its middle to `most` letters, as ids often differ at their end.
+/// `name` cut in the middle to `most` letters, because ids often differ at the end.
 pub(crate) fn middle_cut(name: &str, most: usize) -> String {
     let letters: Vec<char> = name.chars().filter(|letter| !letter.is_control()).collect();
     if letters.len() <= most {

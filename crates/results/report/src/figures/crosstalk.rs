@@ -7,7 +7,7 @@ use crate::number::{fixed, minus, numeral};
 use crate::results::Study;
 use taceva_results::Value;
 
-/// Limit of names in a readable matrix.
+/// Greatest number of names in a readable matrix.
 const MOST: usize = 16;
 
 pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {

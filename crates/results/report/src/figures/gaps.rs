@@ -10,7 +10,7 @@ use crate::number::{numeral, with_interval};
 use crate::results::Study;
 use taceva_results::Samples;
 
-/// Point touched on two units.
+/// A point measured on two units.
 struct Gap {
     at: [f64; 2],
     height: f64,
@@ -83,7 +83,7 @@ fn panel(gaps: &[Gap], title: String, area: Area, canvas: &mut Canvas) {
                 numeral(gap.height)
             )],
         };
-        // A rim keeps dots near zero visible on the paper.
+        // An outline keeps dots near zero visible on white.
         let rim = Points {
             words: Vec::new(),
             ..points.clone()
@@ -110,7 +110,7 @@ fn panel(gaps: &[Gap], title: String, area: Area, canvas: &mut Canvas) {
     canvas.label(Label::new([left + 5.0, top - 9.0], "mm", Anchor::Middle));
 }
 
-/// Points common to two units, the first two by name.
+/// Points common to the first two units by name.
 fn gaps(samples: &Samples) -> Option<(Vec<Gap>, [String; 2])> {
     let channels = ["Px", "Py", "surface_z"].map(|name| samples.channel(name));
     let [Some(x), Some(y), Some(height)] = channels else {

@@ -1,4 +1,4 @@
-//! Heat map: numbers by position as colours, with their scale.
+//! Heat map: numbers by position as colours, with a colour scale.
 
 use taceva_core::Unit;
 use taceva_metrics::Map;
@@ -6,7 +6,7 @@ use taceva_metrics::Map;
 use crate::figure::{Anchor, Area, Axes, Canvas, Ink, Label, Panel, Scale, axis_label, sequential};
 use crate::number::numeral;
 
-/// Limit of cells in a drawn map.
+/// Greatest number of cells in a drawn map.
 const MOST_CELLS: usize = 10_000;
 
 /// Content of a map.
@@ -16,7 +16,7 @@ pub(super) struct Heat<'a> {
     /// Quantity shown: `sensitivity`.
     pub(super) what: &'a str,
     pub(super) unit: Unit,
-    /// The ends of one logarithmic scale that several maps share; its own straight one where absent.
+    /// Ends of a logarithmic scale that several maps share; `None` for a linear scale of its own.
     pub(super) shared: Option<[f64; 2]>,
 }
 
@@ -82,7 +82,7 @@ pub(super) fn draw(heat: &Heat<'_>, area: Area, canvas: &mut Canvas) {
                 numeral(f64::midpoint(y_mm[row], y_mm[row + 1])),
                 numeral(*value)
             );
-            // Slightly wider, which hides the seam between neighbours.
+            // Slightly wider, to hide the seam between neighbours.
             let place = [left, top, right - left + 0.3, bottom - top + 0.3];
             canvas.fill(place, Ink::Rgb(sequential(share)), words);
         }
@@ -90,7 +90,7 @@ pub(super) fn draw(heat: &Heat<'_>, area: Area, canvas: &mut Canvas) {
     colour_bar(bar, scale, &axis_label(heat.what, heat.unit), canvas);
 }
 
-/// Draws a bar from the colour of the least to that of the greatest number.
+/// Draws a bar with the colours from the least to the greatest number.
 pub(super) fn colour_bar(
     [left, top, width, height]: [f64; 4],
     scale: Scale,

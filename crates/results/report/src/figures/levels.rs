@@ -1,4 +1,4 @@
-//! Curves of scores with one value per level: bias by level, and shares within a tolerance.
+//! Curves of scores with one value for each level: bias by level, and shares within a tolerance.
 
 use taceva_core::Unit;
 use taceva_metrics::Curve;
@@ -28,9 +28,9 @@ pub(super) fn levels(curve: &Curve) -> Vec<Level> {
     (0..curve.x.len()).map(level).collect()
 }
 
-/// One sheet per channel for the curve `variant` of `metric`, with the name of its y axis.
+/// One sheet for each channel for the curve `variant` of `metric`, with the name of its y axis.
 pub(super) fn sheets(studies: &[Study], metric: &str, x: &str, y: &str, ways: Ways) -> Vec<Sheet> {
-    // A level shows the bias itself, which is good near zero; the metric is the greatest of them.
+    // A level shows the bias, which is best near zero; the metric is the greatest of them.
     let directed_by = match metric {
         "bias_level" => "bias",
         other => other,

@@ -1,4 +1,4 @@
-//! Error by light scene: a column per scene and a dot per sensor, as a ratio to the error in reference light.
+//! Error by light scene, relative to the error in reference light: one column for each scene, one dot for each sensor.
 
 use taceva_metrics::SensorFacts;
 
@@ -11,10 +11,10 @@ use crate::results::Study;
 
 use super::SIX;
 
-/// Scene in which models are trained.
+/// Light scene of the training.
 const LEARNT_IN: &str = SensorFacts::REFERENCE_SCENE;
 
-/// Channel of all sensors that light reaches.
+/// A channel of all sensors that ambient light reaches.
 struct Sheet {
     channel: &'static str,
     /// Lighting scores by the position of the study.
@@ -75,11 +75,11 @@ fn caption(studies: &[Study], names: &[String], others: &[usize]) -> String {
         ),
     };
     format!(
-        "Mean absolute error in each lighting scene as a ratio to that of the same presses in unchanged light, the scene “{LEARNT_IN}” that models are trained in: 1 is no change, 10 ten times the error; the axis is logarithmic. Predictions are not clamped to the bounds of the model, as in r_light. Sensors that no light reaches are not shown. Point at a dot for the light itself.{without}"
+        "Mean absolute error in each lighting scene as a ratio to that of the same presses in unchanged light, the scene “{LEARNT_IN}” that models are trained in: 1 is no change, 10 ten times the error; the axis is logarithmic. Predictions are not clipped to the bounds of the model, as in r_light. Sensors that no light reaches are not shown. Point at a dot for the light itself.{without}"
     )
 }
 
-/// Names of scenes, sorted, each once.
+/// Distinct names of scenes, sorted.
 fn in_order<'a>(scenes: impl Iterator<Item = &'a Scene>) -> Vec<String> {
     let mut all: Vec<&str> = scenes.map(|scene| scene.name.as_str()).collect();
     all.sort_unstable();

@@ -9,7 +9,7 @@ use crate::number::{numeral, with_interval};
 use crate::results::Study;
 use taceva_results::Samples;
 
-/// Limit of points with a drawn loop.
+/// Greatest number of points with a drawn loop.
 const MOST: usize = 12;
 
 /// Depth and force during loading and unloading.

@@ -1,4 +1,4 @@
-//! Run time against error of models: one panel per channel, with its Pareto front.
+//! Run time against error of models: one panel for each channel, with its Pareto front.
 
 use taceva_core::counted;
 
@@ -13,7 +13,7 @@ use crate::results::{BenchRecording, ChannelError, ModelBench, ModelRow};
 const FAR: f64 = 8.0;
 const MILLI: f64 = 1e3;
 
-/// Model in a panel.
+/// A model in a panel.
 struct Dot<'a> {
     row: &'a ModelRow,
     error: &'a ChannelError,
@@ -33,7 +33,7 @@ pub fn model_bench(bench: &ModelBench) -> Option<Figure> {
     })
 }
 
-/// Draws one panel per channel. Also returns a sentence on the Pareto fronts.
+/// Draws one panel for each channel. Also returns a sentence on the Pareto fronts.
 fn draw(bench: &ModelBench, time: &str) -> Option<(Canvas, String)> {
     let channels = bench.channels();
     if channels.is_empty() {
@@ -171,7 +171,7 @@ fn words(dot: &Dot<'_>) -> String {
         let [low, high] = ends.map(numeral);
         format!(" ({low} … {high})")
     });
-    // A decoded scale needs no time to fit.
+    // A model with a decoded scale needs no fit.
     let fitted = match dot.row.fit_s > 0.0 {
         true => format!(", fitted in {} s", numeral(dot.row.fit_s)),
         false => String::new(),
@@ -194,7 +194,7 @@ fn front(dots: &[Dot<'_>], panel: &Panel, canvas: &mut Canvas) {
     corners.sort_by(|left, right| left[0].total_cmp(&right[0]));
     let mut steps: Vec<[f64; 2]> = Vec::new();
     for corner in corners {
-        // Step line: between two models, only the faster one is available.
+        // Step line, because between two models only the faster one is available.
         if let Some([_, y]) = steps.last().copied() {
             steps.push([corner[0], y]);
         }
@@ -214,7 +214,7 @@ mod tests {
     use super::*;
     use crate::results::BenchMachine;
 
-    /// Three models: fast, right, and neither.
+    /// Three models: a fast one, an accurate one, and one that is neither.
     fn bench() -> ModelBench {
         let recording = BenchRecording {
             name: "drawn".to_owned(),

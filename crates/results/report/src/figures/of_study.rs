@@ -1,4 +1,4 @@
-//! The figures of the TacEva study in its form: its axes, its four planes, and curves of its quantities.
+//! Figures of the TacEva study in its layout: its axes, its four planes, and curves of its quantities.
 
 mod gratings;
 mod grey;
@@ -11,7 +11,7 @@ mod spokes;
 use crate::figure::{Figure, FigureStyle};
 use crate::results::Study;
 
-/// The figures of the study, each with the need of those that are absent.
+/// Figures of the study, and the missing data of absent ones.
 #[derive(Clone, Debug, Default)]
 pub struct StudyFigures {
     /// Figures with values, in the order of the study.
@@ -20,7 +20,7 @@ pub struct StudyFigures {
     pub absent: Vec<(String, String)>,
 }
 
-/// The figures 3 to 8 of the study of `studies`, in a style for print.
+/// Figures 3 to 8 of the study for `studies`, in a style for print.
 pub fn study_figures(studies: &[Study], style: &FigureStyle) -> StudyFigures {
     let room = style.room();
     let all: [(&str, Option<Figure>, &str); 10] = [

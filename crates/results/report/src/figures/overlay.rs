@@ -1,4 +1,4 @@
-//! Curves of several sensors in one panel per channel.
+//! Curves of several sensors in one panel for each channel.
 
 use taceva_core::Unit;
 
@@ -28,7 +28,7 @@ pub(super) struct Sheet {
     pub(super) x: String,
     pub(super) y: String,
     pub(super) y_unit: Unit,
-    /// Least range of y, widened to the curves.
+    /// Least range of y, widened to contain the curves.
     pub(super) least: Option<[f64; 2]>,
     pub(super) ways: Ways,
     pub(super) lines: Vec<Line>,
@@ -51,7 +51,7 @@ pub(super) struct Words<'a> {
     pub(super) description: String,
 }
 
-/// Draws panels, `columns` per row, below one legend.
+/// Draws panels, `columns` in a row, below one legend.
 pub(super) fn draw(
     sheets: &[Sheet],
     studies: &[Study],

@@ -1,4 +1,4 @@
-//! Predicted against true values: one panel per channel, one figure per sensor.
+//! Predicted against true values: one panel for each channel, one figure for each sensor.
 
 use crate::figure::{
     Anchor, Area, Axes, Canvas, Figure, Grid, Ink, Label, Panel, Points, Scale, Stroke, axis_label,
@@ -11,7 +11,7 @@ use taceva_results::{SampleChannel, Samples};
 use super::SIX;
 use super::thin::{rule, thin};
 
-/// Limit of dots in a panel: more would overlap and enlarge the page.
+/// Greatest number of dots in a panel. More would overlap and enlarge the page.
 const MOST: usize = 400;
 
 pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Vec<Option<Figure>> {
@@ -67,7 +67,7 @@ fn one(study: &Study, at: usize, name: &str, room: Option<f64>) -> Option<Figure
     })
 }
 
-/// The six channels, if present; otherwise the first nine of any name.
+/// The six channels, if present; otherwise the first nine channels.
 fn channels(samples: &Samples) -> Vec<SampleChannel<'_>> {
     let six: Vec<SampleChannel<'_>> = SIX
         .into_iter()

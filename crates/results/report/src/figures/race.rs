@@ -1,4 +1,4 @@
-//! Cost against gain: points at the lower right are accurate and fast.
+//! Cost against gain: points at the lower right have the greatest gain at the least cost.
 
 use crate::figure::{
     Anchor, Area, Axes, Canvas, Figure, Ink, Label, Panel, Points, Scale, Stroke, beside, extent,
@@ -13,9 +13,9 @@ pub struct Race {
     pub title: String,
     /// Conditions for the caption, such as machine, sizes and rounds.
     pub caption: String,
-    /// Name of the horizontal axis, on which more is better: `right digits`.
+    /// Name of the horizontal axis, where more is better: `right digits`.
     pub gain: String,
-    /// Name of the vertical axis, logarithmic, on which less is better: `ns a pair`.
+    /// Name of the vertical axis, which is logarithmic and where less is better: `ns a pair`.
     pub cost: String,
     /// Lower bound of the cost, with its name.
     pub floor: Option<(f64, String)>,
@@ -36,7 +36,7 @@ pub struct RacePoint {
     pub is_on_front: bool,
 }
 
-/// Draws the points, filled on the Pareto front.
+/// Draws the points; those on the Pareto front are filled.
 pub fn race(race: &Race) -> Figure {
     let mut canvas = Canvas::new(760.0, 470.0);
     let area = Area {

@@ -19,7 +19,7 @@ struct Axis {
     better: Better,
 }
 
-/// Axis of a score with better low values.
+/// Axis of a score that is better when lower.
 const fn low(metric: &'static str, channel: &'static str, name: &'static str) -> Axis {
     Axis {
         metric,
@@ -30,7 +30,7 @@ const fn low(metric: &'static str, channel: &'static str, name: &'static str) ->
     }
 }
 
-/// Axis of a score with better high values.
+/// Axis of a score that is better when higher.
 const fn high(metric: &'static str, channel: &'static str, name: &'static str) -> Axis {
     Axis {
         better: Better::Higher,
@@ -46,7 +46,7 @@ const ACCURACY: [Axis; 6] = [
     low("mae", "Fz", "MAE Fz"),
     low("mae", "Fxy", "MAE Fxy"),
 ];
-/// Excludes descriptive scores, such as frame rate and field of view, whose rim would not mean "best".
+/// Excludes scores without a better direction, such as frame rate and field of view, for which the rim would not mean "best".
 const SENSOR: [Axis; 4] = [
     high("uniformity", "Fz", "uniformity U"),
     Axis {
@@ -75,7 +75,7 @@ pub(super) struct Rim<'a> {
     pub(super) better: Better,
 }
 
-/// Narrow enough for a telephone, with names of axes in two lines.
+/// Width of a radar that fits a phone, with axis names in two lines.
 pub(super) const WIDTH: f64 = 440.0;
 const RADIUS: f64 = 130.0;
 
@@ -170,7 +170,7 @@ fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure
     })
 }
 
-/// Value that is not drawn because it takes no part in verdicts.
+/// A value that is not drawn because it is excluded from verdicts.
 struct Barred {
     axis: &'static str,
     study: usize,
@@ -206,9 +206,9 @@ fn unproven(studies: &[Study], axes: &[Axis]) -> String {
     out
 }
 
-/// Each value as a share of the best, with itself.
+/// Each value with its share of the best.
 pub(super) fn shares(values: &[Option<f64>], better: Better) -> Vec<Option<(f64, f64)>> {
-    // A share of a negative number says nothing.
+    // A share of a negative number has no meaning.
     let values = values
         .iter()
         .map(|value| value.filter(|value| *value >= 0.0));
@@ -231,13 +231,13 @@ pub(super) fn shares(values: &[Option<f64>], better: Better) -> Vec<Option<(f64,
 }
 
 impl Axis {
-    /// Score of `study` that is drawn on the axis.
+    /// Score of `study` for this axis.
     fn drawn<'a>(&self, study: &'a Study) -> Option<&'a Score> {
         let score = study.score(self.metric, self.channel)?;
         (score.value.number().is_some() && self.without_place(score).is_none()).then_some(score)
     }
 
-    /// Values that are not drawn because they take no part in verdicts: `spatial Pz of GelSightWM (not above chance)`.
+    /// Values that are not drawn because they are excluded from verdicts: `spatial Pz of GelSightWM (not above chance)`.
     fn barred(&self, studies: &[Study]) -> Vec<Barred> {
         let of_one = |(at, study): (usize, &Study)| {
             let score = study.score(self.metric, self.channel)?;
@@ -251,8 +251,8 @@ impl Axis {
         studies.iter().enumerate().filter_map(of_one).collect()
     }
 
-    /// Reason that `score` is not drawn, as a position on the axis is a verdict: its standing, or an absent interval. Published values are
-    /// drawn without one.
+    /// Reason why `score` is not drawn, because a position on the axis is a verdict: its standing, or a missing interval. Published values need no
+    /// interval.
     fn without_place(&self, score: &Score) -> Option<&'static str> {
         score.value.number()?;
         let interval = match self.variant {

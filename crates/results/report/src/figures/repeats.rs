@@ -1,4 +1,4 @@
-//! Spread of predictions of the same press: over depth, and around their positions.
+//! Spread of predictions of the same press, over depth and by position.
 
 use crate::figure::{
     Area, Axes, Canvas, Figure, Grid, Ink, Panel, Points, Scale, Stroke, extent, short,

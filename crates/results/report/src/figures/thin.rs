@@ -1,9 +1,9 @@
-//! Selects the samples to draw.
+//! Selection of samples to draw.
 
 use taceva_core::counted;
 
-/// Positions of the samples to draw, ascending: all of up to `most`. Of more, evenly spaced rows, and the largest errors as a tenth of
-/// `most`, so that outliers stay visible.
+/// Positions of the samples to draw, ascending: all if at most `most`. Otherwise evenly spaced rows, and a tenth of `most` with the largest errors,
+/// so that outliers stay visible.
 pub(crate) fn thin(errors: &[f64], most: usize) -> Vec<usize> {
     if errors.len() <= most {
         return (0..errors.len()).collect();
@@ -19,7 +19,7 @@ pub(crate) fn thin(errors: &[f64], most: usize) -> Vec<usize> {
     drawn
 }
 
-/// The rule of [`thin`] in words.
+/// Description of the selection by [`thin`].
 pub(crate) fn rule(drawn: usize, all: usize) -> String {
     if drawn == all {
         format!("{}, all drawn", counted(all, "sample"))

@@ -3,7 +3,7 @@
 use crate::figure::Figure;
 use crate::results::Study;
 
-/// Figures: id, metric whose curve or map is drawn (empty for samples), and required data.
+/// Figures: id, metric of the drawn curve or map (empty for samples), and required data.
 const NEEDS: [(&str, &str, &str); 15] = [
     (
         "labels",
@@ -58,7 +58,7 @@ const NEEDS: [(&str, &str, &str); 15] = [
     (
         "units",
         "inter_sensor",
-        "a second unit of the sensor, felt at the same points",
+        "a second unit of the sensor, measured at the same points",
     ),
     (
         "bias",
@@ -84,7 +84,7 @@ const NEEDS: [(&str, &str, &str); 15] = [
 
 /// Known figures that are not among `drawn`, each with its id and the missing data.
 ///
-/// If the results state why the metric was skipped, this reason replaces the missing data.
+/// If the results state why the metric was skipped, that reason replaces the missing data.
 pub fn undrawn(studies: &[Study], drawn: &[Figure]) -> Vec<(String, String)> {
     let absent = NEEDS
         .into_iter()

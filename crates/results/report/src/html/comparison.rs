@@ -41,7 +41,7 @@ impl Comparison {
         }
     }
 
-    /// Significant differences by score, and all answers, both folded.
+    /// Significant differences by score, and all answers; both folded.
     fn pairs(&self) -> Markup {
         let (won, table) = (self.won(), self.table().html_with_links());
         let shown = html! { ul.verdicts { @for won in &won { (won.html(&self.names)) } } };
@@ -78,7 +78,7 @@ impl Comparison {
     }
 }
 
-/// Answers in which one study is better than others, of one metric and channel.
+/// Answers of one metric and channel in which one study is better than others.
 struct Won<'a> {
     winner: usize,
     /// At least one.

@@ -34,13 +34,12 @@ impl Document {
         }
     }
 
-    /// Adds a section; `id` is a word.
+    /// Adds a section; `id` is a single word.
     pub(crate) fn section(&mut self, id: &'static str, title: &'static str, body: Markup) {
         self.sections.push(Section { id, title, body });
     }
 
-    /// Returns the page as a file. Invisible and direction-changing letters of foreign text are replaced here, which covers all parts of a
-    /// page.
+    /// Returns the page as a file. Replaces invisible and direction-changing characters here, for all parts of the page.
     pub(crate) fn finish(self) -> String {
         let style = style();
         let policy = format!(
@@ -59,7 +58,7 @@ impl Document {
                     meta name="referrer" content="no-referrer";
                     link rel="icon" href="data:,"; "\n"
                     title { (self.title) " · TacEva" } "\n"
-                    // Style and script are constants without foreign text, and the policy names their digests.
+                    // Style and script are constants without external text, and the policy has their digests.
                     style { (PreEscaped(style)) } "\n"
                 }
                 body {

@@ -13,11 +13,11 @@ pub(crate) fn one(figure: &Figure) -> Markup {
 
 /// Figure without caption.
 pub(super) fn drawing(figure: &Figure) -> Markup {
-    // SVG is XML, with other empty elements than HTML; its writer escapes all text.
+    // SVG is XML, where empty elements differ from HTML. Its writer escapes all text.
     PreEscaped(figure.inline())
 }
 
-/// Radars among `figures` side by side; `None` without any.
+/// Radars among `figures` side by side; `None` if there are none.
 pub(crate) fn radars(figures: &[Figure]) -> Option<Markup> {
     let radars: Vec<&Figure> = figures.iter().filter(|drawn| is_radar(drawn)).collect();
     (!radars.is_empty())

@@ -14,7 +14,7 @@ use crate::results::Study;
 use crate::scores::ScoreTable;
 use crate::short_digests::short_digests;
 
-/// The study whose metrics these are, as its publisher names it.
+/// Citation of the study that defined the metrics, as its publisher prints it.
 const STUDY: &str = "@article{taceva-study,\n  author  = {Cong, Qingzheng and Oh, Steven and Fan, Wen and Luo, Shan and Althoefer, Kaspar and Zhang, Dandan},\n  title   = {{TacEva}: A Performance Evaluation Framework for Vision-Based Tactile Sensors},\n  journal = {Advanced Intelligent Systems},\n  year    = {2026},\n  doi     = {10.1002/aisy.202501179}\n}";
 
 /// Paragraph and BibTeX entries, each with a copy button, and a table of the sensors.
@@ -28,14 +28,14 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
     }
 }
 
-/// Text with a copy button, which the page's script reveals.
+/// Text with a copy button, which the script of the page reveals.
 fn copied(id: &str, what: &str, body: &Markup) -> Markup {
     html! {
         div.copied { button.act type="button" data-copy=(id) hidden { "Copy " (what) } "\n" (body) } "\n"
     }
 }
 
-/// Methods in plain sentences for a paper.
+/// Methods paragraph for a paper.
 fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
     let mut out = format!(
         "We evaluated {} ({}) with TacEva {}.",
@@ -54,7 +54,7 @@ fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
     out + &scope(studies)
 }
 
-/// The number of results, and of sensors where that is another.
+/// Number of results, and number of sensors if different.
 fn evaluated(studies: &[Study]) -> String {
     let units = studies
         .iter()
@@ -131,7 +131,7 @@ fn divided(studies: &[Study]) -> String {
     }
     let mut names: Vec<&str> = Vec::new();
     let all = studies.iter().flat_map(|study| &study.made.samples);
-    // Left-out samples belong to other parts of the protocol and supply other metrics.
+    // Left-out samples belong to other parts of the protocol, for other metrics.
     for (name, _) in all.filter(|(name, _)| name != "left_out") {
         if !names.contains(&name.as_str()) {
             names.push(name);
@@ -199,7 +199,7 @@ fn model(studies: &[Study]) -> String {
     }
 }
 
-/// The samples that predictions are scored on.
+/// Sentence on the samples behind scores of predictions.
 fn unseen(studies: &[Study]) -> String {
     let seen = studies.iter().filter_map(|study| {
         let part = study.made.seen_part.as_ref()?;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::results::Study;
 use taceva_results::{SampleChannel, Samples};
 
-/// Number of samples of each kind per study.
+/// Number of best, and of worst, samples for each study.
 const EACH: usize = 4;
 
 /// Selected sample.
@@ -21,8 +21,8 @@ pub struct Pick {
     pub error: f64,
 }
 
-/// The worst and the best predicted samples of a study, four each. Each is from another contact point, as frames of one press, and presses
-/// at one place, fail alike. Fewer if there are few points; empty without samples.
+/// The four worst and the four best predicted samples of a study. Each is from another contact point, because frames of one press or place fail
+/// alike. Fewer if there are few points; empty without samples.
 pub fn picks(study: &Study) -> Vec<Pick> {
     let Some(samples) = &study.samples else {
         return Vec::new();
@@ -74,7 +74,7 @@ fn place(samples: &Samples, row: usize) -> Option<&str> {
         .or_else(|| samples.word(Samples::KEY, row))
 }
 
-/// First of `rows` for each unused contact point, up to `most`.
+/// First of `rows` for each unused contact point, at most `most`.
 fn apart<'a>(
     samples: &'a Samples,
     rows: impl Iterator<Item = &'a (usize, f64)>,

@@ -1,4 +1,4 @@
-//! Worst and best predicted samples, with pictures, truth and prediction.
+//! Worst and best predicted samples, with frame, truth and prediction.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ use crate::names::names;
 use crate::number::{numeral, spaced};
 use taceva_results::Samples;
 
-/// Picture of a sample.
+/// Frame of a sample.
 #[derive(Clone, Debug)]
 pub struct Picture {
     /// Position of its study.
@@ -23,7 +23,7 @@ pub struct Picture {
     pub id: String,
     /// Media type: `image/png` or `image/jpeg`.
     pub media_type: &'static str,
-    /// Encoded picture.
+    /// Encoded image.
     pub bytes: Vec<u8>,
 }
 

@@ -1,4 +1,4 @@
-//! Truth and prediction of a sample seen from above, in a circle per sensor.
+//! Truth and prediction of a sample from above, in one circle for each sensor.
 
 use maud::Markup;
 
@@ -9,9 +9,9 @@ use crate::figures::SIX;
 use crate::number::numeral;
 use taceva_results::Samples;
 
-/// Side of the picture, in its own units.
+/// Side of the drawing, in its own units.
 const SIZE: f64 = 160.0;
-/// Length of the greatest shear force.
+/// Drawn length of the greatest shear force.
 const LONGEST: f64 = 34.0;
 
 /// Scale of the positions of one sensor.
@@ -22,7 +22,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Scale that contains all true positions, and the predicted ones of `picks`; `None` if a channel of the plane is missing.
+    /// Scale that contains all true positions and the predicted ones of `picks`; `None` if a channel of the plane is missing.
     pub(super) fn of(samples: &Samples, picks: &[Pick], study: usize) -> Option<Place> {
         let greatest = |names: [&str; 2]| {
             let channels = names.into_iter().filter_map(|name| samples.channel(name));

@@ -30,7 +30,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
     }
 }
 
-/// Renames left-out samples, which belong to other parts of the protocol and supply other metrics.
+/// Renames left-out samples, which belong to other parts of the protocol, for other metrics.
 fn of_parts(term: &str, text: &str) -> String {
     match term {
         "samples" => text.replace("left_out ", "of other parts of the protocol "),

@@ -12,8 +12,7 @@ use crate::markup::{heads, right_heads, scroll};
 use crate::number::{minus, spaced, with_interval};
 use crate::results::Study;
 
-/// Sentence on the agreement of the sensors' order with the published one; `None` without published scores of two sensors under the same
-/// definition.
+/// Sentence on the agreement of the order of the sensors with the published one; `None` without comparable published scores of two sensors.
 pub(super) fn order(studies: &[Study]) -> Option<String> {
     let mut values: BTreeMap<(&str, &str), Vec<[f64; 2]>> = BTreeMap::new();
     for study in studies.iter().filter(|study| study.source != "published") {
@@ -55,7 +54,7 @@ pub(super) fn order(studies: &[Study]) -> Option<String> {
     })
 }
 
-/// Number of published values, with their table; `None` without published values under the same definition.
+/// Number of comparable published values, with their table; `None` if there are none.
 pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
     let mut rows: Vec<Markup> = Vec::new();
     for study in studies.iter().filter(|study| study.source != "published") {
@@ -96,7 +95,7 @@ pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
 mod tests {
     use super::*;
 
-    /// A study of one error of depth of a published sensor.
+    /// A study of a published sensor with one error of depth.
     fn study(sensor: &str, value: f64) -> Study {
         let text = format!(
             r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "{sensor}", "source": "simulated"}},
@@ -119,7 +118,7 @@ mod tests {
         let reversed = order_of([("GelSightWM", 0.3), ("GelSight", 0.2), ("ViTacTip", 0.1)]);
         let words = reversed.expect("three are published");
         assert!(words.contains("in 0 of 3 pairs") && words.contains("τ −1.00"));
-        // One sensor has no order, and an unpublished sensor takes no part in one.
+        // One sensor has no order, and an unpublished sensor is ignored.
         assert_eq!(order(&[study("GelSight", 0.1)]), None);
         assert_eq!(order(&[study("GelSight", 0.1), study("mine", 0.2)]), None);
     }

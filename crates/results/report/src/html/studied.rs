@@ -1,4 +1,4 @@
-//! Summary of the studied sensors in a sentence or two.
+//! Summary of the studied sensors in one or two sentences.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use taceva_core::counted;
 use crate::names::{listed, names};
 use crate::results::Study;
 
-/// Plain sentence on the number of sensors, presses and points, the channels, and the model.
+/// Sentence on the number of sensors, presses and points, the channels, and the model.
 pub(super) fn studied(studies: &[Study]) -> String {
     let mut out = format!(
         "{}: {}.",

@@ -50,7 +50,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
     html! { ul.verdicts { @for line in &lines { (line) } } "\n" }
 }
 
-/// Verdict, followed by the effect of light for lighting scores.
+/// Verdict; for lighting scores, followed by the effect of light.
 fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Markup> {
     let verdict = match studies {
         [_] => alone(row)?,
@@ -143,7 +143,7 @@ fn without(row: &ScoreRow, table: &ScoreTable) -> String {
     }
 }
 
-/// Sensors without a part in verdicts, with the reason: ` Excluded from verdicts: GelSightWM (not better than predicting the mean).`
+/// Sensors that are excluded from verdicts, with the reason: ` Excluded from verdicts: GelSightWM (not better than predicting the mean).`
 fn barred(known: &[Known<'_>], table: &ScoreTable) -> String {
     let barred = known.iter().filter(|known| !known.cell.takes_part());
     let barred: Vec<String> = barred

@@ -8,7 +8,7 @@ use crate::markup::{heads, right_heads, scroll};
 use crate::number::minus;
 use crate::scores::{ScoreCell, ScoreRow};
 
-/// Sortable table; empty without rows. `id` is a word.
+/// Sortable table; empty without rows. `id` is a single word.
 pub(super) fn table(id: &str, title: &str, names: &[String], rows: &[&ScoreRow]) -> Markup {
     let unit = |row: &ScoreRow| match row.unit {
         Unit::One => "",
@@ -48,7 +48,7 @@ fn cell(cell: Option<&ScoreCell>) -> Markup {
     let interval = match &formatted.interval {
         Some([low, high]) => {
             let (low, high, n) = (minus(low), minus(high), cell.n);
-            // Line breaks occur behind the comma.
+            // Lines break only after the comma.
             format!("{low}\u{a0}…\u{a0}{high}, n\u{a0}=\u{a0}{n}{invalid}")
         }
         None => format!("no interval, n = {}{invalid}", cell.n),
@@ -58,7 +58,7 @@ fn cell(cell: Option<&ScoreCell>) -> Markup {
         td.r data-v=(format_args!("{value:?}")) title=[why.map(|why| format!("interval {why}"))] {
             @if cell.is_best { b { (shown) } } @else { (shown) }
             span.ci { (interval) }
-            // On its own line, which keeps the column narrow.
+            // On its own line, to keep the column narrow.
             @if let Some(remark) = cell.remark() { span.ci { (remark) } }
         }
     }

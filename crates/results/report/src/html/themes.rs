@@ -1,4 +1,4 @@
-//! Scores and figures by theme, each theme folded.
+//! Scores and figures by theme, with each theme folded.
 
 use maud::{Markup, html};
 use taceva_core::counted;
@@ -19,7 +19,7 @@ struct Section {
     figures: &'static [&'static str],
 }
 
-/// Sections in report order; anything else follows them.
+/// Sections in report order; all others follow them.
 const SECTIONS: [Section; 6] = [
     Section {
         id: "asked",

@@ -1,4 +1,4 @@
-//! Training behind the results of several sensors: number of places, and unequal models.
+//! Training behind the results of several sensors: number of contact places, and different models.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use taceva_metrics::catalogue;
 use crate::names::{listed, names};
 use crate::results::Study;
 
-/// Number of contact places below which doubling them still halves errors. A comparison then reflects the training instead of the sensors.
+/// Least number of contact places for a verdict on sensors. With fewer, doubling them still halves errors, so a comparison reflects the training.
 pub(super) const LEAST_PLACES: usize = 200;
 
 /// Number of contact places on which the model of a study was fitted or selected here; `None` if unknown.
@@ -31,13 +31,13 @@ fn places(study: &Study) -> Option<usize> {
     (!points.is_empty()).then_some(points.len())
 }
 
-/// Fewest such places among several sensors, if too few for a verdict on sensors.
+/// Least number of such places among several sensors, if too few for a verdict on sensors.
 fn too_few(studies: &[Study]) -> Option<usize> {
     let fewest = studies.iter().filter_map(places).min()?;
     (studies.len() > 1 && fewest < LEAST_PLACES).then_some(fewest)
 }
 
-/// True if `metric` gives no verdict on sensors, since it uses predictions of insufficiently trained models.
+/// True if `metric` gives no verdict on sensors, because it uses predictions of insufficiently trained models.
 pub(super) fn is_demonstration(studies: &[Study], metric: &str) -> bool {
     let reads = catalogue::find(metric).is_some_and(|metric| metric.reads_predictions());
     reads && too_few(studies).is_some()
@@ -54,7 +54,7 @@ pub(super) fn demonstration(studies: &[Study]) -> Option<String> {
 
 /// Sentence on the models of the studies, if they differ.
 pub(super) fn unequal_models(studies: &[Study]) -> Option<String> {
-    // The best epoch depends on each training; features are identified by size and colour.
+    // The best epoch depends on each training; features are compared by size and colour.
     let is_set = |setting: &&(String, String)| setting.0 != "epoch" && setting.0 != "features";
     let settings = |study: &Study| -> Vec<(String, String)> {
         study.made.settings.iter().filter(is_set).cloned().collect()
@@ -95,7 +95,7 @@ mod tests {
     use std::fmt::Write as _;
     use taceva_results::Samples;
 
-    /// A study of a model that learnt `places` places.
+    /// A study whose model was fitted on `places` contact places.
     fn study(sensor: &str, places: usize, settings: &[(&str, &str)]) -> Study {
         let mut table = String::from("sample,protocol,point_id,Fz,Fz_predicted\n");
         for place in 0..places {
@@ -125,12 +125,12 @@ mod tests {
             "{words}"
         );
         assert!(is_demonstration(&few, "mae") && is_demonstration(&few, "r2"));
-        // The gel alone is pressed as often as it is.
+        // Metrics of the gel alone do not depend on the training.
         assert!(!is_demonstration(&few, "sensitivity"));
         let many = [study("a", 200, &[]), study("b", 300, &[])];
         assert_eq!(demonstration(&many), None);
         assert_eq!(demonstration(&few[..1]), None);
-        // Nothing is known of a model that was not fitted here.
+        // The training of a model that was not fitted here is unknown.
         let mut opened = few;
         opened[0].made.samples.clear();
         assert_eq!(demonstration(&opened), None);

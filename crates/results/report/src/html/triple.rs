@@ -1,4 +1,4 @@
-//! Pictures of a sensor: gel untouched, pressed, and their difference.
+//! Frames of a sensor: gel untouched, pressed, and their difference.
 
 use maud::{Markup, html};
 
@@ -6,26 +6,26 @@ use super::data_address::address;
 use crate::names::names;
 use crate::results::Study;
 
-/// Encoded pictures of one sensor, with equal size and brightness scale.
+/// Encoded frames of one sensor, with equal size and brightness scale.
 #[derive(Clone, Debug)]
 pub struct Triple {
     /// Position of its study.
     pub study: usize,
     /// Media type: `image/png` or `image/jpeg`.
     pub media_type: &'static str,
-    /// Untouched gel; `None` if the recording has no such picture.
+    /// Untouched gel; `None` if the recording has no such frame.
     pub untouched: Option<Vec<u8>>,
-    /// Gel under a press.
+    /// Gel during a press.
     pub pressed: Vec<u8>,
     /// Amplified difference, pressed minus untouched, around mid-grey; `None` without `untouched`.
     pub difference: Option<Vec<u8>>,
-    /// Amplification of the difference; 1 without one.
+    /// Amplification of the difference; 1 without a difference.
     pub gain: f64,
     /// Description of the press: `Fz 1.8 N, Pz 0.98 mm`.
     pub words: String,
 }
 
-/// Card for each sensor with pictures; empty without any.
+/// Card for each sensor with frames; empty if there are none.
 pub(crate) fn cards(studies: &[Study], triples: &[Triple]) -> Markup {
     let names = names(studies);
     let known = triples

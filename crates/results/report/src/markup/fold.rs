@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-/// `body` folded behind `title` and a short description of its content; `id` is a word.
+/// `body` folded behind `title` and a short description of its content; `id` is a single word.
 pub(crate) fn fold(id: &str, title: &str, holds: &str, body: &Markup) -> Markup {
     html! {
         details.fold #(id) {

@@ -7,8 +7,7 @@ use taceva_metrics::{Better, Metric, ScoreUnit, catalogue};
 
 use super::fold::fold;
 
-/// Entries of the metrics in `ids`, in catalogue order: title, meaning, unit, direction and definition. Names of variants select their
-/// metric.
+/// Entries of the metrics in `ids`, in catalogue order: title, meaning, unit, direction and definition. A variant selects its metric.
 pub(crate) fn glossary<'a>(ids: impl Iterator<Item = &'a str>) -> Markup {
     let named: BTreeSet<&str> = ids.map(base).collect();
     let metrics = catalogue::ALL.iter().copied();
@@ -22,7 +21,7 @@ pub(crate) fn glossary<'a>(ids: impl Iterator<Item = &'a str>) -> Markup {
     }
 }
 
-/// Folded glossary, which unfolds on a link to a metric.
+/// Folded glossary that opens on a link to a metric.
 pub(crate) fn folded_glossary<'a>(ids: impl Iterator<Item = &'a str>) -> Markup {
     let holds = "what each metric means, its unit and its definition";
     fold("glossary", "Glossary", holds, &glossary(ids))

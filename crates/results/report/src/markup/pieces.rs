@@ -22,7 +22,7 @@ pub(crate) fn terms<T: Render, U: Render>(entries: impl IntoIterator<Item = (T, 
     html! { @for (term, words) in entries { dt { (term) } dd { (words) } } }
 }
 
-/// Filter for rows or cards by the tag of the chosen option; `any` is the option for all.
+/// Filter for rows or cards by the tag of the chosen option; `any` selects all.
 pub(crate) fn filter<T: Render, U: Render>(
     label: &str,
     any: &str,

@@ -1,4 +1,4 @@
-//! Values of ours with the printed ones beside them.
+//! Our values with the printed ones beside them.
 
 use crate::catalogue::{Published, find};
 use crate::number::{FormattedValue, fixed};
@@ -6,20 +6,20 @@ use crate::results::Study;
 use crate::scores::{BARRED, ScoreTable};
 use crate::table::{Cell, Estimate};
 
-/// The sensors that the study measured, in the order of its tables.
+/// Sensors of the study, in the order of its tables.
 pub(super) const SENSORS: [&str; 4] = ["ViTacTip", "MagicTac", "GelSight", "GelSightWM"];
 
-/// The way in which a table of the study prints numbers.
+/// Number format of a table in the study.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Digits {
-    /// So many significant digits.
+    /// This many significant digits.
     Significant(i32),
     /// As percent with one decimal.
     Percent,
 }
 
 impl Digits {
-    /// A number as the study prints it.
+    /// Formats a number as in the study.
     pub(super) fn print(self, number: f64) -> String {
         match self {
             Digits::Percent => format!("{} %", fixed(100.0 * number, 1)),
@@ -34,7 +34,7 @@ impl Digits {
     }
 }
 
-/// Our score of a metric and channel beside the printed one; a dash where we have none.
+/// Our score of a metric and channel beside the printed one; a dash if we have none.
 pub(super) fn cell(
     studies: &[Study],
     scores: &ScoreTable,
@@ -56,7 +56,7 @@ pub(super) fn cell(
     Cell::Estimate(estimate)
 }
 
-/// A value of ours beside a printed one.
+/// Our value beside a printed one.
 pub(super) fn beside(ours: Option<f64>, printed: Option<f64>, digits: Digits) -> Estimate {
     let below = printed.map(|printed| {
         let shown = digits.print(printed);
@@ -75,7 +75,7 @@ pub(super) fn beside(ours: Option<f64>, printed: Option<f64>, digits: Digits) ->
     }
 }
 
-/// The number that the study printed of a sensor.
+/// Number that the study prints for a sensor.
 pub(super) fn printed(study: &Study, metric: &str, channel: &str) -> Option<f64> {
     let sensor = find(&study.sensor)?;
     let is_meant = |result: &&Published| result.metric == metric && result.channel == channel;
@@ -85,7 +85,7 @@ pub(super) fn printed(study: &Study, metric: &str, channel: &str) -> Option<f64>
         .map(|result| result.value)
 }
 
-/// A ratio with two digits behind the point, fewer where it is large.
+/// A ratio with two decimals, fewer if it is large.
 fn ratio(ratio: f64) -> String {
     match ratio.abs() {
         size if size >= 100.0 => fixed(ratio, 0),

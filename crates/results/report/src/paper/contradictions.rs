@@ -1,22 +1,22 @@
-//! Places in which the printed study contradicts itself, with the numbers on both sides.
+//! Contradictions in the printed study, with the numbers on both sides.
 
 use super::beside::SENSORS;
 use crate::catalogue::find;
 use crate::number::fixed;
 use crate::variables::VARIABLES;
 
-/// The least and the greatest spacing of its gratings and their step, in micrometres, and the boards that its text counts.
+/// Least and greatest spacing of its gratings and their step, in micrometres, and the number of boards in its text.
 const GRATINGS_UM: [u32; 3] = [250, 1750, 50];
 const BOARDS: u32 = 72;
-/// The radius of its indenter by its text and by the caption of a figure.
+/// Radius of its indenter by its text and by the caption of a figure, in mm.
 const INDENTER_MM: [f64; 2] = [2.0, 10.0];
-/// The light and the error of scene S4 in its text, as ratios to those of untouched light.
+/// Light and error of scene S4 in its text, as ratios to those of reference light.
 const LIGHT: f64 = 7.0;
 const ERROR: f64 = 10.0;
-/// Printed means of its table of lighting that differ from the mean of their rows, in percent.
+/// Printed means in its table of lighting that differ from the mean of their rows, in percent.
 const MEANS: [(&str, f64); 2] = [("Fxy", 9.3), ("Pxy", 5.0)];
 
-/// Every contradiction, a sentence each.
+/// All contradictions, one sentence each.
 pub(super) fn all() -> Vec<String> {
     let [least, most, step] = GRATINGS_UM;
     let boards = 2 * ((most - least) / step + 1);
@@ -38,7 +38,7 @@ pub(super) fn all() -> Vec<String> {
     said
 }
 
-/// Success rates of the text that do not lie between those of lines and dots in the figure.
+/// Success rates in the text that are not between those of lines and dots in the figure.
 fn gratings() -> Option<String> {
     let words = SENSORS.iter().filter_map(|name| {
         let sensor = find(name)?;
@@ -88,7 +88,7 @@ fn spatial() -> Option<String> {
     })
 }
 
-/// The error in bright light by its text and by its table.
+/// Error in bright light by its text and by its table.
 fn light() -> Option<String> {
     let sensor = find("ViTacTip")?;
     let shares = VARIABLES
@@ -108,7 +108,7 @@ fn light() -> Option<String> {
     ))
 }
 
-/// Means that are not those of their rows.
+/// Printed means that differ from those of their rows.
 fn means() -> Option<String> {
     let sensor = find("ViTacTip")?;
     let of_rows = |channel: &str| {

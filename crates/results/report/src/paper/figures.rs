@@ -11,10 +11,10 @@ use crate::scores::ScoreTable;
 use crate::table::{Cell, Row, Table, Words, latex_symbol};
 use crate::variables::VARIABLES;
 
-/// The figures without printed numbers, in one sentence.
+/// Sentence on the figures without printed numbers.
 pub(super) const UNPRINTED: &str = "The study prints no numbers with its figures 6a, 7a, 7b and 8a to 8c; the means over figure 7b stand in its table V, and the quantities of figure 8 in its tables and in figures 3c and 4.";
 
-/// A number of a figure: its name, the score that holds it, and the digits of the print.
+/// A number of a figure: its name, its score, and the printed digits.
 struct Quantity {
     name: Words,
     metric: &'static str,
@@ -22,7 +22,7 @@ struct Quantity {
     digits: Digits,
 }
 
-/// The table of every figure with numbers of ours and of the study, by the name of the figure.
+/// Table of every figure with numbers of ours and of the study, by the name of the figure.
 pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> Vec<(String, Table)> {
     let sheet = Sheet { studies, scores };
     let quantity = |name: &str, metric, channel, digits| Quantity {
@@ -74,7 +74,7 @@ pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> Vec<(String, Table)
     made.map(|(name, table)| (name.to_owned(), table)).collect()
 }
 
-/// A metric of every plane.
+/// One metric for every plane.
 fn of_planes(metric: &'static str) -> [Quantity; 4] {
     VARIABLES.map(|channel| Quantity {
         name: Words::new(channel).latex(latex_symbol(channel)),
@@ -91,7 +91,7 @@ fn has_printed(table: &Table) -> bool {
 }
 
 impl Sheet<'_> {
-    /// A row a quantity, a column a sensor.
+    /// One row for each quantity, one column for each sensor.
     fn of_figure(&self, caption: &str, quantities: &[Quantity]) -> Table {
         let rows = quantities.iter().map(|of| {
             let cells = 0..self.studies.len();
@@ -102,7 +102,7 @@ impl Sheet<'_> {
         self.figure(caption, rows.collect())
     }
 
-    /// The mean grey level of each scene of light.
+    /// Mean grey level of each light scene.
     fn grey_levels(&self) -> Table {
         let levels: Vec<BTreeMap<&str, f64>> = self.studies.iter().map(grey_levels).collect();
         let scenes = [SensorFacts::REFERENCE_SCENE].into_iter().chain(SCENES);
@@ -136,7 +136,7 @@ impl Sheet<'_> {
     }
 }
 
-/// The mean grey level of the samples of each scene.
+/// Mean grey level of the samples of each scene.
 fn grey_levels(study: &Study) -> BTreeMap<&str, f64> {
     let Some(samples) = study.samples.as_ref().filter(|of| of.has("protocol")) else {
         return BTreeMap::new();

@@ -1,4 +1,4 @@
-//! The tables I to V of the study.
+//! Tables I to V of the study.
 
 use super::beside::{Digits, beside, cell};
 use crate::catalogue::find;
@@ -9,7 +9,7 @@ use crate::table::{Align, Cell, Column, Row, Table, Words, latex_symbol};
 use crate::variables::VARIABLES;
 use taceva_metrics::Better;
 
-/// Table of the study, or the data that it lacks.
+/// Table of the study, or its missing data.
 pub(super) struct Made {
     pub(super) number: usize,
     pub(super) table: Option<Table>,
@@ -18,10 +18,10 @@ pub(super) struct Made {
 
 /// Variables by quantity, in the order of the tables of calibration and lighting.
 const BLOCKS: [[&str; 2]; 2] = [["Fxy", "Fz"], ["Pxy", "Pz"]];
-/// Scenes of light.
+/// Light scenes.
 pub(super) const SCENES: [&str; 4] = ["S1", "S2", "S3", "S4"];
 
-/// Every table, in order.
+/// All tables, in order.
 pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> [Made; 5] {
     let made = |number, table: Table, needs| Made {
         number,
@@ -51,7 +51,7 @@ pub(super) fn has_values(table: &Table) -> bool {
     cells.any(|cell| matches!(cell, Cell::Estimate(of) if !matches!(of.formatted.value.as_str(), "" | "–")))
 }
 
-/// The results that tables are made of.
+/// Results for the tables.
 pub(super) struct Sheet<'a> {
     pub(super) studies: &'a [Study],
     pub(super) scores: &'a ScoreTable,
@@ -66,7 +66,7 @@ impl Sheet<'_> {
         cell(self.studies, self.scores, at, [metric, channel], digits)
     }
 
-    /// The numbers of the studies that have a value of a metric.
+    /// Positions of the studies with a value of a metric.
     fn with(&self, metric: &str) -> Vec<usize> {
         let has = |at: &usize| {
             let mut rows = self.scores.rows.iter().filter(|row| row.metric == metric);
@@ -79,7 +79,7 @@ impl Sheet<'_> {
         (0..self.studies.len()).filter(has).collect()
     }
 
-    /// Table I: a row a fact, a column a sensor.
+    /// Table I: one row for each fact, one column for each sensor.
     fn intrinsic(&self) -> Table {
         let facts = [
             ("Resolution (MP)", "camera"),
@@ -120,7 +120,7 @@ impl Sheet<'_> {
         table
     }
 
-    /// Table II: forces, then positions; in each a row a sensor and variable.
+    /// Table II: forces, then positions; each with one row for each sensor and variable.
     fn calibration(&self) -> Table {
         let heads = [("mae", "MAE"), ("r2", "R²"), ("smape", "sMAPE")];
         let columns = heads.map(|(metric, name)| {
@@ -155,7 +155,7 @@ impl Sheet<'_> {
         table
     }
 
-    /// A row a plane, a column a sensor.
+    /// One row for each plane, one column for each sensor.
     fn of_planes(&self, metric: &str, caption: &str) -> Table {
         let sensors = self.names().iter().map(|name| number_column(name));
         let mut table = self.table(caption, [column("plane")].into_iter().chain(sensors));
@@ -172,7 +172,7 @@ impl Sheet<'_> {
         table
     }
 
-    /// Table IV: a row a scene and their mean, a column a plane and sensor that light reaches.
+    /// Table IV: one row for each scene and one for the mean; one column for each plane and sensor that ambient light reaches.
     fn lighting(&self) -> Table {
         let lit = self.with("r_light");
         let pairs = BLOCKS
@@ -209,7 +209,7 @@ impl Sheet<'_> {
         table
     }
 
-    /// Table V: a row a sensor, a column a plane.
+    /// Table V: one row for each sensor, one column for each plane.
     fn repeatability(&self) -> Table {
         let planes = VARIABLES.map(|channel| {
             Column::new(Words::new(channel).latex(latex_symbol(channel))).align(Align::Right)

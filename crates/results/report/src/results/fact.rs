@@ -1,6 +1,6 @@
-//! Properties of a sensor that are no scores.
+//! Properties of a sensor other than scores.
 
-/// Published property of a sensor that is no score, such as its size or price: shown beside scores and never compared.
+/// Published property of a sensor other than a score, such as its size or price. It is shown beside scores and never compared.
 ///
 /// ```
 /// let digit = taceva_report::catalogue::find("DIGIT").expect("there").as_study();
@@ -12,8 +12,8 @@
 pub struct Fact {
     /// Name: `size`, `price`, `intrinsic thickness`.
     pub name: String,
-    /// Unit; empty if the value states it, or for words.
+    /// Unit; empty if the value states it, or for text.
     pub unit: String,
-    /// Value as published, with `≈`, `>` or `<` where it is not exact.
+    /// Value as published, with `≈`, `>` or `<` if inexact.
     pub value: String,
 }

@@ -1,4 +1,4 @@
-//! Run time against error of models, as `taceva bench models` writes it and figures read it.
+//! Run time against error of models: results of `taceva bench models`, for figures.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::Unit;
@@ -6,7 +6,7 @@ use taceva_core::shown;
 
 use taceva_results::ResultsError;
 
-/// Schema of all benchmarks as JSON; the subject of this one is `models`.
+/// Schema of all benchmarks as JSON. The subject of this one is `models`.
 pub const BENCH_SCHEMA: &str = "taceva.bench/1";
 const SUBJECT: &str = "models";
 
@@ -22,11 +22,11 @@ pub struct ModelBench {
     pub machine: BenchMachine,
     /// Recording for training and test.
     pub recording: BenchRecording,
-    /// One row per model, in benchmark order.
+    /// One row for each model, in benchmark order.
     pub rows: Vec<ModelRow>,
 }
 
-/// Machine on which models ran, without which times are meaningless.
+/// Machine that ran the models, needed to interpret times.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BenchMachine {
@@ -36,13 +36,13 @@ pub struct BenchMachine {
     pub cores: usize,
     /// Number of threads used.
     pub threads: usize,
-    /// Processor instruction sets with dedicated code in the program, the widest first.
+    /// Instruction sets of the processor with dedicated code in the program, the widest first.
     pub isa: Vec<String>,
     /// Load per core over the preceding minute; `None` if the system does not report it.
     pub load: Option<f64>,
 }
 
-/// Recording from which models learned, with its split.
+/// Training recording, with its split.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BenchRecording {
@@ -69,18 +69,18 @@ pub struct ModelRow {
     /// Settings in words; empty for the defaults.
     #[serde(default)]
     pub settings: String,
-    /// Time to fit, features included, s.
+    /// Time to fit, including features, in s.
     pub fit_s: f64,
-    /// Processor time to fit, features included, s; `None` if the system does not report it, or in older files.
+    /// Processor time to fit, including features, in s; `None` in older files, or if the system does not report it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fit_cpu_s: Option<f64>,
-    /// Time to predict the whole test part, features included, s.
+    /// Time to predict the whole test part, including features, in s.
     pub predict_s: f64,
-    /// Median time from one frame to its prediction, for single frames, s.
+    /// Median time from one frame to its prediction, frame by frame, in s.
     pub latency_s: f64,
     /// Error of each channel on the test part; empty if the model could not be fitted.
     pub errors: Vec<ChannelError>,
-    /// Reason that the model could not be fitted or scored.
+    /// Reason why the model could not be fitted or scored.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub failed: Option<String>,
 }
@@ -95,11 +95,11 @@ pub struct ChannelError {
     pub unit: Unit,
     /// Mean absolute error.
     pub mae: f64,
-    /// Interval of 95 % by contact point; `None` with too few points.
+    /// 95 % interval by contact point; `None` with too few points.
     pub ci95: Option<[f64; 2]>,
     /// Number of samples.
     pub n: u64,
-    /// Models that need less processor time to fit, and whose error is not shown to be larger.
+    /// Models that need less processor time to fit and are not shown to have a larger error.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub beaten_by: Vec<String>,
 }
@@ -172,8 +172,8 @@ impl ModelRow {
         self.errors.iter().find(|error| error.channel == channel)
     }
 
-    /// Channels on whose Pareto front the model is: no other needs less processor time to fit and is as accurate within intervals. `None`
-    /// if no time is known.
+    /// Channels with this model on their Pareto front: every model that fits in less processor time is shown to have a larger error. `None` if no
+    /// time is known.
     pub fn front_of(&self) -> Option<Vec<&str>> {
         self.fit_cpu_s?;
         let errors = self.errors.iter();

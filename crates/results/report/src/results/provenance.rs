@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use taceva_results::{ModelProvenance, Provenance};
 
-/// Entries of `provenance` except the notes, in file order. Empty ones are skipped.
+/// Entries of `provenance` except the notes, in file order. Skips empty ones.
 pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
     let text = |text: &Option<String>| text.clone().unwrap_or_default();
     let recordings = provenance.recordings.iter().map(|own| {

@@ -1,4 +1,4 @@
-//! The caption of the main table: one sentence with the number and the source of the samples that were scored.
+//! Caption of the main table: one sentence with the number and the source of the scored samples.
 
 use std::collections::BTreeSet;
 
@@ -8,14 +8,14 @@ use super::{ScoreCell, ScoreTable};
 use crate::results::Study;
 use taceva_results::OPTIMISTIC;
 
-/// The entries of a study that a caption names.
+/// Entries of a study for a caption.
 #[derive(Clone, Debug, Default)]
 pub(super) struct About {
     sensor: String,
     model: Option<String>,
     part: Option<String>,
     recordings: usize,
-    /// Notes that call the scores too good.
+    /// Notes that the scores are too good.
     pub(super) optimistic: Vec<String>,
     /// Cross-validation in words, if each sample was held out once.
     folds: Option<String>,
@@ -44,7 +44,7 @@ impl About {
 }
 
 impl ScoreTable {
-    /// The caption of the main table: `Accuracy of GelSight (ridge) on 20 simulated test samples, with 95 % intervals.`
+    /// Caption of the main table: `Accuracy of GelSight (ridge) on 20 simulated test samples, with 95 % intervals.`
     pub fn caption(&self) -> String {
         let main = self.main();
         let what = match main.is_of_accuracy() {
@@ -86,7 +86,7 @@ impl ScoreTable {
         }
     }
 
-    /// ` on 20 simulated test samples of 3 recordings`; nothing of published numbers, which rarely say.
+    /// ` on 20 simulated test samples of 3 recordings`; empty for published numbers, which rarely state it.
     fn samples(&self) -> String {
         let sources: BTreeSet<&str> = self.sources.iter().map(String::as_str).collect();
         if sources.iter().all(|source| *source == "published") {
@@ -135,14 +135,14 @@ impl ScoreTable {
         format!(" on {many}{source}{part}{noun}{each}{recordings}{held_out}")
     }
 
-    /// The number of samples behind every value, where it is the same and known.
+    /// Common number of samples behind all values, if known.
     pub(super) fn common_n(&self) -> Option<u64> {
         let counts: BTreeSet<u64> = self.valued().map(|cell| cell.n).collect();
         let count = counts.first().copied().filter(|_| counts.len() == 1);
         count.filter(|n| *n > 0)
     }
 
-    /// `, with 95 % intervals`, or why there are none.
+    /// `, with 95 % intervals`, or the reason why there are none.
     fn intervals(&self) -> String {
         if self.valued().any(|cell| cell.ends.is_some()) {
             return ", with 95 % intervals".to_owned();
@@ -160,7 +160,7 @@ impl ScoreTable {
         }
     }
 
-    /// Every cell with a value.
+    /// All cells with a value.
     pub(super) fn valued(&self) -> impl Iterator<Item = &ScoreCell> {
         let cells = self.rows.iter().flat_map(|row| row.cells.iter().flatten());
         cells.filter(|cell| cell.value.is_some())

@@ -1,4 +1,4 @@
-//! The main scores as tables as wide as a column of a paper.
+//! Main scores as tables of the width of a paper column.
 
 use std::collections::BTreeSet;
 
@@ -12,40 +12,40 @@ use crate::number::FormattedValue;
 use crate::table::{Align, Cell, Column, Estimate, Row, Table, Words, latex_symbol, stacked};
 use crate::table::{COLUMN_PT, GAP_PT, letters_pt};
 
-/// Rows of one table: with its intervals it fills half a page.
+/// Greatest number of rows in one table; with intervals, they fill half a page.
 const MOST_ROWS: usize = 18;
-/// Maximum width of a row name, and of a column head, in TeX points.
+/// Greatest width of a row name, and of a column head, in TeX points.
 const NAME_PT: f64 = 76.0;
 const HEAD_PT: f64 = 47.5;
-/// Font sizes, points: of values, and of intervals and heads.
+/// Font sizes in points: of values, and of intervals and heads.
 const VALUE_SIZE: f64 = 8.0;
 const SMALL_SIZE: f64 = 7.0;
 
-/// One line of the main table before it is divided into tables.
+/// One line of the main table before the division into tables.
 struct Line<'a> {
-    /// The metric, if the table is grouped by metrics.
+    /// Metric, if the table is grouped by metric.
     group: Option<&'a str>,
     name: Words,
     name_pt: f64,
     cells: Vec<Option<&'a ScoreCell>>,
-    /// Number of samples, if it is shown in a column.
+    /// Number of samples, if shown in a column.
     n: Option<String>,
 }
 
-/// The lines and the heads of the columns of values.
+/// Lines, and heads of the value columns.
 struct Sheet<'a> {
     heads: Vec<Words>,
     lines: Vec<Line<'a>>,
-    /// True if each line has its number of samples in a last column.
+    /// True if a last column has the number of samples of each line.
     has_n: bool,
-    /// Numbers of samples of the columns, if they are shown in a last row.
+    /// Numbers of samples of the columns, if shown in a last row.
     counts: Option<Vec<String>>,
 }
 
 impl ScoreTable {
-    /// The main scores as tables with intervals below the values, each as wide as a column of a paper.
+    /// Main scores as tables with intervals below the values, each of the width of a paper column.
     ///
-    /// One study has a row for each channel; several have a column for each study. Columns and rows that do not fit go to further tables.
+    /// One study has one row for each channel; several have one column for each study. Columns and rows that do not fit go to further tables.
     pub fn for_column(&self, caption: &str) -> Vec<Table> {
         let main = self.main();
         let sheet = match main.names.len() == 1 && main.is_of_accuracy() {
@@ -74,7 +74,7 @@ impl ScoreTable {
         tables
     }
 
-    /// A row for each channel and a column for each metric, of one study.
+    /// One row for each channel and one column for each metric, for one study.
     fn by_channel(&self) -> Sheet<'_> {
         let mut metrics: Vec<&str> = Vec::new();
         let mut channels: Vec<(&str, Unit)> = Vec::new();
@@ -114,7 +114,7 @@ impl ScoreTable {
         }
     }
 
-    /// A row for each score and a column for each study, and a last row of the numbers of samples where they differ.
+    /// One row for each score and one column for each study. A last row has the numbers of samples if they differ.
     fn by_study(&self) -> Sheet<'_> {
         let mut lines = Vec::new();
         for row in &self.rows {
@@ -138,7 +138,7 @@ impl ScoreTable {
         }
     }
 
-    /// The numbers of samples of each study, where they differ between studies or scores.
+    /// Numbers of samples of each study, if they differ between studies or scores.
     pub(super) fn counts(&self) -> Option<Vec<String>> {
         let of = |at: usize| {
             let cells = self.rows.iter().filter_map(|row| row.cells[at].as_ref());
@@ -188,7 +188,7 @@ impl ScoreRow {
 }
 
 impl Sheet<'_> {
-    /// The most digits that the columns of one table have room for, and how many columns that is.
+    /// Greatest number of digits that fit the columns of one table, and the number of columns.
     fn room(&self) -> (usize, usize) {
         let [three, two] = [3, 2].map(|digits| self.columns_of(digits));
         match two > three && three < self.heads.len() {
@@ -197,7 +197,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// Number of columns of values with so many digits that fit a table.
+    /// Number of value columns with this number of digits that fit a table.
     fn columns_of(&self, digits: usize) -> usize {
         let names = self.lines.iter().map(|line| line.name_pt);
         let name = names.fold(20.0, f64::max).min(NAME_PT);
@@ -224,7 +224,7 @@ impl Sheet<'_> {
         count
     }
 
-    /// The table of some lines and columns.
+    /// Table of some lines and columns.
     fn table(&self, lines: &[Line<'_>], columns: &[usize], digits: usize) -> Table {
         let heads = columns.iter().map(|at| self.heads[*at].clone());
         let n = self.has_n.then(|| Words::new("n").latex("$n$"));
@@ -268,7 +268,7 @@ fn numbered(caption: &str, at: usize, count: usize) -> String {
     format!("{}, part {at} of {count}.", caption.trim_end_matches('.'))
 }
 
-/// A channel with its unit: `$F_{z}$ (N)`.
+/// Channel with its unit: `$F_{z}$ (N)`.
 pub(super) fn named(channel: &str, unit: Unit) -> Words {
     let unit = match unit {
         Unit::One => String::new(),
@@ -282,7 +282,7 @@ pub(super) fn named(channel: &str, unit: Unit) -> Words {
     Words::new(plain).latex(latex)
 }
 
-/// A metric with the sign of its direction.
+/// Metric with the sign of its direction.
 fn directed(id: &str) -> Words {
     let latex = Better::of(id).map_or("", |better| match better {
         Better::Lower => " $\\downarrow$",
@@ -293,7 +293,7 @@ fn directed(id: &str) -> Words {
     Words::new(Better::named(id)).latex(format!("{}{latex}", metric(id)))
 }
 
-/// The number of samples behind some cells: `20`, or from the fewest to the most, `18–20`.
+/// Number of samples behind some cells: `20`, or a range, `18–20`.
 fn counts<'a>(cells: impl Iterator<Item = &'a ScoreCell>) -> String {
     let counts: BTreeSet<u64> = cells.map(|cell| cell.n).filter(|n| *n > 0).collect();
     match (counts.first(), counts.last()) {
@@ -303,7 +303,7 @@ fn counts<'a>(cells: impl Iterator<Item = &'a ScoreCell>) -> String {
     }
 }
 
-/// A value with its interval, both to as many digits as there is room for.
+/// Value with its interval, both with as many digits as fit.
 fn estimate(cell: Option<&ScoreCell>, digits: usize) -> Estimate {
     let Some((cell, value)) = cell.and_then(|cell| Some((cell, cell.value?))) else {
         return Estimate::default();

@@ -1,4 +1,4 @@
-//! Forms of score tables: every number for programs, and page-sized tables for pages and papers.
+//! Layouts of score tables: every number for programs, and page-sized tables for pages and papers.
 
 use taceva_core::Unit;
 use taceva_metrics::Better;
@@ -14,7 +14,7 @@ const BOLD: [&str; 2] = [
 ];
 
 impl ScoreTable {
-    /// Table for programs with one row per score and study, and numbers in shortest round-trip form.
+    /// Table for programs with one row for each score and study, and numbers in shortest round-trip form.
     pub fn every_number(&self) -> Table {
         let columns = [
             Column::new("sensor"),
@@ -45,7 +45,7 @@ impl ScoreTable {
         table
     }
 
-    /// Table for pages with one row per score and one column per study: values with intervals, and a bold significantly best value.
+    /// Table for pages with one row for each score and one column for each study: values with intervals; a significantly best value is bold.
     pub fn for_pages(&self) -> Table {
         let columns = ["metric", "channel", "unit"].map(Column::new);
         let [metric, channel, unit] = columns;
@@ -69,7 +69,7 @@ impl ScoreTable {
         table
     }
 
-    /// Table for papers: symbols of the field, and intervals below the values.
+    /// Table for papers, with the usual symbols, and intervals below the values.
     pub fn for_papers(&self, caption: &str) -> Table {
         let [metric, channel, unit] = ["metric", "channel", "unit"].map(Column::new);
         let metric = metric.direction(Direction::OfRows);
@@ -112,7 +112,7 @@ impl ScoreTable {
         table
     }
 
-    /// A table with these columns and one for each study.
+    /// Table with these columns and one for each study.
     fn of_studies<const N: usize>(&self, columns: [Column; N]) -> Table {
         let studies = self.names.iter();
         let studies = studies.map(|name| Column::new(name.as_str()).align(Align::Right));
@@ -147,7 +147,7 @@ impl ScoreRow {
     }
 }
 
-/// Value with its interval, or the reason that it is absent.
+/// Value with its interval, or the reason why it is absent.
 fn estimate(cell: Option<&ScoreCell>) -> Cell {
     Cell::Estimate(cell.map_or_else(Estimate::default, |cell| Estimate {
         formatted: cell.formatted.clone(),
@@ -158,7 +158,7 @@ fn estimate(cell: Option<&ScoreCell>) -> Cell {
     }))
 }
 
-/// Value with its interval and the sign of its standing, without words, for lack of room in a paper.
+/// Value with its interval and the sign of its standing, without words, because a paper lacks room.
 fn without_words(cell: Option<&ScoreCell>) -> Cell {
     let valued = cell.filter(|cell| cell.value.is_some());
     Cell::Estimate(valued.map_or_else(Estimate::default, |cell| {

@@ -1,14 +1,14 @@
-//! Main scores of a paper.
+//! Main scores for a paper.
 
 use super::{ScoreRow, ScoreTable};
 
-/// The metrics of the main table, in their order.
+/// Metrics of the main table, in order.
 const METRICS: [&str; 3] = ["mae", "r2", "smape"];
 /// Channels and planes in the order of papers; others follow.
 const CHANNELS: [&str; 8] = ["Fxy", "Fx", "Fy", "Fz", "Pxy", "Px", "Py", "Pz"];
 
 impl ScoreTable {
-    /// The rows that a paper shows first: MAE, R² and sMAPE, of planes where there are any. Results without them keep all their scores.
+    /// Rows that a paper shows first: MAE, R² and sMAPE, of planes if there are any. Results without them keep all their scores.
     #[must_use]
     pub fn main(&self) -> ScoreTable {
         let headlines = self.headlines();
@@ -25,7 +25,7 @@ impl ScoreTable {
         }
     }
 
-    /// True if every row is of a metric of the main table.
+    /// True if every row has a metric of the main table.
     pub(super) fn is_of_accuracy(&self) -> bool {
         !self.rows.is_empty() && self.rows.iter().all(is_main)
     }

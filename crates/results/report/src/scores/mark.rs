@@ -1,4 +1,4 @@
-//! Signs behind values of limited standing, where there is no room for words.
+//! Signs after values of limited standing, for places without room for words.
 
 use std::collections::BTreeSet;
 
@@ -6,9 +6,9 @@ use taceva_metrics::Standing;
 
 use super::{ScoreCell, ScoreTable};
 
-/// Sign of a value that takes no part in verdicts.
+/// Sign of a value that is excluded from verdicts.
 pub(crate) const BARRED: &str = "†";
-/// Sign of a value that takes part without evidence that its model beats a constant.
+/// Sign of a value in verdicts whose model is not shown to beat a constant.
 pub(super) const UNPROVEN: &str = "‡";
 
 /// Sign of `standing`; empty if it counts without remark.
@@ -31,7 +31,7 @@ impl ScoreCell {
 }
 
 impl ScoreTable {
-    /// Meaning of `mark` with the reasons for it; `None` if no value has it.
+    /// Meaning of `mark` with its reasons; `None` if no value has it.
     pub(super) fn legend(&self, mark: &str) -> Option<String> {
         let marked = self.valued().filter(|cell| cell.mark() == mark);
         let reasons = marked.filter_map(|cell| cell.standing.phrase());

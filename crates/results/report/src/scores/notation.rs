@@ -4,7 +4,7 @@ use taceva_metrics::catalogue;
 
 use crate::escape::latex as escape;
 
-/// Metric in LaTeX: `MAE`, `$R^2$`, followed by its variant. A metric without symbol keeps its name.
+/// Metric in LaTeX: `MAE`, `$R^2$`, followed by its variant. A metric without a symbol keeps its name.
 pub(super) fn metric(id: &str) -> String {
     let (base, variant) = match id.split_once('.') {
         Some((base, variant)) => (base, format!(", {}", escape(variant))),

@@ -1,4 +1,4 @@
-//! Values side by side for people: scores, published facts, and short words for absent ones.
+//! Values side by side for readers: scores, published facts, and short words for absent ones.
 
 use taceva_metrics::Better;
 
@@ -10,7 +10,7 @@ use crate::compare::{CompareRequest, QUESTIONS};
 use crate::results::Study;
 use crate::table::{Align, Cell, Column, Estimate, Table, Words};
 
-/// Words and marks whose places the table shows, so that their note names none.
+/// Words and marks whose places are visible in the table, so that their note names no places.
 const SEEN: [&str; 4] = [UNPROVEN, "not published", "not scored", "unknown"];
 
 /// A score or a fact of each study.
@@ -37,8 +37,8 @@ struct Notes(Vec<Note>);
 impl ScoreTable {
     /// Values of `studies` side by side: one row for each score or published fact, one column for each study.
     ///
-    /// The rows are the main scores and those of the first questions, with `is_all` every score without its variants. If `request` names
-    /// metrics, they are the scores of these alone. A short word stands for an absent value, and a note says why it is absent.
+    /// The rows are the main scores and those of the first questions; with `is_all`, every score without its variants. If `request` names metrics,
+    /// only their scores. A short word stands for an absent value, and a note states the reason.
     ///
     /// ```
     /// use taceva_report::{CompareRequest, ScoreTable, catalogue};
@@ -90,7 +90,7 @@ impl ScoreTable {
         table
     }
 
-    /// The rows that `request` asks for.
+    /// Rows that `request` selects.
     fn asked(&self, request: &CompareRequest, is_all: bool) -> ScoreTable {
         let headlines = self.headlines();
         if is_all || !request.metrics.is_empty() {
@@ -104,7 +104,7 @@ impl ScoreTable {
         }
     }
 
-    /// The line of a score, with notes on the marks of its values.
+    /// Line of a score, with notes on the marks of its values.
     fn line<'a>(&self, row: &'a ScoreRow, notes: &mut Notes) -> Line<'a> {
         let channel = named(&row.channel, row.unit);
         let key = format!("{} {}", row.metric, channel.plain());
@@ -175,7 +175,7 @@ fn is_asked_first(row: &ScoreRow) -> bool {
     is_main(row) || is_question || row.metric == "intrinsic"
 }
 
-/// Value with its interval. Published values are not rounded; trailing zeros are lost.
+/// Value with its interval. Published values are not rounded, but lose trailing zeros.
 fn value(cell: &ScoreCell, source: &str, mark: &'static str) -> Cell {
     let mut formatted = cell.formatted.clone();
     if let Some(value) = cell.value.filter(|_| source == "published") {
@@ -188,7 +188,7 @@ fn value(cell: &ScoreCell, source: &str, mark: &'static str) -> Cell {
     })
 }
 
-/// A line that is no score.
+/// A line of a fact.
 fn fact_line(key: String, cells: Vec<Option<Cell>>) -> Line<'static> {
     let metric = key.split(' ').next().unwrap_or_default();
     let name = Better::of(metric).map_or_else(|| key.clone(), |better| better.beside(&key));
@@ -200,7 +200,7 @@ fn fact_line(key: String, cells: Vec<Option<Cell>>) -> Line<'static> {
     }
 }
 
-/// Enters the facts of `studies` into the lines, several of one name in one cell.
+/// Adds the facts of `studies` to the lines; several facts of one name share a cell.
 fn enter_facts(studies: &[Study], lines: &mut Vec<Line<'_>>) {
     for (at, study) in studies.iter().enumerate() {
         for fact in &study.facts {
@@ -224,7 +224,7 @@ fn enter_facts(studies: &[Study], lines: &mut Vec<Line<'_>>) {
     }
 }
 
-/// Short word for an absent value, and the reason of its absence.
+/// Short word for an absent value, and the reason for its absence.
 fn absence(study: &Study, row: Option<&ScoreRow>, at: usize) -> (&'static str, String) {
     let Some(row) = row else {
         let reason = match study.source.as_str() {

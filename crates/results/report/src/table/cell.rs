@@ -8,7 +8,7 @@ use crate::number::FormattedValue;
 /// Cell of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cell {
-    /// Words, even if they look like a number.
+    /// Text, even if it looks like a number.
     Text(Words),
     /// Number as printed.
     Number(String),
@@ -21,20 +21,20 @@ pub enum Cell {
 /// Value with its interval and a remark.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Estimate {
-    /// Value and interval, or the reason that they are absent.
+    /// Value and interval, or the reason why they are absent.
     pub formatted: FormattedValue,
     /// Unit of this cell; empty if stated elsewhere, or for a ratio.
     pub unit: String,
     /// Remark for readers.
     pub remark: Option<String>,
-    /// Sign behind the value, explained by a note; empty if there is none.
+    /// Sign after the value, explained by a note; empty if there is none.
     pub mark: &'static str,
     /// True if significantly better than all others of its row.
     pub is_best: bool,
 }
 
 impl Cell {
-    /// Cell of words, even if they look like a number.
+    /// Cell of text, even if it looks like a number.
     pub fn text(words: impl Into<Words>) -> Cell {
         Cell::Text(words.into())
     }
@@ -50,7 +50,7 @@ impl Cell {
         }
     }
 
-    /// Words of the cell, as each format writes them.
+    /// Words of the cell for the formats.
     pub(super) fn words(&self) -> Words {
         match self {
             Cell::Text(words) => words.clone(),
@@ -150,7 +150,7 @@ impl Estimate {
     }
 }
 
-/// Converts a numeric text to a number, and any other text to words.
+/// Converts numeric text to a number, and other text to words.
 impl From<String> for Cell {
     fn from(text: String) -> Cell {
         match text.replace('−', "-").parse::<f64>() {

@@ -17,16 +17,15 @@ pub struct Column {
     pub align: Align,
 }
 
-/// Better direction of numbers; a sign for readers, a word for programs.
+/// Better direction of numbers: a sign for readers, a word for programs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Direction {
     /// The cells are not scores.
     #[default]
     None,
-    /// Same direction for the whole column: a sign in the head for readers; programs know the column by its name.
+    /// Same direction for the whole column: a sign in the head for readers. Programs know the column by its name.
     Is(Better),
-    /// Direction by the metric or variant named in this column: a sign behind the name for readers, a word in a further column `better` for
-    /// programs.
+    /// Direction by the metric or variant in this column: a sign after the name for readers, a word in an additional column `better` for programs.
     OfMetrics,
     /// Direction by [`Row::better`](super::Row::better), shown in the same way.
     OfRows,
@@ -42,7 +41,7 @@ pub enum Align {
     Left,
     /// Right-aligned.
     Right,
-    /// In plain text, numbers right-aligned and other cells left-aligned; otherwise as [`Align::Auto`].
+    /// In plain text, right-aligned numbers and left-aligned other cells; otherwise as [`Align::Auto`].
     ByCell,
 }
 

@@ -4,7 +4,7 @@ use super::{Cell, Table};
 use taceva_results::escape_csv;
 
 impl Table {
-    /// CSV for programs and spreadsheets. Words that begin like a formula get a leading apostrophe.
+    /// CSV for programs and spreadsheets. Text that begins like a formula gets a leading apostrophe.
     pub fn csv(&self) -> String {
         let mut writer = ::csv::Writer::from_writer(Vec::new());
         let mut write = |record: Vec<String>| {

@@ -8,7 +8,7 @@ use crate::markup::{metric_link, scroll};
 
 /// Length of a cell, in characters, above which a page wraps it.
 const LONG: usize = 28;
-/// Length of a cell, in characters, above which it wraps into wide lines instead of a narrow tower.
+/// Length of a cell, in characters, above which it wraps into wide lines.
 const VERY_LONG: usize = 70;
 
 impl Table {
@@ -32,7 +32,7 @@ impl Table {
         })
     }
 
-    /// Table of a page with a glossary, to which names of metrics link.
+    /// Table of a page whose glossary is linked from names of metrics.
     pub(crate) fn html_with_links(&self) -> Markup {
         self.html_with(|column, _, cell| match (column.direction, cell) {
             (Direction::OfMetrics, cell) => metric_link(&cell.plain()),
@@ -44,7 +44,7 @@ impl Table {
 
     /// Table with cells rendered by `written`.
     fn html_with(&self, written: impl Fn(&Column, &Row, &Cell) -> Markup) -> Markup {
-        // Columns without words are omitted to save room.
+        // Omits columns without words.
         let has_words = |at: &usize| {
             let mut rows = self.rows.iter();
             rows.any(|row| !row.cells[*at].plain().is_empty())
@@ -70,7 +70,7 @@ impl Table {
         }
     }
 
-    /// Class of a column's cells, for alignment and wrapping.
+    /// Class of the cells of a column, for alignment and wrapping.
     fn class(&self, column: usize) -> Option<&'static str> {
         let lengths = self.rows.iter().map(|row| &row.cells[column]);
         let lengths = lengths.map(|cell| cell.plain().chars().count());

@@ -4,9 +4,9 @@ use super::room::breakable;
 use super::{Row, Table, Words};
 use crate::escape::{LETTER, LETTER_DEFINITION, latex as escape};
 
-/// Limit of the total letters of column names at the size of the numbers in a page column.
+/// Greatest total number of letters in column names at the number size in a page column.
 const LETTERS: usize = 28;
-/// Number of columns above which numbers in a page column are set smaller.
+/// Number of columns above which numbers in a page column are smaller.
 const COLUMNS: usize = 5;
 
 /// Placement of a table on a page.
@@ -15,7 +15,7 @@ pub enum Layout {
     /// Float with caption and notes.
     #[default]
     Float,
-    /// Float of one page column's width, in small letters.
+    /// Float of the width of a page column, in small letters.
     Column,
     /// Rows only.
     Rows,
@@ -32,7 +32,7 @@ impl Table {
         format!("% needs \\usepackage{{booktabs}}\n{letters}{table}")
     }
 
-    /// The environment alone.
+    /// The environment without definitions.
     fn latex_table(&self, layout: Layout) -> String {
         let mut out = String::new();
         if layout == Layout::Rows {
@@ -93,7 +93,7 @@ impl Table {
         }
     }
 
-    /// Font size of the heads in a page column, reduced if they are too wide at that of the numbers.
+    /// Font size of the heads in a page column, reduced if they are too wide at the number size.
     fn size_of_names(&self) -> &'static str {
         let names = self.columns.iter().map(|column| column.name.plain());
         match names.map(|name| name.chars().count()).sum() {
@@ -150,7 +150,7 @@ fn below(indent: &str, row: &Row) -> String {
     format!("{indent}{} {} \\\\\n", " &".repeat(words), rest.join(" & "))
 }
 
-/// Number in LaTeX maths: with a proper minus, and `2.3e-7` as a power of ten. Other text is escaped.
+/// Number in LaTeX maths, with a proper minus and `2.3e-7` as a power of ten. Other text is escaped.
 ///
 /// ```
 /// assert_eq!(taceva_report::latex_number("-0.5"), "$-0.5$");

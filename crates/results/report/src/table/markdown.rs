@@ -3,7 +3,7 @@
 use super::{Row, Table, Words};
 
 impl Table {
-    /// Markdown of the rows, followed by the notes as paragraphs. The caption is left to the caller.
+    /// Rows as Markdown, followed by the notes as paragraphs. Omits the caption.
     pub fn markdown(&self) -> String {
         let line = |cells: &[Words]| {
             let cells: Vec<String> = cells.iter().map(Words::in_markdown).collect();

@@ -1,14 +1,14 @@
-//! Width of text in a column of a paper, and line breaks that fit it.
+//! Text width in a paper column, and line breaks that fit it.
 
 use crate::escape::{LETTER, is_set_everywhere, latex as escape};
 
 /// Column width of a two-column IEEE page: 3.5 in, in TeX points, less a small margin.
 pub(crate) const COLUMN_PT: f64 = 249.0;
-/// Letters of the longest unbroken word, and of the pieces of a longer one.
+/// Greatest number of letters in an unbroken word, and in the pieces of a longer one.
 const WHOLE: usize = 14;
 const PIECE: usize = 4;
 
-/// The gap between two columns of a table, in points.
+/// Gap between two columns of a table, in points.
 pub(crate) const GAP_PT: f64 = 4.0;
 
 /// Approximate width of `words` in points, at `size_pt` in Computer Modern, the widest default font of papers.
@@ -32,19 +32,19 @@ fn em(letter: char) -> f64 {
         '-' | '−' | '–' | '…' => 0.85,
         'a'..='z' => 0.63,
         letter if is_set_everywhere(letter) => 0.88,
-        // Its code point, `U+540D`.
+        // Code point, `U+540D`.
         _ => 4.2,
     }
 }
 
-/// LaTeX text with breaks allowed inside long words, and after letters that may be printed as code points.
+/// LaTeX text with breaks allowed inside long words, and after letters that may print as code points.
 pub(super) fn breakable(text: &str) -> String {
     let mut out = String::new();
     for (at, word) in text.split(' ').enumerate() {
         if at > 0 {
             out.push(' ');
         }
-        // LaTeX breaks a word behind each hyphen by itself.
+        // LaTeX itself breaks a word after each hyphen.
         let is_long = word.split('-').any(|part| part.chars().count() > WHOLE);
         let mut whole = String::new();
         for letter in word.chars() {
@@ -82,7 +82,7 @@ pub(crate) fn stacked(words: &str, width_pt: f64, size_pt: f64, side: char) -> S
     }
 }
 
-/// Words in pieces that end with a space or a joint, each narrower than `width_pt`.
+/// Splits text into pieces that end with a space or a joint, each narrower than `width_pt`.
 fn pieces(words: &str, width_pt: f64, size_pt: f64) -> Vec<String> {
     let mut pieces = vec![String::new()];
     let mut ends = false;

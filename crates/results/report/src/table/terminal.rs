@@ -1,4 +1,4 @@
-//! Tables as plain text in the width of a terminal.
+//! Tables as plain text of the width of a terminal.
 
 use super::{Row, Table, Words};
 use crate::escape;
@@ -10,7 +10,7 @@ const GAP: usize = 2;
 impl Table {
     /// Text in lines of at most `width` characters: the columns that fit beside the first one, then the others below.
     ///
-    /// If no column fits beside the first one, each column is a list: its head, and a line for each row.
+    /// If no column fits beside the first one, each column is a list: its head, and one line for each row.
     ///
     /// ```
     /// use taceva_report::{Column, Table};
@@ -56,7 +56,7 @@ impl Table {
         widths
     }
 
-    /// Columns behind the first one, in groups that fit beside it.
+    /// Columns after the first one, in groups that fit beside it.
     fn groups(&self, widths: &[usize], width: usize) -> Vec<Vec<usize>> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
         let mut used = 0;

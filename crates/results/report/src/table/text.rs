@@ -4,7 +4,7 @@ use super::{Align, Row, Table, Words};
 use crate::escape;
 
 impl Table {
-    /// Text for a terminal: columns as wide as their longest cell, numbers right-aligned, control characters escaped.
+    /// Text for a terminal: columns as wide as their longest cell, right-aligned numbers, escaped control characters.
     pub fn text(&self) -> String {
         let shown = |words: &[Words]| -> Vec<String> {
             let cells = words.iter().map(|words| escape::terminal(words.plain()));

@@ -1,4 +1,4 @@
-//! Words with optional spellings for formats.
+//! Words with optional spellings for each format.
 
 use taceva_metrics::Better;
 
@@ -22,7 +22,7 @@ impl Words {
         }
     }
 
-    /// Name in a table, such as `r_spatial`, that Markdown prints unescaped if it consists of letters, digits and joiners.
+    /// Name such as `r_spatial`. Markdown prints it unescaped if it consists of letters, digits and joiners.
     pub fn name(plain: impl Into<String>) -> Words {
         let plain = plain.into();
         let is_name =
@@ -51,7 +51,7 @@ impl Words {
         }
     }
 
-    /// Words as given.
+    /// Words without spelling for a format.
     pub fn plain(&self) -> &str {
         &self.plain
     }

@@ -1,15 +1,15 @@
-//! A limit is kept by what lies on it and broken by the next number of binary64 beyond it, by value and by interval, above and below.
+//! Tests that a value on the limit meets it and the next binary64 number beyond does not: by value and by interval, above and below.
 
 use crate::support;
 use serde_json::{Value, json};
 use taceva_report::{LimitCheck, LimitsFile, Study, accept};
 
-/// The score of every test, and the ends of its interval: dyadic fractions, so that a limit can lie on them.
+/// Score of every test, and the ends of its interval: dyadic fractions, so that a limit can equal them.
 const VALUE: f64 = 0.5;
 const LOW: f64 = 0.375;
 const HIGH: f64 = 0.75;
 
-/// A study of one `mae` of Fz with a variant, an interval that is known, and one that is not.
+/// A study of one `mae` of Fz with a variant, a known interval, and an unknown one.
 fn study() -> Study {
     let json = json!({
         "schema": "taceva.evaluation/1.0",
@@ -41,7 +41,7 @@ fn held(metric: &str, channel: &str, unit: &str, limit: &str) -> LimitCheck {
     accept(&study(), &limits).remove(0)
 }
 
-/// Remark for a value within the limit whose interval crosses it.
+/// Remark on a value within the limit whose interval crosses it.
 const BY_VALUE: &str = "met by the value only: its interval crosses the limit";
 
 fn is_kept(limit: &str) -> bool {
@@ -57,7 +57,7 @@ fn is_kept(limit: &str) -> bool {
     finding.is_kept
 }
 
-/// A number as TOML reads it back to the bit.
+/// A number that TOML reads back bit by bit.
 fn digits(number: f64) -> Value {
     json!(number)
 }
@@ -82,7 +82,7 @@ fn an_interval_keeps_to_the_limit_that_its_end_lies_on_and_to_none_that_it_reach
         let whole = |limit: f64| format!("{end} = {}\nwhole_interval = true", digits(limit));
         assert!(is_kept(&whole(on)), "{end}");
         assert!(!is_kept(&whole(beyond)), "{end}");
-        // By its value alone it would have been kept.
+        // The value alone would meet the limit.
         assert!(is_kept(&format!("{end} = {}", digits(beyond))), "{end}");
     }
 }

@@ -1,6 +1,6 @@
-//! The report in a real browser: no console error, no request, hover, sort and print.
+//! Tests of the report in a real browser: no console error, no request, hover, sort and print.
 //!
-//! Skipped, and written into the list of skips, where no Chromium is installed.
+//! Without Chromium, the tests are skipped and written to the list of skips.
 
 mod axe;
 mod every_page;
@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use taceva_needs::{Browser, skip};
 use taceva_report::{ReportPage, Study, report};
 
-/// A page of drawn results in a file, opened.
+/// An opened page of synthetic results.
 struct Opened {
     browser: Browser,
     folder: tempfile::TempDir,
@@ -33,7 +33,7 @@ fn page_of(studies: &[Study]) -> String {
     })
 }
 
-/// A page in a file, opened; none where there is no browser.
+/// Opens a page in a file; `None` without a browser.
 fn open_page(text: &str) -> Option<Opened> {
     let folder = tempfile::tempdir().expect("a folder");
     let Some(browser) = Browser::start(folder.path()) else {
@@ -53,7 +53,7 @@ impl Opened {
     }
 }
 
-/// True if the URL belongs to the page itself, which makes no other requests.
+/// True if the URL belongs to the page itself, the only one that it may request.
 fn is_report(url: &str) -> bool {
     url.starts_with("data:") || (url.starts_with("file:") && url.ends_with("/report.html"))
 }
@@ -97,7 +97,7 @@ fn pointing_at_a_mark_shows_its_value_and_arrow_keys_go_on() {
     };
     let browser = &mut opened.browser;
     browser.evaluate("document.documentElement.style.scrollBehavior = 'auto'; document.querySelectorAll('details').forEach((fold) => { fold.open = true; }); document.querySelector('#figure-predicted-1').scrollIntoView()");
-    // The page hides the tip when it scrolls, which it does with the next frame.
+    // The page hides the tip when it scrolls, in the next frame.
     browser.evaluate(
         "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))",
     );
@@ -224,7 +224,7 @@ fn a_hundred_thousand_samples_open_within_a_second() {
         return;
     };
     let browser = &mut opened.browser;
-    // Two frames later whatever was loaded is on the screen.
+    // Two frames later, everything that was loaded is on the screen.
     let taken = browser.evaluate(
         "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
             const paint = performance.getEntriesByName('first-contentful-paint')[0];
@@ -236,7 +236,7 @@ fn a_hundred_thousand_samples_open_within_a_second() {
         "100,000 samples: load {} ms, first paint {} ms after navigation",
         taken[0], taken[1]
     ));
-    // A second is promised on a machine with nothing else to do.
+    // The limit of one second applies to an idle machine.
     for taken in [load, paint] {
         assert!(
             taken.is_some_and(|taken| taken > 0.0 && taken < 4000.0),

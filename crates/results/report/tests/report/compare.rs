@@ -1,4 +1,4 @@
-//! Comparisons of drawn scores: the better sensor, the words, and lines and rows of readable length.
+//! Tests of comparisons of synthetic scores: the better sensor, the words, and readable lines and rows.
 
 mod asked;
 mod pairs;
@@ -17,7 +17,7 @@ pub(crate) fn score(value: f64, error: f64, unit: &str) -> Value {
     })
 }
 
-/// A study of `scores` by metric and channel; that its model has skill on `channels` is known.
+/// A study of `scores` by metric and channel; its model has known skill on `channels`.
 pub(crate) fn study(sensor: &str, scores: &[(&str, &str, Value)], channels: &[&str]) -> Study {
     let mut metrics = json!({});
     for (metric, channel, score) in scores {
@@ -34,7 +34,7 @@ pub(crate) fn study(sensor: &str, scores: &[(&str, &str, Value)], channels: &[&s
     support::study(&json)
 }
 
-/// Studies of one error of Fz with skill, from the worst to the best, far apart.
+/// Studies of one error of Fz with skill, from the worst to the best, with large differences.
 pub(crate) fn errors(values: &[(&str, f64)]) -> Vec<Study> {
     let of = |&(sensor, value): &(&str, f64)| {
         study(sensor, &[("mae", "Fz", score(value, 0.01, "N"))], &["Fz"])
@@ -242,7 +242,7 @@ fn long_names_are_wrapped_on_the_first_screen_and_below_it() {
     for line in overview.lines().chain(text.lines()) {
         assert!(line.chars().count() <= 100, "{line}");
     }
-    // Nothing is lost where lines are wrapped, and no line is broken that has room for the next word.
+    // Wrapping loses nothing, and breaks no line that has room for the next word.
     let joined = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     let words = comparison.answers[0].words(&comparison.names);
     assert!(joined(&text).contains(&words), "{text}");

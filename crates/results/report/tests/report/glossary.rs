@@ -1,4 +1,4 @@
-//! The glossary for users has every word of a verdict that is printed, and none that is not.
+//! Tests that the user glossary has every printed word of a verdict, and no other.
 
 use serde_json::json;
 use taceva_metrics::Standing;
@@ -23,7 +23,7 @@ fn rows(section: &str) -> Vec<Vec<String>> {
         let cells = line.trim_end_matches('|').split(" | ");
         cells.map(|cell| cell.trim().to_owned()).collect()
     });
-    // Below the heads.
+    // Skips the heads.
     cells.skip(1).collect()
 }
 
@@ -72,7 +72,7 @@ fn the_words_of_limits_and_of_places_are_in_the_glossary() {
     }
 }
 
-/// Every answer and decision on `studies`.
+/// All answers and decisions on `studies`.
 fn said(studies: &[Study], margin: Option<f64>) -> Vec<String> {
     let margins = margin.map(|margin| ("mae".to_owned(), margin));
     let request = CompareRequest {

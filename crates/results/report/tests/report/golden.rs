@@ -1,13 +1,13 @@
-//! Figures and tables as they were when somebody last looked at them: words exactly, numbers to a tenth of a pixel.
+//! Compares figures and tables with reviewed files: words exactly, numbers to a tenth of a pixel.
 //!
-//! `TACEVA_BLESS=1 cargo test -p taceva-report --test golden` writes them anew, to be looked at.
+//! `TACEVA_BLESS=1 cargo test -p taceva-report --test golden` writes the files again, for review.
 
 use std::path::Path;
 
 use crate::support::drawn;
 use taceva_report::{Layout, ScoreTable, Study, figures};
 
-/// Tolerance of numbers, as machines round the last place of a sine differently.
+/// Tolerance of numbers, because machines round the last digit of a sine differently.
 const NEAR: f64 = 0.11;
 
 fn studies() -> [Study; 2] {
@@ -53,7 +53,7 @@ fn hold(name: &str, found: &str) {
     assert_eq!(found.len(), expected.len(), "{name}");
 }
 
-/// Numbers, and what stands between them.
+/// Numbers, and the text between them.
 fn parts(text: &str) -> Vec<String> {
     let mut parts: Vec<String> = Vec::new();
     let mut was_number = false;

@@ -1,4 +1,4 @@
-//! A name that would be markup, or that would turn the direction of what follows, is only words on every kind of page.
+//! Tests that a name with markup or direction marks is plain text on every kind of page.
 
 use crate::support::{self, results, samples};
 use serde_json::json;
@@ -9,16 +9,16 @@ use taceva_report::{
 };
 use taceva_results::Samples;
 
-/// Ends an element, an attribute in either quotes and a comment; has controls of C0 and C1, marks of direction and a space without width.
+/// Closes an element, an attribute in either quotes and a comment. Contains C0 and C1 controls, direction marks and a zero-width space.
 const HOSTILE: &str = "</title><script>alert(1)</script>\" onload=\"x()\" '><!--&lt;\u{202e}\u{2066}\u{9b}31m\u{0}\u{1b}[2J\u{200b}";
 
-/// A name of as many letters as [`HOSTILE`] has, at the same place in every order of names, that nothing takes for anything else.
+/// A harmless name with the length and sort position of [`HOSTILE`].
 fn harmless() -> String {
     let letter = |letter: char| if letter == ' ' { ' ' } else { '0' };
     HOSTILE.chars().map(letter).collect()
 }
 
-/// Two studies; of the first every word is `name`.
+/// Two studies; every text of the first is `name`.
 fn studies(name: &str) -> [Study; 2] {
     [name, "other"].map(|name| {
         let mut result = results(name, 1.0);
@@ -82,12 +82,12 @@ fn sheet_of(name: &str) -> String {
     acceptance.page()
 }
 
-/// A string of JSON as TOML has it, where controls of C1 need an escape too.
+/// A JSON string in TOML syntax, where C1 controls also need an escape.
 fn in_toml(text: &serde_json::Value) -> String {
     text.to_string().replace('\u{9b}', "\\u009b")
 }
 
-/// The list and the page of a sensor of which every word is `name`.
+/// The list, and the page of a sensor whose every text is `name`.
 fn site_of(name: &str) -> [String; 2] {
     let word = in_toml(&json!(name));
     let sensor = Sensor::read(
@@ -105,7 +105,7 @@ fn site_of(name: &str) -> [String; 2] {
     [list.text, page.text]
 }
 
-/// A page of every kind.
+/// One page of every kind.
 fn pages(name: &str) -> [(&'static str, String); 6] {
     let studies = studies(name);
     let comparison = compare(&studies, &CompareRequest::default());
@@ -121,14 +121,14 @@ fn pages(name: &str) -> [(&'static str, String); 6] {
     ]
 }
 
-/// The elements of a page with the names of their attributes, in order.
+/// Elements of a page with the names of their attributes, in order.
 fn elements(page: &str) -> Vec<Vec<&str>> {
     let body = page.split_once("<body>").expect("a body").1;
     let body = body.split_once("<script>").expect("a script").0;
     body.split('<').skip(1).map(element).collect()
 }
 
-/// The name of an element and those of its attributes, from the text behind its first sign: what stands in quotes is left out.
+/// Names of an element and its attributes, from the text after `<`. Skips quoted text.
 fn element(tag: &str) -> Vec<&str> {
     let parts = tag.split('"').step_by(2);
     let mut words = Vec::new();

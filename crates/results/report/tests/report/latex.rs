@@ -1,4 +1,4 @@
-//! Every table for papers compiles: with `pdflatex` where it is installed, skipped with the reason printed elsewhere.
+//! Tests that every table for papers compiles with `pdflatex`. Without `pdflatex`, they are skipped with the reason.
 
 use crate::paper::assert_compiles;
 use crate::support::drawn;
@@ -8,7 +8,7 @@ use taceva_report::{
     ModelBench, ModelRow, Need, ScoreTable, Study, accept, catalogue, choose, compare,
 };
 
-/// A name of everything that LaTeX reads specially, and of what our own words hold.
+/// A name of all special characters of LaTeX, and of those in our own texts.
 const NAME: &str =
     "a_b & 50 % #1 {x} $y$ ^2 ~ \\end{document} <\"'> | ² ³ µm · × ± − – … ≤ ≥ → ε σ é ö";
 
@@ -30,7 +30,7 @@ fn scores_compile() {
 fn comparisons_compile() {
     let comparison = compare(&studies(), &CompareRequest::default());
     assert!(comparison.answers.len() > 10);
-    // A page of paper has an end; the table of every answer goes over several.
+    // A sheet of paper is finite, so the table of every answer is split.
     let all = comparison.table();
     for rows in all.rows.chunks(30) {
         let mut part = all.clone();

@@ -1,4 +1,4 @@
-//! Every test of reports that needs more than one module.
+//! Tests of reports that need several modules.
 
 mod accept;
 mod browser;

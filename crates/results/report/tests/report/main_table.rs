@@ -1,4 +1,4 @@
-//! The main table of a paper: what it holds of every kind of result, and that it fits a column of a page.
+//! Tests of the main table of a paper: its content for every kind of result, and its fit in a paper column.
 
 use serde_json::{Value, json};
 use taceva_report::{Layout, ScoreTable, Study, Table};
@@ -36,7 +36,7 @@ fn tables(studies: &[Study]) -> Vec<Table> {
     scores.for_column(&scores.caption())
 }
 
-/// The tables as LaTeX, each of which fits a column.
+/// The tables as LaTeX; asserts that each fits a column.
 fn latex(name: &str, studies: &[Study]) -> String {
     let text = text(studies);
     assert_fits_a_column(name, &text);

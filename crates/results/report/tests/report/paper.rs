@@ -1,4 +1,4 @@
-//! LaTeX as papers are set: with `pdflatex` and `lualatex`, where they are installed.
+//! Compiles LaTeX as in papers, with `pdflatex` and `lualatex` if installed.
 
 use std::fs;
 use std::process::Command;
@@ -13,7 +13,7 @@ const HEAD: &str = "\\documentclass{article}\n\\usepackage{booktabs}\n\
 const COLUMNS: &str = "\\documentclass[10pt,twocolumn]{article}\n\\usepackage{booktabs}\n\
                        \\textwidth=516pt\n\\columnsep=12pt\n\\oddsidemargin=-20pt\n\\begin{document}\n";
 
-/// A journal of IEEE, whose column is 252 pt wide too, in a narrower font.
+/// IEEE journal, whose columns are also 252 pt wide, in a narrower font.
 #[allow(dead_code, reason = "another test program has no table for a column")]
 const JOURNAL: &str =
     "\\documentclass[journal]{IEEEtran}\n\\usepackage{booktabs}\n\\begin{document}\n";
@@ -23,7 +23,7 @@ pub(crate) fn assert_compiles(name: &str, table: &str) {
     compile("pdflatex", name, HEAD, table);
 }
 
-/// As [`assert_compiles`], in a column of a paper of `article` and of `IEEEtran`: nothing may stand over its edge.
+/// As [`assert_compiles`], in a column of `article` and of `IEEEtran`; nothing may exceed its width.
 #[allow(dead_code, reason = "another test program has no table for a column")]
 pub(crate) fn assert_fits_a_column(name: &str, table: &str) {
     for head in [COLUMNS, JOURNAL] {
@@ -31,7 +31,7 @@ pub(crate) fn assert_fits_a_column(name: &str, table: &str) {
     }
 }
 
-/// The same by LuaLaTeX, in a column of `IEEEtran`.
+/// As [`assert_fits_a_column`], with LuaLaTeX in a column of `IEEEtran`.
 #[allow(dead_code, reason = "another test program has no table for a column")]
 pub(crate) fn assert_fits_by_lualatex(name: &str, table: &str) {
     fits("lualatex", name, JOURNAL, table);
@@ -57,7 +57,7 @@ fn has_journal() -> bool {
     found.is_ok_and(|found| found.status.success())
 }
 
-/// Log of `pdflatex` for `table` behind `head`; `None` if it is not installed.
+/// Log of `engine` for `table` after `head`; `None` if it is not installed.
 fn compile(engine: &str, name: &str, head: &str, table: &str) -> Option<String> {
     let folder = tempfile::tempdir().expect("a folder");
     let text = format!("{head}{table}\\end{{document}}\n");

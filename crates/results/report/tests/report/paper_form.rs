@@ -1,4 +1,4 @@
-//! The form of the TacEva study: its tables compile, hold its printed numbers, and say what is missing.
+//! Tests of the layout of the TacEva study: its tables compile, have its printed numbers, and state missing data.
 
 use serde_json::{Value, json};
 use taceva_report::{FigureStyle, PaperForm, Study, paper_form, study_figures};
@@ -6,10 +6,10 @@ use taceva_report::{FigureStyle, PaperForm, Study, paper_form, study_figures};
 use crate::paper::assert_compiles;
 use crate::support;
 
-/// The sensors of the study in an order of our own.
+/// Sensors of the study in another order.
 const SENSORS: [&str; 4] = ["GelSight", "GelSightWM", "MagicTac", "ViTacTip"];
 
-/// A drawn result of a sensor with scenes of light.
+/// A synthetic result of a sensor with light scenes.
 fn study(sensor: &str) -> Study {
     let mut result = support::results(sensor, 1.0);
     for channel in ["Pxy", "Pz", "Fxy", "Fz"] {
@@ -20,7 +20,7 @@ fn study(sensor: &str) -> Study {
                 result["metrics"]["smape"][channel]["unit"] = "1".into();
             }
         }
-        // Steps of depth are counted, as the samples count them.
+        // Depth steps are counted as in the samples.
         let curve = &mut result["metrics"]["repeatability"][channel]["curve"];
         let steps = curve["values"].as_array().map_or(0, Vec::len);
         curve["x"] = (0..steps).map(|step| json!(step as f64)).collect();
@@ -36,7 +36,7 @@ fn form() -> PaperForm {
     paper_form(&SENSORS.map(study))
 }
 
-/// The words of every cell of a table.
+/// Words of every cell of a table.
 fn cells(form: &PaperForm, name: &str) -> Vec<Vec<String>> {
     let table = form.tables.iter().find(|(own, _)| own == name);
     let (_, table) = table.unwrap_or_else(|| panic!("no {name}"));
@@ -85,7 +85,7 @@ fn every_printed_number_of_tables_one_to_five_stands_in_its_table() {
         ) else {
             continue;
         };
-        // The study's mean of a column of light is not always that of its rows.
+        // In the study, the mean of a column of light sometimes differs from that of its rows.
         let Some(at) = ["I", "II", "III", "IV", "V"]
             .iter()
             .position(|known| *known == table)
@@ -155,7 +155,7 @@ fn numbers_that_the_study_prints_in_figures_stand_beside_ours() {
         rows
     };
     let rates = of("figure-3c");
-    // ViTacTip stands first, as in the study.
+    // ViTacTip is first, as in the study.
     assert_eq!(rates[0][..2], ["lines", "90.0 %, 81.2 % (×1.11)"]);
     assert_eq!(rates[2][..2], ["both", "–, 80.6 %"]);
     let surface = of("figure-4");

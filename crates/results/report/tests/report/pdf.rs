@@ -1,4 +1,4 @@
-//! Figures as PDF hold their fonts and lose no letter.
+//! Tests that figures as PDF embed their fonts and lose no letter.
 
 use std::fs;
 use std::process::Command;
@@ -8,7 +8,7 @@ use crate::support::drawn;
 use taceva_needs::{Need, skip};
 use taceva_report::{Figure, figures};
 
-/// Names in three scripts; the last letters of the second no font has.
+/// Names in three scripts; no font has the last letters of the second name.
 const NAMES: [&str; 2] = ["触觉 ε", "觸覺 σμ 한🖐"];
 
 fn of_names() -> Vec<Figure> {
@@ -27,7 +27,7 @@ fn every_figure_embeds_its_fonts_and_compresses_its_streams() {
         );
         let pdf = Pdf::read(&file);
         let fonts = pdf.assert_fonts_embedded(&figure.id);
-        // The page, and of every font its glyphs and its letters.
+        // The page; and glyphs and letters of every font.
         assert_eq!(pdf.streams().len(), 1 + 2 * fonts, "{}", figure.id);
         most = most.max(fonts);
     }
@@ -79,7 +79,7 @@ fn a_reader_of_pdf_finds_the_fonts_and_the_letters() {
         };
         for font in fonts.lines().skip(2) {
             let words: Vec<&str> = font.split_whitespace().collect();
-            // Embedded, subset, with letters; then the number of the object.
+            // Embedded, subset, with letters; then the object number.
             let told = &words[words.len() - 5..words.len() - 2];
             assert_eq!(told, ["yes", "yes", "yes"], "{}: {fonts}", figure.id);
         }

@@ -45,13 +45,13 @@ impl Pdf {
             assert!(head.contains("/Filter /FlateDecode"), "{head}");
             let stream = &object[begin + b"stream\n".len()..];
             let bytes = miniz_oxide::inflate::decompress_to_vec_zlib(stream);
-            // The decoder ignores `endstream` behind the compressed data.
+            // The decoder ignores `endstream` after the compressed data.
             streams.push(bytes.expect("a whole stream"));
         }
         streams
     }
 
-    /// Fails unless every font is a subset that is embedded, with the letters that its glyphs stand for.
+    /// Fails unless every font is an embedded subset with the letters of its glyphs.
     pub(crate) fn assert_fonts_embedded(&self, name: &str) -> usize {
         let heads = self.dictionaries();
         let counted = |word: &str| heads.iter().filter(|head| head.contains(word)).count();

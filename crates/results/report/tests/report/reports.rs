@@ -1,4 +1,4 @@
-//! Reports of drawn results: nothing is missing, nothing is obeyed, and size and time keep to what is promised.
+//! Tests of reports of synthetic results: nothing is missing, no text acts as markup, and size and time stay within their limits.
 
 mod methods;
 
@@ -196,7 +196,7 @@ fn bold_needs_more_than_the_best_value() {
         let studies = [drawn("one", 40, 1.0), drawn("two", 40, scale)];
         ScoreTable::of(&studies).headlines()
     };
-    // Intervals of ±10 % of 0.1: 0.101 is no different, 0.2 is.
+    // Intervals of ±10 % of 0.1: 0.101 does not differ, 0.2 does.
     assert!(
         !table(1.01)
             .for_papers("near")
@@ -223,7 +223,7 @@ fn every_naughty_string_is_only_words() {
     for text in strings {
         let studies = [drawn(text, 40, 1.0), drawn("other", 40, 1.3)];
         let page = page(&studies);
-        // The same elements, whatever the names: nothing became markup.
+        // The same elements for all names: nothing became markup.
         let found = elements(&page);
         let differs = (0..plain.len().max(found.len())).find(|at| plain.get(*at) != found.get(*at));
         assert_eq!(
@@ -248,7 +248,7 @@ fn every_naughty_string_is_only_words() {
     }
 }
 
-/// The names of the elements of a page, in order.
+/// Names of the elements of a page, in order.
 fn elements(page: &str) -> Vec<String> {
     let body = page.split("<body>").nth(1).expect("a body");
     let body = body.split("<script>").next().expect("a script");
@@ -270,7 +270,7 @@ fn a_hundred_thousand_samples_are_a_page_below_five_megabytes() {
     let page = page(&studies);
     let taken = begin.elapsed();
     assert!(page.len() < 5_000_000, "{} bytes", page.len());
-    // Promised are two seconds of an optimised program; this one is not.
+    // The limit is two seconds for an optimised build; this is a debug build.
     assert!(taken < Duration::from_secs(20), "{taken:?}");
     assert!(page.contains("100000 samples, 400 drawn"));
     assert_eq!(picks(&studies[0]).len(), 8);

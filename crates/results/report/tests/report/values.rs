@@ -1,4 +1,4 @@
-//! Values of several sensors side by side: of results, of the catalogue and of both, in any width of a terminal.
+//! Tests of values side by side: of results, of the catalogue and of both, at any terminal width.
 
 use serde_json::{Value, json};
 use taceva_report::{CompareRequest, Need, ScoreTable, Study, Table, catalogue, choose};
@@ -136,7 +136,7 @@ fn an_undefined_a_skipped_and_an_excluded_value_say_why_and_where() {
     }
 }
 
-/// Holds each line to `width`, and every cell and note to be there.
+/// Asserts that each line fits `width`, and that every cell and note is present.
 fn assert_whole_within(table: &Table, width: usize) -> String {
     let text = table.text_within(width);
     for line in text.lines() {

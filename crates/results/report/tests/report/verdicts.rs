@@ -1,4 +1,4 @@
-//! Verdicts in words: ties, light, labels and the lines of a first screen.
+//! Tests of verdicts in words: ties, light, labels and the lines of a first screen.
 
 use crate::support;
 use serde_json::{Value, json};
@@ -8,11 +8,11 @@ use taceva_report::{
     ScoreTable, Study, accept, choose_results, compare, figures, limits_template, report,
 };
 
-/// Drawn studies, each changed by `change`.
+/// Synthetic studies, each modified by `change`.
 fn studies(names: &[&str], change: impl Fn(usize, &mut Value)) -> Vec<Study> {
     let mut all = Vec::new();
     for (at, name) in names.iter().enumerate() {
-        // Twofold from one to the next, so that differences are shown.
+        // A factor of two between neighbours, so that differences are significant.
         let mut result = support::results(name, 2.0_f64.powi(i32::try_from(at).expect("few")));
         change(at, &mut result["metrics"]);
         all.extend(support::read(&result).expect("a result"));
@@ -134,7 +134,7 @@ fn the_figure_of_light_draws_ratios_of_the_scores_and_nothing_from_samples_alone
     assert!(
         figure
             .caption
-            .contains("not clamped to the bounds of the model")
+            .contains("not clipped to the bounds of the model")
     );
     for score in &mut lit.scores {
         score.variants.retain(|variant| variant.name != "scenes");
@@ -168,7 +168,7 @@ fn errors_of_labels_that_spread_differently_are_said_to_be() {
 
 #[test]
 fn a_tie_says_whom_those_that_share_the_value_are_not_shown_to_be_better_than() {
-    // Those that tie have the best value of three; the third is within everyone's interval, the fourth far from it.
+    // The tied studies have the best value of three. The third is within all intervals, the fourth far away.
     let values = [0.9, 0.9, 0.89, 0.5];
     let studies = studies(&["one", "two", "near", "far"], |at, metrics| {
         let value = values[at];

@@ -1,4 +1,4 @@
-//! Drawn results with every kind of value: made by formula, read as any other.
+//! Synthetic results with every kind of value, from formulas, read like any other result.
 
 #![allow(dead_code, reason = "the benchmark uses a part")]
 
@@ -13,12 +13,12 @@ use taceva_results::{ResultsError, Samples};
 /// The six channels.
 pub(crate) const SIX: [&str; 6] = ["Px", "Py", "Pz", "Fx", "Fy", "Fz"];
 
-/// The only study of a result, sealed before it is read.
+/// The only study of a result, which is sealed before it is read.
 pub(crate) fn study(result: &Value) -> Study {
     read(result).expect("a result").remove(0)
 }
 
-/// The studies of a result, sealed before it is read.
+/// Studies of a result, which is sealed before it is read.
 pub(crate) fn read(result: &Value) -> Result<Vec<Study>, ResultsError> {
     let mut result = result.clone();
     state_standings(&mut result["metrics"]);
@@ -26,7 +26,7 @@ pub(crate) fn read(result: &Value) -> Result<Vec<Study>, ResultsError> {
     Study::read(&sealed)
 }
 
-/// States the standing of each score by the R² of its channels and by its flags, as an evaluation does.
+/// Sets the standing of each score from the R² of its channels and from its flags, as an evaluation does.
 fn state_standings(metrics: &mut Value) {
     let of_r2 = |r2: &Value| {
         let low = r2["ci95"].as_array().and_then(|ends| ends[0].as_f64());
@@ -69,7 +69,7 @@ fn state_standings(metrics: &mut Value) {
     }
 }
 
-/// A drawn study called `sensor` in every field that names something, with `rows` samples of the calibration and some of every other part.
+/// A synthetic study with `sensor` in every name field, `rows` samples of the calibration, and some of every other part.
 pub(crate) fn drawn(sensor: &str, rows: usize, scale: f64) -> Study {
     let mut study = study(&results(sensor, scale));
     study.samples = Some(Samples::read(&samples(sensor, rows, scale)).expect("samples"));
@@ -87,7 +87,7 @@ fn number(value: f64, unit: &str) -> Value {
     })
 }
 
-/// The JSON of a drawn study.
+/// JSON of a synthetic study.
 pub(crate) fn results(sensor: &str, scale: f64) -> Value {
     let curve = |x_unit: &str, unit: &str, values: Vec<Option<f64>>| {
         let x: Vec<f64> = (0..values.len())
@@ -170,7 +170,7 @@ fn quoted(word: &str) -> String {
     format!("\"{}\"", word.replace('"', "\"\""))
 }
 
-/// The table of samples of a drawn study.
+/// Table of samples of a synthetic study.
 pub(crate) fn samples(sensor: &str, rows: usize, scale: f64) -> String {
     let mut table =
         String::from("id,protocol,point_id,unit_id,scene,depth_step,phase,intensity,surface_z");

@@ -16,7 +16,7 @@ use super::streams::Counts;
 pub(super) const ROOM: usize = 8;
 /// Deadline of one call for a frame.
 const CALL: Deadline = Deadline::after(Duration::from_millis(100));
-/// Time without a whole frame after which the camera has failed.
+/// Time without a complete frame after which the camera counts as failed.
 const PATIENCE: Duration = Duration::from_secs(3);
 /// Delay after a failed call.
 const REST: Duration = Duration::from_millis(5);
@@ -26,7 +26,7 @@ const REST: Duration = Duration::from_millis(5);
 pub(super) struct Taken {
     pub(super) frame: Frame,
     pub(super) stamp: Stamp,
-    /// Encoded file in which the camera sent it.
+    /// Encoded file that the camera sent, if any.
     pub(super) sent: Option<Vec<u8>>,
 }
 
@@ -44,7 +44,7 @@ impl Camera<'_> {
     /// Puts frames into `queue` until the capture ends.
     ///
     /// # Errors
-    /// The failure that ended the frames.
+    /// The error that ended the frames.
     pub(super) fn take(mut self, queue: &SyncSender<Taken>) -> Result<(), DriverError> {
         let info = self.sensor.frame_info();
         let mut last = None;
@@ -52,7 +52,7 @@ impl Camera<'_> {
         while !self.counts.is_over() {
             let taken = self.next(info, &mut was_whole)?;
             let number = self.sensor.sequence();
-            // A damaged frame has a sequence number too, and is already counted as damaged.
+            // A damaged frame also has a sequence number and is already counted.
             if let (Some(last), Some(number)) = (last, number) {
                 self.counts.missed(last, number);
             }
@@ -116,8 +116,8 @@ impl Camera<'_> {
         device_error(kind, self.driver, "capture a frame", why)
     }
 
-    /// Puts a frame into `queue`; returns false once nothing receives it. Frames of a real device are dropped if the queue is full; a bench
-    /// or a recording waits.
+    /// Puts a frame into `queue`; returns false if the receiver is gone. A real device drops the frame if the queue is full; a bench or a recording
+    /// waits.
     fn put(&self, queue: &SyncSender<Taken>, taken: Taken) -> bool {
         if self.source != DriverSource::Real {
             return queue.send(taken).is_ok();

@@ -7,9 +7,9 @@ const BEGINS_N: f64 = 0.1;
 /// Normal force below which a contact ends, in N.
 const ENDS_N: f64 = 0.05;
 
-/// Numbers the contacts of a capture: `hand-1` is the first, after the rest `rest-0`.
+/// Numbers the contacts of a capture: `rest-0` comes before the first contact, `hand-1`.
 ///
-/// A rest is no contact point. Its name keeps its frames on one side of the split between training and test.
+/// A rest is no contact point. Its name keeps its frames on one side of the training/test split.
 #[derive(Debug)]
 pub(super) struct Contacts {
     count: u64,
@@ -17,7 +17,7 @@ pub(super) struct Contacts {
 }
 
 impl Contacts {
-    /// Continues the numbers of `table`.
+    /// Continues the numbering of `table`.
     pub(super) fn after(table: &Table) -> Contacts {
         let names = table.point_id().iter().flatten();
         let numbers = names.filter_map(|name| name.strip_prefix("hand-")?.parse().ok());
@@ -32,7 +32,7 @@ impl Contacts {
         self.count
     }
 
-    /// Name of the contact or rest of a frame with the normal force `normal_n`; without a force, that of the frame before.
+    /// Name of the contact or rest of a frame with the normal force `normal_n`; without a force, the name of the previous frame.
     pub(super) fn name(&mut self, normal_n: Option<f64>) -> String {
         match normal_n {
             Some(normal_n) if !self.is_touched && normal_n > BEGINS_N => {

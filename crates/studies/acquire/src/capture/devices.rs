@@ -1,4 +1,4 @@
-//! Sensor and transducer of a capture or a preview: named, opened and started.
+//! Sensor and transducer of a capture or a preview: selected, opened and started.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -42,15 +42,15 @@ struct Named {
     selector: Selector,
     /// Latency in the rig file, in ms.
     latency_ms: Option<f64>,
-    /// Option or rig file that names it.
+    /// Source of the selector, for messages: a command-line option or the rig file.
     by: String,
 }
 
 impl LiveSpec {
-    /// Reads the devices from selectors, or else from a rig file, whose robot is not used.
+    /// Reads the devices from selectors, or else from a rig file. The robot of the rig file is not used.
     ///
     /// # Errors
-    /// [`AcquireError::Request`] without a sensor or for an invalid selector; [`AcquireError::Scene`] for an invalid rig file.
+    /// [`AcquireError::Request`] if no sensor is named or a selector is invalid; [`AcquireError::Scene`] for an invalid rig file.
     pub fn new(
         sensor: Option<&str>,
         force: Option<&str>,
@@ -99,7 +99,7 @@ impl LiveSpec {
         &self.sensor.selector
     }
 
-    /// Real devices, which one command at a time may hold.
+    /// Real devices, which only one command at a time may use.
     fn real(&self, drivers: &Drivers) -> BTreeMap<String, String> {
         let sensor = drivers.sensors.get(self.sensor.selector.driver());
         let is_real = |descriptor: &Descriptor| descriptor.source() == DriverSource::Real;
@@ -109,7 +109,7 @@ impl LiveSpec {
         if sensor.is_ok_and(|sensor| is_real(sensor.descriptor())) {
             take(&self.sensor);
         }
-        // A simulated transducer is rejected at opening.
+        // Opening rejects a simulated transducer.
         self.force.iter().for_each(take);
         real
     }
@@ -232,7 +232,7 @@ impl LiveDevices {
 
     /// True if a device is simulated or emulated, so that nothing is measured.
     pub fn is_simulated(&self) -> bool {
-        // A simulated transducer is rejected at opening.
+        // Opening rejects a simulated transducer.
         self.is_emulated || self.sensor_source == DriverSource::Simulated
     }
 
@@ -242,7 +242,7 @@ impl LiveDevices {
         self.force.as_mut().map_or(Ok(()), Transducer::begin)
     }
 
-    /// First frame, without contact.
+    /// First frame, taken without contact.
     pub(super) fn untouched(&mut self) -> Result<Frame, DriverError> {
         let info = self.sensor.frame_info();
         let mut bytes = vec![0; info.byte_len().unwrap_or_default()];

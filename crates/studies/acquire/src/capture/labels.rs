@@ -11,7 +11,7 @@ use super::contacts::Contacts;
 use super::streams::Streams;
 use super::track::At;
 
-/// Greatest number of frames waiting for a later reading; beyond it the oldest is recorded without a force.
+/// Greatest number of frames waiting for a later reading. Beyond it, the oldest frame is recorded without a force.
 const WAITING_MAX: usize = 64;
 /// Extra wait for a reading beyond the longest gap, in s: latency of links and threads.
 const SLACK_S: f64 = 0.1;
@@ -51,7 +51,7 @@ impl Labels {
         self.channels.is_empty()
     }
 
-    /// Receives frames; returns false once no more will come and none waits.
+    /// Receives frames; returns false once the stream has ended and no frame waits.
     pub(super) fn collect(&mut self, streams: &Streams<'_>) -> bool {
         if self.has_ended {
             return !self.waiting.is_empty();
@@ -71,7 +71,7 @@ impl Labels {
         true
     }
 
-    /// Oldest frame, once its force is known or given up.
+    /// Oldest frame, once its force is known or cannot become known.
     pub(super) fn next(&mut self, streams: &Streams<'_>) -> Option<Labelled> {
         let stamp_s = self.waiting.front()?.stamp.valid_s;
         let wrench = match streams.track.map(|track| (track, track.at(stamp_s))) {
@@ -93,7 +93,7 @@ impl Labels {
     /// Sample of a frame, and its time in s.
     ///
     /// # Errors
-    /// The fault in the file that the camera sent.
+    /// The error in the encoded file of the camera.
     pub(super) fn sample(
         &mut self,
         Labelled { taken, wrench }: Labelled,

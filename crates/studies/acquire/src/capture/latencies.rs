@@ -17,13 +17,13 @@ const MOST_MS: usize = 2_000;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Latencies {
-    /// Counts of up to one millisecond, up to two, and so on; the last counts all longer times.
+    /// Count for each bin of 1 ms; the last bin counts all longer times.
     counts: Vec<u64>,
     total: u64,
 }
 
 impl Latencies {
-    /// Adds a latency in s; one below 0, from a stamp in the future, counts as 0.
+    /// Adds a latency in s. A negative latency, from a stamp in the future, counts as 0.
     pub fn add(&mut self, latency_s: f64) {
         if self.counts.is_empty() {
             self.counts = vec![0; MOST_MS + 1];
@@ -31,7 +31,7 @@ impl Latencies {
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "a cast saturates, and what is not a number becomes 0"
+            reason = "a cast saturates, and NaN becomes 0"
         )]
         let bin = (latency_s * 1000.0).max(0.0) as usize;
         self.counts[bin.min(MOST_MS)] += 1;
@@ -43,7 +43,7 @@ impl Latencies {
         self.total
     }
 
-    /// Whole milliseconds that cover `share` of the latencies, 0 to 1; `None` without any, or beyond 2 s.
+    /// Least whole number of milliseconds that covers `share` (0 to 1) of the latencies; `None` without latencies, or beyond 2 s.
     pub fn within_ms(&self, share: f64) -> Option<u64> {
         #[expect(clippy::cast_precision_loss, reason = "a count, far below 2^53")]
         let wanted = share * self.total as f64;
@@ -59,7 +59,7 @@ impl Latencies {
         None
     }
 
-    /// Share of the latencies, 0 to 1, within so many milliseconds; `None` without any.
+    /// Share (0 to 1) of the latencies up to `milliseconds`; `None` without latencies.
     pub fn share_within(&self, milliseconds: usize) -> Option<f64> {
         let within: u64 = self.counts.iter().take(milliseconds.min(MOST_MS)).sum();
         #[expect(clippy::cast_precision_loss, reason = "counts, far below 2^53")]

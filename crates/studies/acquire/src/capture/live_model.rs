@@ -17,10 +17,10 @@ pub struct LiveModel {
 }
 
 impl LiveModel {
-    /// Wraps the model read from `path`, for frames of a camera.
+    /// Wraps the model read from `path` for camera frames.
     ///
     /// # Errors
-    /// [`AcquireError::Model`] if it takes no frames, or predicts a constant.
+    /// [`AcquireError::Model`] if the model does not take frames, or predicts a constant.
     pub fn new(model: Model, path: &Path) -> Result<LiveModel, AcquireError> {
         let refused = |problem: String| AcquireError::Model {
             path: path.to_owned(),
@@ -78,7 +78,7 @@ impl LiveModel {
         self.model.card().features.asks_for_reference().is_some()
     }
 
-    /// Rejects frames of another size or format than those of the training.
+    /// Rejects frames whose size or format differs from the training frames.
     ///
     /// # Errors
     /// [`AcquireError::Model`] with both formats.

@@ -2,7 +2,7 @@
 
 use taceva_models::FeatureDistance;
 
-/// Prediction of one frame, which is no measurement.
+/// Prediction for one frame.
 ///
 /// ```
 /// use taceva_acquire::Prediction;
@@ -13,11 +13,11 @@ use taceva_models::FeatureDistance;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Prediction {
-    /// Time of the frame, in s of the clock of frame stamps; not the time of the prediction.
+    /// Stamp of the frame, in s, on the clock of frame stamps.
     pub stamp_s: f64,
     /// Value of each channel of the model, in the unit of the channel.
     pub values: Vec<f64>,
-    /// Distance of the frame from the training data, 1 at the limit; `None` if the model does not measure it.
+    /// Distance of the frame from the training data; the limit is 1. `None` if the model does not measure it.
     pub distance: Option<f64>,
 }
 

@@ -27,7 +27,7 @@ pub struct PredictionCounts {
     pub seen: u64,
     /// Frames predicted.
     pub predicted: u64,
-    /// Frames dropped, because a newer one came before the model was free.
+    /// Frames dropped because a newer frame arrived while the model was busy.
     pub dropped: u64,
     /// Predicted frames outside the training data; `None` if the model does not measure it.
     pub outside: Option<u64>,
@@ -35,17 +35,17 @@ pub struct PredictionCounts {
     pub latencies: Latencies,
 }
 
-/// Callback for predictions, each with its frame and the counts so far.
+/// Callback for a prediction, its frame and the counts so far.
 type Heard<'a> = &'a (dyn Fn(&Frame, &Prediction, &PredictionCounts) + Sync);
 
 /// Predicts frames on its own thread. It holds only the newest frame and never blocks a capture.
 pub struct LivePredictor<'a> {
     model: &'a LiveModel,
     heard: Heard<'a>,
-    /// Set once the reference frame is available, if one is needed.
+    /// Set once the reference frame is available, if the model needs one.
     extractor: OnceLock<Extractor>,
     offered: Mutex<Offered>,
-    /// Notified when a frame arrives or is taken, and at the end.
+    /// Notified when a frame arrives, when it is taken, and at the end.
     changed: Condvar,
     counts: Mutex<PredictionCounts>,
     table: Option<Mutex<PredictionTable>>,
@@ -117,7 +117,7 @@ impl<'a> LivePredictor<'a> {
         self.table.as_ref().map(lock)
     }
 
-    /// Prepares for frames like `untouched`, the reference if the model needs one.
+    /// Prepares for frames like `untouched`, which is also the reference frame if the model needs one.
     pub(super) fn begin(
         &self,
         info: taceva_core::FrameInfo,
@@ -129,8 +129,7 @@ impl<'a> LivePredictor<'a> {
         Ok(())
     }
 
-    /// Passes `frame` of the time `stamp_s` to the thread, in place of an older one. Only a simulated or recorded source waits for the
-    /// thread.
+    /// Passes `frame` with the stamp `stamp_s`, in s, to the thread. It replaces a waiting frame; a simulated or recorded source waits instead.
     pub(super) fn offer(&self, frame: &Frame, stamp_s: f64, source: DriverSource) {
         let is_timed = source == DriverSource::Real;
         let frame = frame.clone();
@@ -244,7 +243,7 @@ impl<'a> LivePredictor<'a> {
     }
 }
 
-/// Guard that ends the predictor when its thread ends, so that nothing waits for it.
+/// Guard that ends the predictor when its thread ends, so that no caller waits forever.
 struct Over<'p, 'a>(&'p LivePredictor<'a>);
 
 impl Drop for Over<'_, '_> {

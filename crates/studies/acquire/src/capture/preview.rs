@@ -7,8 +7,7 @@ use super::predictor::LivePredictor;
 use crate::error::AcquireError;
 use crate::viewer::Viewer;
 
-/// Shows `viewer` the frames and forces of `live` until it is cancelled. With a predictor, the frames go to its callback instead of the
-/// viewer.
+/// Shows `viewer` the frames and forces of `live` until it is cancelled. With a predictor, its callback receives the frames instead of the viewer.
 ///
 /// # Errors
 /// [`AcquireError::Device`] if a device failed; [`AcquireError::Model`] if the model does not fit the frames, or failed.

@@ -9,7 +9,7 @@ use taceva_dataset::StreamFacts;
 use super::camera::Taken;
 use super::track::Track;
 
-/// Wait for one frame.
+/// Longest wait for one frame.
 const LOOK: Duration = Duration::from_millis(20);
 
 /// Shared counts of the device threads, with the flag that ends them.
@@ -37,7 +37,7 @@ impl Counts {
         self.is_over.store(true, Ordering::Release);
     }
 
-    /// Counts the frames between two captured ones as dropped; damaged ones are already counted.
+    /// Counts the sequence numbers missing between `last` and `number` as dropped frames; damaged frames are already counted.
     pub(super) fn missed(&self, last: u64, number: u64) {
         let between = number.saturating_sub(last).saturating_sub(1);
         self.dropped.fetch_add(between, Ordering::AcqRel);
@@ -67,7 +67,7 @@ pub(super) struct Streams<'a> {
 }
 
 impl Streams<'_> {
-    /// Next frame, after a short wait; `Err` once no more will come.
+    /// Next frame, after a short wait; `Err` once the stream has ended.
     pub(super) fn next(&self) -> Result<Option<Taken>, Ended> {
         match self.queue.recv_timeout(LOOK) {
             Ok(taken) => Ok(Some(taken)),
@@ -93,12 +93,12 @@ impl Streams<'_> {
         self.counts.count_damaged();
     }
 
-    /// Losses so far.
+    /// Lost frames so far.
     pub(super) fn facts(&self) -> StreamFacts {
         self.counts.facts()
     }
 }
 
-/// No more frames will come.
+/// The stream of frames has ended.
 #[derive(Debug)]
 pub(super) struct Ended;

@@ -6,11 +6,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use taceva_core::Wrench;
 use taceva_protocol::wrench_between;
 
-/// Age at which readings are removed, in s: no frame is that late.
+/// Age at which readings are removed, in s; every frame arrives earlier.
 const KEPT_S: f64 = 5.0;
-/// Longest gap between readings that is interpolated, in periods.
+/// Longest interpolated gap between readings, in periods.
 const PERIODS: f64 = 3.0;
-/// Factor on the period for errors of clocks and rates.
+/// Factor on the period that allows for errors of clocks and rates.
 const TOLERANCE: f64 = 1.01;
 
 /// Readings ordered by time.
@@ -21,14 +21,14 @@ pub(super) struct Track {
     readings: Mutex<VecDeque<(f64, Wrench)>>,
 }
 
-/// Knowledge of the force at a time.
+/// Force at a time, as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum At {
     /// Interpolated between two readings.
     Known(Wrench),
-    /// Unknown: the readings around it are too far apart, or none is before it.
+    /// Unknown: the readings around the time are too far apart, or no reading precedes it.
     Gap,
-    /// Not yet known: the next reading is still to come.
+    /// Not yet known: the next reading has not arrived.
     Early,
 }
 
@@ -41,7 +41,7 @@ impl Track {
         }
     }
 
-    /// Adds a reading of the time `at_s`, in s; ignores one that is not later than the last.
+    /// Adds a reading with the stamp `at_s`, in s; ignores a reading that is not later than the last.
     pub(super) fn push(&self, at_s: f64, wrench: Wrench) {
         let mut readings = self.readings();
         if readings.back().is_some_and(|(last_s, _)| *last_s >= at_s) {
@@ -78,7 +78,7 @@ impl Track {
         }
     }
 
-    /// Longest gap between readings that is interpolated, in s.
+    /// Longest interpolated gap between readings, in s.
     pub(super) fn longest_s(&self) -> f64 {
         PERIODS * TOLERANCE * self.period_s
     }

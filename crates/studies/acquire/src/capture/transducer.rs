@@ -1,4 +1,4 @@
-//! Thread that reads a transducer, and its zero.
+//! Thread that reads and zeroes a transducer.
 
 use std::time::{Duration, Instant};
 
@@ -13,16 +13,16 @@ use super::track::Track;
 
 /// Deadline of one call for a reading.
 const CALL: Deadline = Deadline::after(Duration::from_millis(100));
-/// Time without a new reading after which the transducer has failed.
+/// Time without a new reading after which the transducer counts as failed.
 const PATIENCE: Duration = Duration::from_secs(2);
 /// Deadline for setting the zero.
 const ZEROING: Deadline = Deadline::after(Duration::from_secs(6));
-/// Duration of the mean that replaces the zero of a transducer without a tare.
+/// Averaging time of the zero for a transducer without a tare.
 const MEAN_OVER: Duration = Duration::from_millis(250);
 /// Delay after a failed call.
 const REST: Duration = Duration::from_millis(5);
 
-/// A transducer, and the wrench that the host subtracts as its zero.
+/// A transducer, and the zero wrench that the host subtracts.
 pub(super) struct Transducer {
     pub(super) device: Box<dyn ForceTransducer>,
     pub(super) driver: DriverKey,
@@ -62,10 +62,10 @@ impl Transducer {
         self.facts.rate.map_or(UNKNOWN_S, |rate| 1.0 / rate.0)
     }
 
-    /// Puts readings into `track` until the capture ends. Ignores repeats of a transducer that seldom repeats a reading.
+    /// Puts readings into `track` until the capture ends. Skips repeated readings of a transducer that rarely repeats one.
     ///
     /// # Errors
-    /// The failure that ended the readings: a lost device, a timeout, or a frozen signal.
+    /// The error that ended the readings: a lost device, a timeout, or a frozen signal.
     pub(super) fn read(&mut self, track: &Track, counts: &Counts) -> Result<(), DriverError> {
         let mut last: Option<(Wrench, Option<u64>)> = None;
         let mut was_new = Instant::now();
@@ -88,7 +88,7 @@ impl Transducer {
                 Err(error) => {
                     let is_passing = matches!(
                         error.kind(),
-                        // One invalid reading, or a timeout.
+                        // A single invalid reading, or a timeout.
                         ErrorKind::Timeout | ErrorKind::DeviceFault | ErrorKind::OutOfRange
                     );
                     match error.kind() {

@@ -1,4 +1,4 @@
-//! Changers of a rig: opened by the rig file, called with a deadline, and checked by the name that they report.
+//! Changers of a rig: opened from the rig file, called with a deadline, and checked by the name that they report.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -113,7 +113,7 @@ impl SpecimenChanger for OfSpecimens {
     }
 }
 
-/// Brings `unit` under the robot by a changer of units; `None` if none holds it.
+/// Brings `unit` under the robot by a changer of units; `None` if no changer holds it.
 ///
 /// # Errors
 /// As [`OpenChanger::open`] and [`OpenChanger::bring`].

@@ -1,4 +1,4 @@
-//! Content key of a simulated study: all that determines its recording.
+//! Content key of a simulated study: all inputs that determine its recording.
 
 use taceva_core::{ArgKind, Device, Registry};
 use taceva_drivers::Drivers;
@@ -6,12 +6,12 @@ use taceva_protocol::Setting;
 
 use crate::scene::{PlannedStudy, RigSpec, StudySource};
 
-/// Fields of a serialized plan that concern the scores and not the recording.
+/// Fields of a serialized plan that affect the scores but not the recording.
 const OF_SCORES: [&str; 4] = ["metrics", "fits", "skipped", "cost"];
 
 impl PlannedStudy {
-    /// Parts of the key of its recording, each with a name. `None` for an existing recording, for a real device, and for an argument that
-    /// names a file, whose content can change.
+    /// Named parts of the key of its recording. `None` for an existing recording, for a real device, and for an argument that names a file, whose
+    /// content can change.
     ///
     /// Opens no device: the arguments of simulated ones are in their selectors.
     pub fn content_key(&self, drivers: &Drivers) -> Option<Vec<(&'static str, String)>> {
@@ -40,7 +40,7 @@ impl PlannedStudy {
     }
 }
 
-/// Selector of a device, with the build of its driver if that is a plugin.
+/// Selector of a device, with the build of its driver if the driver is a plugin.
 #[derive(Debug)]
 #[expect(
     dead_code,

@@ -13,7 +13,7 @@ pub(crate) struct Opened<D: ?Sized> {
 }
 
 impl<D: Device + ?Sized> Opened<D> {
-    /// Opens the device of `selector`; the descriptor reflects its arguments.
+    /// Opens the device of `selector`; the descriptor reflects the arguments of the selector.
     pub(crate) fn open(
         registry: &Registry<D>,
         selector: Selector,
@@ -39,7 +39,7 @@ impl<D: ?Sized + 'static> Opened<D>
 where
     Late<D>: IntoDevice<D>,
 {
-    /// Corrects the stamps of the device by `latency_ms` of its facts, if above 0, and checks the timing of its samples.
+    /// Corrects the stamps of the device by the `latency_ms` in its facts, if above 0, and checks the timing of its samples.
     pub(crate) fn timely(
         self,
         is_emulated: bool,
@@ -56,7 +56,7 @@ where
     }
 }
 
-/// Timing of the samples of a real sensor or transducer. An emulated one shares its processors with this program, so only its stamps are checked.
+/// Timing checks of a real sensor or transducer. An emulated device shares processors with this program, so only its stamps are checked.
 fn timing(descriptor: &Descriptor, is_emulated: bool) -> Option<SampleTiming> {
     let rate = match descriptor.facts() {
         Facts::Sensor(facts) => facts.rate,
@@ -87,7 +87,7 @@ mod tests {
         format: PixelFormat::Gray8,
     };
 
-    /// A device whose samples take these times.
+    /// A device whose samples take the given times.
     struct Slow {
         delays: std::vec::IntoIter<Duration>,
     }
@@ -120,7 +120,7 @@ mod tests {
         }
     }
 
-    /// A camera whose clock is once set ahead by an hour.
+    /// A camera whose clock jumps ahead by an hour once.
     struct Jumping {
         frames: u32,
     }
@@ -165,7 +165,7 @@ mod tests {
         (count, None)
     }
 
-    /// Readings that take eleven periods of 1 kHz, or more on a busy machine.
+    /// Reading times that add up to eleven periods of 1 kHz, or more on a busy machine.
     fn eleven_periods(count: usize) -> Vec<Duration> {
         vec![Duration::from_millis(11); count]
     }
@@ -212,7 +212,7 @@ mod tests {
             };
             capture().expect("the first");
             capture().expect("the second");
-            // A jump is refused for good.
+            // The device stays rejected after a jump.
             for _ in 0..2 {
                 let third = capture();
                 assert_eq!(third.is_err(), is_refused, "{source}: {third:?}");

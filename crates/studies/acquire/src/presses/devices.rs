@@ -34,7 +34,7 @@ pub(super) struct OpenRig {
     lighting: Option<Box<dyn Lighting>>,
     pub(super) surroundings: Surroundings,
     pub(super) force_driver: DriverKey,
-    /// True for a rig in real time, which guard threads watch while it moves.
+    /// True for a rig in real time; guard threads watch it during motions.
     is_real: bool,
     /// Rig file of a real rig; a session begins by checking it.
     pub(super) rig_file: Option<Arc<RigFile>>,
@@ -90,7 +90,7 @@ impl OpenRig {
         if let Some(rig) = rig_file {
             check_taught(rig, workshop.drivers)?;
         }
-        // The switch comes first: without it no moving device is opened.
+        // The switch comes first: without it, no moving device is opened.
         let switch = rig_file.map(|rig| open_switch(rig, workshop.drivers));
         let switch = switch.transpose().map_err(AcquireError::from)?.flatten();
         let opener = Opener { rig, unit };
@@ -178,7 +178,7 @@ impl OpenRig {
         sensor.map(|sensor| sensor.settings()).unwrap_or_default()
     }
 
-    /// Raises the tip of a real rig and halts it, under a guard, before hands come near; returns true if it moved.
+    /// Raises the tip of a real rig under a guard and halts it, before an operator reaches in; returns true if the tip moved.
     ///
     /// # Errors
     /// As [`raise`](taceva_protocol::raise).
@@ -358,7 +358,7 @@ impl RigSpec {
             .any(|source| source == DriverSource::Simulated)
     }
 
-    /// True if all devices are simulated, so that they may be opened only to read facts.
+    /// True if all devices are simulated, so that opening them only to read facts is safe.
     pub(crate) fn is_only_simulated(&self, drivers: &Drivers) -> bool {
         self.sources(drivers)
             .all(|source| source == DriverSource::Simulated)
@@ -385,12 +385,12 @@ impl RigSpec {
     }
 }
 
-/// Key of a selector: the part before its arguments.
+/// Key of a selector: the text before its arguments.
 fn key_of(selector: &str) -> &str {
     selector.split_once(':').map_or(selector, |(key, _)| key)
 }
 
-/// Error for a robot whose clock is unknown to the program.
+/// Error for a robot without a clock that the program knows.
 fn without_clock(robot: &Selector) -> DriverError {
     let key: Result<DriverKey, _> = robot.driver().parse();
     let key = key.expect("it was opened by this key");

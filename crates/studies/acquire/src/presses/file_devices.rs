@@ -1,4 +1,4 @@
-//! Devices of a rig file without a scene, for setting up and checking a rig.
+//! Devices of a rig file without a scene, for setup and checks of a rig.
 
 use std::path::Path;
 
@@ -47,7 +47,7 @@ impl<'a> FileOpener<'a> {
         described.map(drop).map_err(|refused| self.refused(refused))
     }
 
-    /// Opens the changer `device` and returns the names of what it holds. Nothing moves.
+    /// Opens the changer `device` and returns the names of its items. Nothing moves.
     ///
     /// # Errors
     /// [`AcquireError::OpenOfRig`] if the device does not open.
@@ -59,7 +59,7 @@ impl<'a> FileOpener<'a> {
         Ok(opened.map(|opened| opened.device.holds().to_vec()))
     }
 
-    /// Opens the lighting `device` and returns the names of its scenes. The light stays as it is.
+    /// Opens the lighting `device` and returns the names of its scenes. The light does not change.
     ///
     /// # Errors
     /// As [`held`](FileOpener::held).
@@ -85,7 +85,7 @@ impl<'a> FileOpener<'a> {
         }))
     }
 
-    /// Opens the force transducer, turned into the frame of the sensor.
+    /// Opens the force transducer, with readings in the frame of the sensor.
     ///
     /// # Errors
     /// As [`sensor`](FileOpener::sensor).
@@ -105,7 +105,7 @@ impl<'a> FileOpener<'a> {
         }))
     }
 
-    /// Opens the robot, mapped into the frame of the sensor.
+    /// Opens the robot, with poses in the frame of the sensor.
     ///
     /// # Errors
     /// As [`sensor`](FileOpener::sensor).
@@ -121,7 +121,7 @@ impl<'a> FileOpener<'a> {
         Ok(Some((mapped, descriptor)))
     }
 
-    /// Opens the robot in its base frame.
+    /// Opens the robot, with poses in its base frame.
     ///
     /// # Errors
     /// As [`sensor`](FileOpener::sensor).
@@ -144,7 +144,7 @@ impl<'a> FileOpener<'a> {
         self.opened(registry, device)
     }
 
-    /// Opens a device that was checked before.
+    /// Opens a device whose selector was checked before.
     fn opened<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,

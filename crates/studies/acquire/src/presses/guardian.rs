@@ -1,4 +1,4 @@
-//! Guard threads of a run on real devices, which see a limit within a motion and not after it.
+//! Guard threads of a run on real devices. They detect an exceeded limit during a motion.
 //!
 //! One thread owns the force transducer: it shows each reading to the [`Supervisor`] and stores it for the run. Another reads the pose of
 //! the robot, over a connection of its own if the robot has one, and the enabling switch. It also watches for missing readings and
@@ -22,8 +22,8 @@ use taceva_protocol::{Cancel, Enabling, Observation, RigLimits, SharedSupervisor
 use crate::viewer::Viewer;
 use mailbox::Mailbox;
 
-/// Interval between readings of the robot, each of which waits for the next report. With 10 ms, the period of an arm, every second report would be
-/// missed. Detecting a frozen signal takes eight readings, each after a motion.
+/// Interval between readings of the robot; each reading waits for the next report. An interval of 10 ms, the period of an arm, would miss every
+/// second report. Detecting a frozen signal takes eight readings, each after a motion.
 const LOOK: Duration = Duration::from_millis(5);
 /// Deadline of one pose.
 const LOOK_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
@@ -61,7 +61,7 @@ impl Guarded<'_> {
         } = self;
         let mut supervisor = Supervisor::new(limits, robot.halt_handle());
         if switch.is_some() {
-            // Until the first reading of the switch.
+            // State before the first reading of the switch.
             supervisor.enabling(Enabling::Released);
         }
         let supervisor = SharedSupervisor::new(supervisor);
@@ -81,14 +81,14 @@ impl Guarded<'_> {
             scope.spawn(|| reader.serve(force, &supervisor, viewer));
             scope.spawn(|| watcher.look_on(&is_over));
             let _over = Over::new(&is_over);
-            // Dropped here, so that the reader ends even if `conduct` panics.
+            // Dropped here, so that the reader thread ends even if `conduct` panics.
             let mut mailbox = mailbox;
             conduct(robot, &mut mailbox, supervisor.clone())
         })
     }
 }
 
-/// Guard that sets a flag when it is dropped, which ends a thread.
+/// Guard that sets a flag when it is dropped, to end a thread.
 pub(super) struct Over<'a>(&'a AtomicBool);
 
 impl<'a> Over<'a> {
@@ -126,9 +126,9 @@ impl Watcher<'_> {
         }
     }
 
-    /// A first cancellation ends the motion in progress, but not the retreat after it. A repeated one ends that too.
+    /// A first cancellation ends the motion in progress but not the retreat after it. A second one ends the retreat too.
     fn obey(&mut self) {
-        // Read first: a second request between both calls is still seen.
+        // Read first, so that a second request between both calls is seen.
         let is_insisted = self.progress.is_insisted();
         let is_cancelled = is_insisted || self.progress.is_cancelled();
         let is_first = is_cancelled && !self.was_cancelled;
@@ -141,7 +141,7 @@ impl Watcher<'_> {
         }
     }
 
-    /// Reads the switch; an unreadable one counts as lost.
+    /// Reads the switch; an unreadable switch counts as lost.
     fn feel(&mut self) {
         let Some(switch) = self.switch else {
             return;
@@ -175,7 +175,7 @@ impl Watcher<'_> {
             return;
         }
         let now_s = MonotonicClock.now_s();
-        // A repeated pose keeps its stamp, so its age grows. The run learns of a trip by its own motion.
+        // A repeated pose keeps its stamp, so its age grows. The run detects a trip by its own motion.
         let seen = self
             .last
             .map(|(pose, stamp)| Observation::UnderWay { pose, stamp });

@@ -19,7 +19,7 @@ pub(crate) struct Late<D: ?Sized> {
 }
 
 impl<D: ?Sized> Late<D> {
-    /// Wraps `device` of `driver`, whose stamps are `latency_ms` late.
+    /// Wraps `device` of `driver`; its stamps are `latency_ms` ms late.
     pub(super) fn new(
         device: Box<D>,
         driver: DriverKey,
@@ -38,7 +38,7 @@ impl<D: ?Sized> Late<D> {
         true_stamp(stamp, self.latency_s)
     }
 
-    /// Checks the rate and the stamp of a sample that was `asked` for.
+    /// Checks the rate and the stamp of a sample that was requested at `asked`.
     fn checked<T>(
         &mut self,
         doing: &'static str,
@@ -62,7 +62,7 @@ fn true_stamp(stamp: Stamp, latency_s: f64) -> Stamp {
     }
     Stamp {
         valid_s: stamp.valid_s - latency_s,
-        // The old stamp is the time of arrival, if the device gives no other.
+        // The original stamp is the arrival time if the device states no other.
         received_s: stamp.received_s.or(Some(stamp.valid_s)),
     }
 }
@@ -158,7 +158,7 @@ impl ExpiringMotion for Late<dyn Robot> {
     ) -> Result<Stamp, DriverError> {
         let expiring = self.device.expiring_motion();
         let stamp = expiring
-            .expect("this is lent only where the robot has it, which does not change")
+            .expect("BUG: the robot no longer reports the capability that it reported at open")
             .move_expiring(target, speed, deadline)?;
         Ok(self.true_stamp(stamp))
     }
@@ -175,7 +175,7 @@ impl GuardedMotion for Late<dyn Robot> {
         let latency_s = self.latency_s;
         let guarded = self.device.guarded_motion();
         let stop = guarded
-            .expect("this is lent only where the robot has it, which does not change")
+            .expect("BUG: the robot no longer reports the capability that it reported at open")
             .move_guarded(target, speed, guard, deadline)?;
         Ok(match stop {
             GuardedStop::Guarded { pose, stamp } => GuardedStop::Guarded {

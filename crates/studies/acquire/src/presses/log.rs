@@ -1,4 +1,4 @@
-//! Press log in a recording.
+//! Log of the presses in a recording.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,9 +14,9 @@ use super::session;
 /// Presses of a recording in progress.
 pub(super) struct RecordedPresses {
     recorder: Recorder,
-    /// Recorded presses that are made again.
+    /// Recorded presses that are repeated.
     relived: BTreeSet<ContentId>,
-    /// Rows of their samples, by name.
+    /// Row of each of their samples, by sample name.
     rows: BTreeMap<String, usize>,
     sessions: SessionTable,
     /// Reduction of frames before they are recorded.
@@ -24,7 +24,7 @@ pub(super) struct RecordedPresses {
 }
 
 impl RecordedPresses {
-    /// Continues `recorder` and `sessions`; `reduction` applies to frames, `None` keeps them whole.
+    /// Continues `recorder` and `sessions`. `reduction` reduces frames; `None` keeps them whole.
     pub(super) fn new(
         recorder: Recorder,
         sessions: SessionTable,
@@ -39,7 +39,7 @@ impl RecordedPresses {
         }
     }
 
-    /// Schedules recorded presses of `unit` to be repeated and compared, if a press at the same place is still missing.
+    /// Schedules recorded presses of `unit` to be repeated and compared, if a press at the same place is missing.
     pub(super) fn relive(&mut self, plan: &Plan, unit: &str) {
         let of_unit = || plan.presses.iter().filter(|press| press.press.unit == unit);
         let is_recorded = |press: &&PlannedPress| self.has(press.id);
@@ -114,7 +114,7 @@ impl PressLog for RecordedPresses {
         Ok(())
     }
 
-    /// Stores the reference frame once, that of the first unit.
+    /// Stores the reference frame of the first unit; ignores later ones.
     fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError> {
         if !self.recorder.has_reference() {
             match &self.reduction {

@@ -1,4 +1,4 @@
-//! Manual and automatic changes at a real rig, beside the presses of one unit.
+//! Manual and automatic changes at a real rig, apart from the presses of one unit.
 
 use std::collections::BTreeSet;
 use std::sync::PoisonError;
@@ -32,8 +32,8 @@ fn is_held(held: Option<&Vec<String>>, name: &String) -> bool {
 }
 
 impl Changes {
-    /// Changes of a plan by hand and by changers: units in sequence, and specimens within a unit. A single specimen that stays mounted is
-    /// no change by hand.
+    /// Changes of a plan by hand and by changers: units in sequence, and specimens within a unit. A single specimen that stays mounted needs no
+    /// change by hand.
     fn of(plan: &Plan, is_lit_by_hand: bool, held: &Held) -> [Changes; 2] {
         let [mut by_hand, mut by_changer] = [Changes::default(), Changes::default()];
         for unit in &plan.units {
@@ -63,7 +63,7 @@ impl Changes {
     }
 }
 
-/// Formats the first few of `names`, each once.
+/// Formats the first few distinct `names`.
 fn few(names: &[String]) -> String {
     const FEW: usize = 3;
     let distinct: BTreeSet<&String> = names.iter().collect();
@@ -79,7 +79,7 @@ fn few(names: &[String]) -> String {
 }
 
 impl PlannedScene {
-    /// Rejects a scene on a real rig that needs an operator, for unattended commands, before anything is opened.
+    /// Rejects a scene on a real rig that needs an operator, before any device is opened. For unattended commands.
     ///
     /// # Errors
     /// [`AcquireError::Request`], with the number of changes.
@@ -97,7 +97,7 @@ impl PlannedScene {
             }
             if !needed.is_empty() {
                 return Err(AcquireError::Request(format!(
-                    "study `{}`: this rig needs a person: {}; run it from a terminal or with a page, so that the person can be asked",
+                    "study `{}`: this rig needs an operator: {}; run it from a terminal or with a page",
                     taceva_core::shown(&study.plan.name),
                     needed.join(", ")
                 )));
@@ -108,7 +108,7 @@ impl PlannedScene {
 }
 
 impl PlannedStudy {
-    /// Manual changes on a real rig, with their counts; empty without any.
+    /// Manual changes on a real rig, with their counts; empty if there are none.
     pub fn by_hand(&self, drivers: &Drivers) -> Vec<String> {
         let held = self.held(drivers);
         let [changes, _] = Changes::of(&self.plan, self.is_lit_by_hand(drivers), &held);
@@ -138,7 +138,7 @@ impl PlannedStudy {
         needed.into_iter().flatten().collect()
     }
 
-    /// Automatic changes by changers of the rig file, with counts and drivers; empty without any.
+    /// Automatic changes by changers of the rig file, with their counts and drivers; empty if there are none.
     pub fn by_changer(&self, drivers: &Drivers) -> Vec<String> {
         let Some(rig) = self.rig() else {
             return Vec::new();
@@ -165,7 +165,7 @@ impl PlannedStudy {
         let (Some(rig), StudySource::Rig(spec)) = (self.rig(), &self.source) else {
             return Held::default();
         };
-        // An invalid changer was rejected when the scene was planned.
+        // Planning has rejected invalid changers.
         let held = |changer| spec.held_by(drivers, changer).unwrap_or_default();
         Held {
             specimens: held(rig.changers.specimen.as_ref()),
@@ -189,16 +189,16 @@ impl PlannedStudy {
         self.study.rig.as_deref()
     }
 
-    /// True if its rig file still has the place of the robot that a new file begins with, so that a run is refused.
+    /// True if its rig file still has the origin and axes of a new file; such a run is rejected.
     pub fn is_untaught(&self, drivers: &Drivers) -> bool {
         self.rig().is_some_and(|rig| is_untaught(rig, drivers))
     }
 }
 
-/// Puts `unit` under the robot by a changer that holds it, or by the operator if a real rig has several units. Returns false if the
-/// operator skips it.
+/// Puts `unit` under the robot by a changer that holds it, or by the operator if a real rig has several units. Returns false if the operator skips
+/// it.
 ///
-/// The tip is raised before, for which the operator may have to enable the robot. No device is open during the change.
+/// The tip is raised first, for which the operator may have to enable the robot. No device is open during the change.
 pub(super) fn unit_is_there(
     study: &PlannedStudy,
     rig: &RigSpec,
@@ -254,7 +254,7 @@ pub(super) fn unit_is_there(
     }
 }
 
-/// Error if a changer did not put a unit in place and there is no operator.
+/// Error for a changer that failed to put a unit in place while there is no operator.
 fn unchanged(plan: &Plan, error: OpenError) -> AcquireError {
     match error {
         OpenError::Device(error) => acquisition(plan, StopCause::Device(error)),
@@ -265,7 +265,7 @@ fn unchanged(plan: &Plan, error: OpenError) -> AcquireError {
     }
 }
 
-/// Error of a run that stopped with the tip clear of the gel.
+/// Error for a run that stopped with the tip clear of the gel.
 pub(super) fn acquisition(plan: &Plan, cause: StopCause) -> AcquireError {
     let error = RunError {
         press: None,
@@ -275,7 +275,7 @@ pub(super) fn acquisition(plan: &Plan, cause: StopCause) -> AcquireError {
     stopped(plan, error)
 }
 
-/// Error of a run of `plan` that stopped.
+/// Error for a run of `plan` that stopped.
 pub(super) fn stopped(plan: &Plan, error: RunError) -> AcquireError {
     AcquireError::Acquisition {
         study: plan.name.clone(),
@@ -283,7 +283,7 @@ pub(super) fn stopped(plan: &Plan, error: RunError) -> AcquireError {
     }
 }
 
-/// Number of skipped presses, if that is the only problem; other errors are returned. Later units are pressed all the same.
+/// Number of skipped presses, if they are the only problem; returns other errors. Later units are pressed anyway.
 pub(super) fn presses_skipped(error: AcquireError) -> Result<usize, AcquireError> {
     match &error {
         AcquireError::Acquisition { source, .. } => match source.cause {

@@ -1,4 +1,4 @@
-//! Frames as a recording stores them: whole, or reduced to the size in the scene.
+//! Frames of a recording: whole, or reduced to the size in the scene.
 
 use taceva_core::Sample;
 use taceva_models::{FeatureError, FrameReduction};
@@ -10,7 +10,7 @@ use crate::scene::PlannedStudy;
 /// Reduction of the frames of `open` before they are recorded; `None` keeps them whole.
 ///
 /// # Errors
-/// [`AcquireError::Request`] for a camera whose frames turn out to be smaller once it is open.
+/// [`AcquireError::Request`] if the open camera has smaller frames than the scene requires.
 pub(super) fn reduction(
     study: &PlannedStudy,
     open: &OpenRig,
@@ -28,7 +28,7 @@ pub(super) fn reduction(
     Ok(Some(reduction))
 }
 
-/// Reduces the frames of `samples`; their brightness remains that of the camera's frames.
+/// Reduces the frames of `samples`. Their brightness stays that of the full frames.
 ///
 /// # Errors
 /// [`FeatureError::Kind`] for a frame of another size or format than the camera states.

@@ -1,4 +1,4 @@
-//! Devices of a rig file in the sensor's frame: poses by the registration of the robot, wrenches by the axes of the transducer.
+//! Devices of a rig file in the frame of the sensor: poses by the registration of the robot, wrenches by the axes of the transducer.
 
 use std::sync::Arc;
 
@@ -9,14 +9,14 @@ use taceva_core::{
 use taceva_core::{Degree, Newton, NewtonMillimetre, Rotation};
 use taceva_protocol::{Registration, RigRobot, SignedAxes};
 
-/// A robot with poses in the sensor's frame, over a driver in the robot's base frame.
+/// A robot with poses in the frame of the sensor, over a driver in the base frame of the robot.
 pub(super) struct Registered {
     registration: Registration,
     robot: Box<dyn Robot>,
 }
 
 impl Registered {
-    /// Wraps `robot` with the registration of `registered`. If that has no rotation of the tool, it is read from the robot within
+    /// Wraps `robot` with the registration of `registered`. If the registration has no rotation of the tool, reads it from the robot within
     /// `deadline`.
     ///
     /// # Errors
@@ -103,7 +103,7 @@ impl ExpiringMotion for Registered {
         let target = self.registration.to_base(&target);
         let expiring = self.robot.expiring_motion();
         expiring
-            .expect("this is lent only where the robot has it, which does not change")
+            .expect("BUG: the robot no longer reports the capability that it reported at open")
             .move_expiring(target, speed, deadline)
     }
 }
@@ -119,7 +119,7 @@ impl GuardedMotion for Registered {
         let target = self.registration.to_base(&target);
         let guarded = self.robot.guarded_motion();
         let stop = guarded
-            .expect("this is lent only where the robot has it, which does not change")
+            .expect("BUG: the robot no longer reports the capability that it reported at open")
             .move_guarded(target, speed, guard, deadline)?;
         Ok(match stop {
             GuardedStop::Guarded { pose, stamp } => GuardedStop::Guarded {
@@ -143,7 +143,7 @@ impl RobotWatch for RegisteredWatch {
     }
 }
 
-/// A transducer with readings in the sensor's frame.
+/// A transducer with readings in the frame of the sensor.
 pub(crate) struct Turned {
     axes: SignedAxes,
     force: Box<dyn ForceTransducer>,
@@ -200,7 +200,7 @@ mod tests {
 
     use super::*;
 
-    /// A robot that is at its last target, in its base frame.
+    /// A robot at its last target, in its base frame.
     struct Arm(Pose);
 
     struct Rests;
@@ -217,7 +217,7 @@ mod tests {
         }
 
         fn move_to(&mut self, target: Pose, _: Speed, _: Deadline) -> Result<Stamp, DriverError> {
-            // A target in the table means that the wrapper did not map it.
+            // A target inside the table means that the wrapper did not map it.
             if target.position.z.0 < 200.0 {
                 let key = DriverKey::fixed("lab/arm");
                 return Err(DriverError::new(ErrorKind::OutOfRange, &key, "move"));

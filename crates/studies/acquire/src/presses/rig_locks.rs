@@ -1,4 +1,4 @@
-//! Locks on the devices of a rig, which end with the process however it exits.
+//! Locks on the devices of a rig. They end with the process, however it exits.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -10,7 +10,7 @@ use taceva_protocol::{ContentId, RigFile};
 use crate::error::AcquireError;
 use crate::scene::{PlannedScene, StudySource};
 
-/// Locked devices of rig files, until this is dropped.
+/// Locked devices of rig files; dropping this releases them.
 #[derive(Debug)]
 pub struct HeldRigs {
     // Open files hold the locks.
@@ -18,10 +18,10 @@ pub struct HeldRigs {
 }
 
 impl PlannedScene {
-    /// Locks every device in the rig file of the scene against other runs. A scene without a rig file needs no lock.
+    /// Locks every device in the rig files of the scene against other runs. A scene without a rig file needs no lock.
     ///
-    /// The lock files are in the temporary folder of the machine, named by the digest of the selector of the device. Two rig files with the
-    /// same selector of a robot therefore exclude each other. The files are empty and never removed.
+    /// Each lock file is in the temporary folder of the machine, named by the digest of a device selector. Two rig files with the same robot selector
+    /// therefore exclude each other. The files are empty and never removed.
     ///
     /// # Errors
     /// [`AcquireError::RigTaken`] if another process holds a device; [`AcquireError::RigLock`] if a lock cannot be acquired.
@@ -49,7 +49,7 @@ impl PlannedScene {
 }
 
 impl HeldRigs {
-    /// Locks every device of `rig`, for its setup.
+    /// Locks every device of `rig` for its setup.
     ///
     /// # Errors
     /// As [`PlannedScene::hold_rigs`].
@@ -72,7 +72,7 @@ impl HeldRigs {
         folder: &Path,
         devices: BTreeMap<String, String>,
     ) -> Result<HeldRigs, AcquireError> {
-        // Two spellings of one device have one lock.
+        // Two spellings of one device share a lock.
         let devices = devices.into_iter();
         let by_path: BTreeMap<PathBuf, (String, String)> = devices
             .map(|(device, rig)| (lock_path(folder, &device), (device, rig)))
@@ -85,7 +85,7 @@ impl HeldRigs {
     }
 }
 
-/// Path of the lock of a device. Blanks and the order of arguments make no other device.
+/// Path of the lock of a device. Ignores blanks and the order of arguments.
 fn lock_path(folder: &Path, device: &str) -> PathBuf {
     let (driver, arguments) = device.split_once(':').unwrap_or((device, ""));
     let mut words: Vec<&str> = arguments.split(';').map(str::trim).collect();
@@ -102,12 +102,12 @@ fn take(path: &Path, device: &str, rig: &str) -> Result<File, AcquireError> {
             taceva_core::shown(device)
         ),
     };
-    // A lock file of another user is readable, which suffices for a lock.
+    // A lock file of another user is readable, which is enough to lock it.
     let file = match File::open(path) {
         Err(error) if error.kind() == ErrorKind::NotFound => {
             let made = OpenOptions::new().write(true).create_new(true).open(path);
             match made {
-                // Another process has created it meanwhile.
+                // Another process has created the file meanwhile.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => File::open(path),
                 made => made,
             }

@@ -1,4 +1,4 @@
-//! Start of each press of a unit, as a function of its number alone.
+//! Start time of each press of a unit, a function of the press number alone.
 
 use std::time::Duration;
 
@@ -10,9 +10,9 @@ pub(super) struct Schedule {
     slot: Duration,
 }
 
-/// Time for the way, the search for contact and the retreat.
+/// Time for travel, the search for contact and the retreat.
 const WAY: Duration = Duration::from_secs(240);
-/// Time for a waypoint: its way, its rest and its picture.
+/// Time for a waypoint: motion, rest and frame.
 const WAYPOINT: Duration = Duration::from_secs(2);
 
 impl Schedule {

@@ -48,7 +48,7 @@ pub(super) fn touches(sessions: &[Session], plan: &Plan) -> Vec<ReferenceTouch> 
     touches.collect()
 }
 
-/// Id of the boot of this machine, on Linux; stamps of two boots have different clocks. Empty elsewhere.
+/// Id of the current boot of this machine, on Linux; empty elsewhere. Stamps of two boots have different clocks.
 fn boot_id() -> String {
     let read = fs::read_to_string("/proc/sys/kernel/random/boot_id");
     read.map_or_else(|_| String::new(), |text| text.trim().to_owned())

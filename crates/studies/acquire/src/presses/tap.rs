@@ -1,4 +1,4 @@
-//! Taps on the rig of a rig file: threads record every device while the tip moves down and up under the guard of a run.
+//! Taps on the rig of a rig file. Threads record every device while the tip moves down and up under the guard of a run.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -19,13 +19,13 @@ use crate::error::AcquireError;
 use crate::scene::{PlannedStudy, StudySource};
 
 const START: Deadline = Deadline::after(Duration::from_secs(2));
-/// Deadlines of one pose and of one frame, after which they are retried.
+/// Deadline of one pose and of one frame, after which the call is retried.
 const POSE: Deadline = Deadline::after(Duration::from_millis(50));
 const FRAME: Deadline = Deadline::after(Duration::from_millis(200));
 /// Delay before a failing device is retried.
 const FAILED_REST: Duration = Duration::from_millis(5);
 
-/// Taps the gel on the rig of `study` and returns the recorded taps; its presses are not made.
+/// Taps the gel on the rig of `study` and returns the recorded taps. Does not make the presses of the study.
 ///
 /// # Errors
 /// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed, the rig contradicts its file, or the run was cancelled.
@@ -35,7 +35,7 @@ pub(crate) fn tap_study(
 ) -> Result<Tapped, AcquireError> {
     let mut plan = study.plan.clone();
     for press in &mut plan.presses {
-        // The listener holds the sensor.
+        // The listener thread owns the sensor.
         press.frames = false;
     }
     let failed = |source: RunError| super::operator::stopped(&plan, source);
@@ -142,7 +142,7 @@ impl OpenRig {
             (tapped, ended.into_iter().collect::<Result<(), _>>())
         });
         workshop.progress.end();
-        // A failed device ends the taps by missing values; its own error is the cause.
+        // A failed device ends the taps with missing values. Its own error is the cause, so it is returned first.
         heard?;
         sensor.stop()?;
         tapped.map_err(failed)
@@ -194,7 +194,7 @@ fn hear_poses(
     while !is_over.load(Ordering::Acquire) {
         match watch.pose(POSE) {
             Ok((pose, stamp)) => ears.hear(|heard| heard.pose(&pose, &stamp)),
-            // The guard sees the same error and halts.
+            // The guard sees the same error and halts the robot.
             Err(_) => std::thread::sleep(FAILED_REST),
         }
     }
@@ -210,7 +210,7 @@ fn hear_frames(
     let mut bytes = vec![0; info.byte_len().unwrap_or_default()];
     while !is_over.load(Ordering::Acquire) {
         let Ok(into) = FrameMut::new(info, &mut bytes) else {
-            // The taps report missing frames if they exceed the memory.
+            // Frames that exceed the memory are missing; the taps report that.
             return Ok(());
         };
         match sensor.capture(into, FRAME) {

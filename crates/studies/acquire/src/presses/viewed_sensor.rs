@@ -1,4 +1,4 @@
-//! A sensor with a viewer of its frames.
+//! A sensor whose frames are also shown to a viewer.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use taceva_core::{
 
 use crate::viewer::Viewer;
 
-/// A sensor, and the viewer of its frames.
+/// A sensor and the viewer of its frames.
 pub(super) struct Seen {
     sensor: Box<dyn Sensor>,
     viewer: Arc<dyn Viewer>,

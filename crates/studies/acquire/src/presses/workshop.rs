@@ -1,4 +1,4 @@
-//! Environment of presses beside the devices: drivers, clocks and changers of specimens.
+//! Environment of presses, apart from the devices: drivers, clocks and changers of specimens.
 
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -9,22 +9,22 @@ use taceva_protocol::{ContentId, Operator, SpecimenChanger, Timekeeper};
 
 use crate::viewer::Viewer;
 
-/// Parts of a rig beside its devices.
+/// Parts of a rig other than its devices.
 pub struct Surroundings {
-    /// Clock of the stamps of its devices.
+    /// Clock that stamps its devices.
     pub clock: Box<dyn Timekeeper>,
-    /// Changer of specimens; with `None`, a single specimen serves every press.
+    /// Changer of specimens; `None` if a single specimen serves every press.
     pub specimens: Option<Box<dyn SpecimenChanger>>,
-    /// Callback for each press before the tip moves there.
+    /// Callback for each press, called before the tip moves there.
     pub upcoming: Option<Box<dyn FnMut(Upcoming)>>,
     /// Name of the gel in the recording.
     pub gel: Option<String>,
-    /// Simulated bench, if the rig is one. Its clock stamps a sensor of another bench.
+    /// Simulated bench, if the rig is one. Its clock also stamps a sensor of another bench.
     pub bench: Option<Arc<dyn SimulatedBench>>,
-    /// True if its gel is new in every process, and has a history within one.
+    /// True if the gel is new in every process and changes with each press within one.
     ///
-    /// After an interruption, such a rig first restores the history of a place: it repeats the recorded presses there, compares them with
-    /// the recording, and does not record them twice.
+    /// After an interruption, a run on such a rig repeats the recorded presses at a place. It compares them with the recording and does not record
+    /// them twice.
     pub begins_anew: bool,
 }
 
@@ -42,7 +42,7 @@ impl Surroundings {
     }
 }
 
-/// The real-time clock of the machine.
+/// The monotonic clock of the machine.
 struct MachineTime;
 
 impl Timekeeper for MachineTime {
@@ -55,18 +55,18 @@ impl Timekeeper for MachineTime {
     }
 }
 
-/// A press that is about to be made.
+/// A press that comes next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Upcoming {
     /// Id of the press.
     pub press: ContentId,
-    /// Start on the clock of the rig, by a schedule with ample time for every press. A rig with a settable clock then gives a press the
-    /// same times with and without interruption.
+    /// Start on the clock of the rig, with ample time for every press. On a rig with a settable clock, presses get the same times with and without
+    /// interruption.
     pub begins: Duration,
 }
 
-/// Callback that returns the surroundings of the rig whose simulated robot a selector opened; `None` if its clock is unknown. A real robot
-/// has [`Surroundings::real`].
+/// Callback that returns the surroundings of a simulated rig, from the selector of its robot; `None` if its clock is unknown. A real robot has
+/// [`Surroundings::real`].
 pub type SurroundingsOf<'a> = &'a (dyn Fn(&Selector, &mut Rig) -> Option<Surroundings> + Sync);
 
 /// Environment of presses.
@@ -76,10 +76,10 @@ pub struct Workshop<'a> {
     pub drivers: &'a Drivers,
     /// Surroundings of simulated rigs.
     pub surroundings: SurroundingsOf<'a>,
-    /// Receives progress, and may cancel.
+    /// Receives progress, and may cancel the run.
     pub progress: &'a dyn Progress,
-    /// Operator for manual steps on a real rig; with `None`, a scene that needs one is rejected before anything is opened.
+    /// Operator for manual steps on a real rig. With `None`, a scene that needs one is rejected before any device is opened.
     pub operator: Option<&'a Mutex<dyn Operator + Send>>,
-    /// Viewer, if any: of frames and presses of a simulated bench, and of force and tip of a real rig too.
+    /// Viewer, if any. A simulated bench shows frames and presses; a real rig also shows force and tip.
     pub viewer: Option<&'a Arc<dyn Viewer>>,
 }

@@ -23,20 +23,20 @@ const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 const READ_DEADLINE: Deadline = Deadline::after(Duration::from_millis(100));
 /// Interval between readings of the pose.
 const LOOK: Duration = Duration::from_millis(10);
-/// Motion on which the robot is halted: straight up, away from the gel, in mm, and its speed, in mm/s.
+/// Motion during which the robot is halted: straight up, away from the gel, in mm, and its speed, in mm/s.
 const WAY_MM: f64 = 5.0;
 const WAY_MM_S: f64 = 5.0;
-/// Duration of the hold that ends the check of the enabling switch, and longest wait for it, in s.
+/// Duration of the hold that ends the check of the enabling switch, and longest wait for the hold.
 const HELD: Duration = Duration::from_secs(1);
 const HOLD_PATIENCE_S: f64 = 10.0;
 /// Interval between readings of the switch while the robot moves.
 const FEEL: Duration = Duration::from_millis(5);
-/// Time of the halt after the start of the motion.
+/// Delay of the halt after the start of the motion.
 const INTO: Duration = Duration::from_millis(300);
-/// Age of readings that interrupts a press: in periods, and at least in ms.
+/// Age of readings that interrupts a press: in periods, and the least value in ms.
 const STALE_PERIODS: f64 = 3.0;
 const STALE_MS: f64 = 50.0;
-/// Least ratio of the stated to the measured noise.
+/// Least ratio of the stated noise to the measured noise.
 const NOISE_PART: f64 = 0.5;
 
 /// Result of a check.
@@ -57,13 +57,13 @@ pub struct RigCheck {
     pub changers: Vec<Stock>,
     /// Halt of the robot in motion; `None` if it was left out.
     pub halt: Option<HaltTrip>,
-    /// Reason for which the halt was left out; `None` if it was timed.
+    /// Reason why the halt was skipped; `None` if it was timed.
     pub halt_left_out: Option<String>,
     /// Problems that would reject or stop a run, and devices that failed.
     pub problems: Vec<RigProblem>,
 }
 
-/// A halt of the robot on its way up.
+/// A halt of the robot during an upward motion.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct HaltTrip {
@@ -71,17 +71,17 @@ pub struct HaltTrip {
     pub acknowledged_ms: f64,
     /// Time until the motion had ended, in ms.
     pub ended_ms: f64,
-    /// Height above its place at which it stopped, in mm.
+    /// Height at which it stopped above its start, in mm.
     pub left_mm: f64,
 }
 
-/// Measures the devices of `rig`, and halts its robot once on its way up, if `operator` allows it or the rig is emulated.
+/// Measures the devices of `rig`. Halts its robot once during an upward motion, if `operator` allows it or the rig is emulated.
 ///
-/// Every device is tried: one that fails becomes a problem, and the next one follows. Nothing moves if the robot, the force transducer or the
-/// enabling switch failed, or if the tip is not above the gel according to the file.
+/// Tries every device; a device that fails becomes a problem. Nothing moves if the robot, the force transducer or the enabling switch failed, or if
+/// the tip is not above the gel according to the file.
 ///
 /// # Errors
-/// [`AcquireError::Scene`] with the line of a wrong rig file, before a device is opened.
+/// [`AcquireError::Scene`] with the line of an invalid rig file, before a device is opened.
 pub fn check_rig(
     rig: &RigFile,
     drivers: &Drivers,
@@ -94,7 +94,7 @@ pub fn check_rig(
         simulated: rig.simulated,
         ..RigCheck::default()
     };
-    // The switch comes first: without it no robot moves.
+    // The switch comes first: without it, no robot moves.
     let switch = check.of("switch", open_switch(rig, drivers)).flatten();
     let sensor = check.of("sensor", opener.sensor()).flatten();
     let robot = check.of("robot", opener.robot()).flatten();
@@ -156,7 +156,7 @@ pub fn check_rig(
     Ok(check)
 }
 
-/// The failure of an open device, with its remedy.
+/// Error of an open device, with its remedy.
 fn without_answer(error: DriverError) -> String {
     format!(
         "{error}; check its cable and power, and whether another program uses it, then run `taceva rig check` again"
@@ -168,7 +168,7 @@ fn is_let_move(operator: &mut dyn Operator, robot: String) -> bool {
 }
 
 impl RigCheck {
-    /// The result of a step of `device`; a failure becomes a problem.
+    /// Value of a step of `device`; a failure becomes a problem and gives `None`.
     fn of<T>(&mut self, device: &'static str, tried: Result<T, impl ToString>) -> Option<T> {
         match tried {
             Ok(done) => Some(done),
@@ -180,7 +180,7 @@ impl RigCheck {
         }
     }
 
-    /// Reason for which the robot must not move: devices that failed, or a place at which upwards may be downwards.
+    /// Reason why the robot must not move: failed devices, or a wrong origin that may turn up into down.
     fn obstacle(&self) -> Option<String> {
         let failed = self.problems.iter().filter(|problem| problem.is_failure());
         let failed: Vec<&str> = failed
@@ -206,7 +206,7 @@ impl RigCheck {
         }
     }
 
-    /// Notes the readings of the force transducer that `descriptor` describes.
+    /// Stores the readings of the force transducer that `descriptor` describes.
     fn hear_force(&mut self, heard: Stream, descriptor: &Descriptor) {
         let facts = descriptor.force();
         let period_ms = facts
@@ -237,7 +237,7 @@ impl RigCheck {
         }
     }
 
-    /// Checks the enabling switch, which the operator, if any, is asked to hold.
+    /// Checks the enabling switch; asks the operator, if any, to hold it.
     fn feel(
         &mut self,
         switch: &dyn EnablingSwitch,
@@ -258,7 +258,7 @@ impl RigCheck {
         Ok(())
     }
 
-    /// Halts the robot on its way up. Nothing moves while the enabling switch, if any, is released.
+    /// Halts the robot during an upward motion. Nothing moves while the enabling switch, if any, is released.
     fn halt_on_its_way(
         &mut self,
         robot: &mut dyn Robot,
@@ -318,12 +318,12 @@ impl RigCheck {
     }
 }
 
-/// True for a mere timeout.
+/// True for a timeout.
 fn came_late(error: &DriverError) -> bool {
     error.kind() == ErrorKind::Timeout
 }
 
-/// Calls `hear` for the duration of the measurement.
+/// Calls `hear` until the measurement ends.
 fn listen(
     mut hear: impl FnMut(&mut Listener) -> Result<(), DriverError>,
 ) -> Result<Stream, DriverError> {
@@ -375,7 +375,7 @@ fn listen_to_sensor(sensor: &mut dyn Sensor) -> Result<Stream, String> {
             .expect("the buffer was made with the length of the frame");
         match sensor.capture(into, Deadline::after(Duration::from_secs(1))) {
             Ok(stamp) => listener.hear(stamp.valid_s, MonotonicClock.now_s()),
-            // A damaged frame is a gap.
+            // A damaged frame counts as a gap.
             Err(error) if error.kind() == ErrorKind::Protocol => {}
             Err(error) => return Err(error),
         }

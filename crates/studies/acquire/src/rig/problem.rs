@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-/// Longest time from a halt to a robot at rest, in ms, as plans demand of a stated stop time.
+/// Longest allowed time from a halt to a robot at rest, in ms; plans require the same of a stated stop time.
 pub(super) const HALT_MS: f64 = 50.0;
 
-/// Problems of a run on this rig, with their remedies.
+/// Problems of a rig that would reject or stop a run, with their remedies.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub enum RigProblem {
@@ -21,7 +21,7 @@ pub enum RigProblem {
         /// `force`, `robot` or `sensor`.
         device: &'static str,
     },
-    /// Gaps interrupt presses.
+    /// Gaps between force readings would interrupt presses.
     Gaps {
         /// Longest gap, in ms.
         gap_ms: f64,
@@ -37,7 +37,7 @@ pub enum RigProblem {
         /// Noise that the driver states, in the same unit.
         stated: f64,
     },
-    /// The file has the place of the robot that a new file begins with.
+    /// The file still has the origin and axes of a new file.
     Untaught,
     /// The tip is inside the gel according to the file.
     InGel {
@@ -51,7 +51,7 @@ pub enum RigProblem {
     },
     /// The robot did not stop.
     NotHalted,
-    /// The enabling switch was never seen held, although the operator was asked to hold it.
+    /// The enabling switch was never read as held, although the operator was asked to hold it.
     Unheld,
 }
 
@@ -73,10 +73,10 @@ impl fmt::Display for RigProblem {
                 stated,
             } => write!(
                 f,
-                "the {device} has noise of {measured:.4}, but its driver states {stated:.4}: presses may be halted without cause; check what shakes it"
+                "the {device} has noise of {measured:.4}, but its driver states {stated:.4}: presses may be halted without cause; check for vibration"
             ),
             RigProblem::Untaught => f.write_str(
-                "`origin_mm` and `axes` of [robot] are those of a new file, and upwards may be downwards: run `taceva rig teach`",
+                "`origin_mm` and `axes` of [robot] are those of a new file, and the robot may move down instead of up: run `taceva rig teach`",
             ),
             RigProblem::InGel { depth_mm } => write!(
                 f,
@@ -97,7 +97,7 @@ impl fmt::Display for RigProblem {
 }
 
 impl RigProblem {
-    /// Device of the problem, as of [`RigProblem::Failed`]; `None` for a problem of the halt.
+    /// Device of the problem, with the names of [`RigProblem::Failed`]; `None` for a problem of the halt.
     pub fn device(&self) -> Option<&'static str> {
         match self {
             RigProblem::Failed { device, .. }
@@ -110,7 +110,7 @@ impl RigProblem {
         }
     }
 
-    /// True if the device gave no measurement at all.
+    /// True if the device gave no measurement.
     pub fn is_failure(&self) -> bool {
         matches!(self, RigProblem::Failed { .. } | RigProblem::Unheard { .. })
     }

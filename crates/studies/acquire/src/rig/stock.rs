@@ -11,14 +11,14 @@ use crate::presses::FileOpener;
 pub struct Stock {
     /// Key under `[changers]`: `specimen`, `unit` or `light`.
     pub key: &'static str,
-    /// Names of the things that it holds, or of its scenes.
+    /// Names of its items or light scenes.
     pub holds: Vec<String>,
 }
 
 /// Stock of a device that was opened or not.
 pub(super) struct TriedStock {
     pub(super) key: &'static str,
-    /// Names of what it holds; `None` if the rig file names none.
+    /// Names of its items; `None` if the rig file names no such device.
     pub(super) holds: Result<Option<Vec<String>>, AcquireError>,
 }
 

@@ -1,6 +1,6 @@
-//! Rate, gaps and noise of a device's readings at rest.
+//! Rate, gaps and noise of the readings of a device at rest.
 
-/// Statistics of a device's readings.
+/// Statistics of the readings of a device.
 ///
 /// # Units
 /// ms and Hz; `noise` in the unit of the reading.
@@ -9,19 +9,19 @@
 pub struct Stream {
     /// Number of readings.
     pub count: usize,
-    /// Readings per second; 0 for fewer than two.
+    /// Readings per second; 0 for fewer than two readings.
     pub rate_hz: f64,
     /// Longest gap between readings by their stamps, in ms.
     pub gap_ms: f64,
-    /// Greatest age of a reading on arrival by its stamp, in ms.
+    /// Greatest age of a reading on arrival, by its stamp, in ms.
     pub late_ms: f64,
-    /// Greatest standard deviation of a component, in the unit of the reading; `None` for a device without numeric readings.
+    /// Greatest standard deviation among the components, in the unit of the reading; `None` for a device without numeric readings.
     pub noise: Option<f64>,
-    /// Number of missing readings by their sequence numbers; `None` for a device without them.
+    /// Number of readings missing by sequence number; `None` for a device without sequence numbers.
     pub lost: Option<u64>,
 }
 
-/// Collects the times and values of one device's readings.
+/// Collects the times and values of the readings of one device.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Listener {
     valid_s: Vec<f64>,
@@ -32,7 +32,7 @@ pub(super) struct Listener {
 }
 
 impl Listener {
-    /// Adds a reading of the time `valid_s` that arrived at `now_s`.
+    /// Adds a reading with the stamp `valid_s` that arrived at `now_s`.
     pub(super) fn hear(&mut self, valid_s: f64, now_s: f64) {
         self.valid_s.push(valid_s);
         self.late_s = self.late_s.max(now_s - valid_s);
@@ -53,7 +53,7 @@ impl Listener {
     pub(super) fn number(&mut self, number: u64) {
         self.numbers = Some(match self.numbers {
             None => (number, 0),
-            // A lower number means a restarted device.
+            // A lower number means that the device was restarted.
             Some((last, lost)) => (number, lost + number.saturating_sub(last).saturating_sub(1)),
         });
     }
@@ -102,7 +102,7 @@ mod tests {
         assert!((stream.rate_hz - 4.0 / 0.06).abs() < 1e-6, "{stream:?}");
         assert!((stream.gap_ms - 30.0).abs() < 1e-6, "{stream:?}");
         assert!((stream.late_ms - 9.0).abs() < 1e-6, "{stream:?}");
-        // Three times 5.1 and twice 4.9: a variance of 0.012.
+        // Three times 5.1 and twice 4.9: the variance is 0.012.
         let noise = stream.noise.expect("numbers");
         assert!((noise - 0.012_f64.sqrt()).abs() < 1e-9, "{noise}");
         assert_eq!(Listener::default().heard(), Stream::default());

@@ -1,14 +1,14 @@
-//! Check of an enabling switch: its holds and its response time.
+//! Check of an enabling switch: whether it reports a hold, and its response time.
 
 use std::time::Duration;
 
 use taceva_core::{DriverError, EnablingSwitch};
 use taceva_drivers::MonotonicClock;
 
-/// Interval between readings, as in a run.
+/// Interval between readings, the same as in a run.
 const LOOK: Duration = Duration::from_millis(10);
 
-/// Result for an enabling switch read every 10 ms.
+/// Statistics of an enabling switch that is read every 10 ms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct SwitchCheck {
@@ -18,11 +18,11 @@ pub struct SwitchCheck {
     pub held: u32,
     /// Number of presses and releases between readings.
     pub changes: u32,
-    /// Longest response time of a reading, in ms. Excludes the delay in the device between the foot and its report.
+    /// Longest response time of a reading, in ms. Excludes the delay of the device itself.
     pub longest_ms: f64,
 }
 
-/// Reads `switch` until it has been held for `held`, at most for `patience`.
+/// Reads `switch` until it has been held for the duration `held`, at most for `patience`.
 pub(super) fn look_at(
     switch: &dyn EnablingSwitch,
     held: Duration,
@@ -57,7 +57,7 @@ mod tests {
 
     use super::*;
 
-    /// A foot that holds from the fourth reading on, except at the seventh.
+    /// A switch that is held from the fourth reading on, except at the seventh.
     struct Foot(AtomicU32);
 
     impl EnablingSwitch for Foot {
@@ -72,7 +72,7 @@ mod tests {
         let foot = Foot(AtomicU32::new(0));
         let [held, patience] = [60, 10_000].map(Duration::from_millis);
         let check = look_at(&foot, held, patience).expect("it answers");
-        // Pressed, released once and pressed again; all readings but the first three and that one find it held.
+        // Pressed, released once and pressed again. All readings but four find it held.
         assert_eq!(
             (check.changes, check.looks - check.held),
             (3, 4),

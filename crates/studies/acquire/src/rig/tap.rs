@@ -9,7 +9,7 @@ use crate::error::AcquireError;
 use crate::presses::{Workshop, tap_study, written_latencies_ms};
 use crate::scene::{Overrides, PlannedScene, SceneText, StudySource};
 
-/// Scene for taps, which sets limits, speeds and the start of a session. Its facts of the sensor hold for the middle.
+/// Scene for taps: limits, speeds and the start of a session. Its sensor facts concern the middle of the gel.
 const SCENE: &str = r#"
 scene_version = 1
 name = "tap"
@@ -37,11 +37,11 @@ pub struct RigTap {
     pub simulated: bool,
     /// Number of taps.
     pub taps: usize,
-    /// Previous latencies of robot, transducer and sensor, ms: from the rig file, or else from the drivers.
+    /// Previous latencies of robot, transducer and sensor, in ms, from the rig file or else from the drivers.
     pub before_ms: [f64; 3],
-    /// Remaining delay of the transducer behind the robot.
+    /// Remaining delay of the transducer relative to the robot.
     pub force: Latency,
-    /// Remaining delay of the sensor behind the robot.
+    /// Remaining delay of the sensor relative to the robot.
     pub sensor: Latency,
     /// Latencies for the rig file.
     pub latencies: RigLatencies,
@@ -50,12 +50,12 @@ pub struct RigTap {
     pub text: Option<String>,
 }
 
-/// Taps the gel on the rig of the file at `path`; reads the file and does not write it.
+/// Taps the gel on the rig of the file at `path`. Does not write the file.
 ///
 /// # Errors
 /// [`AcquireError::Scene`] with the line of the rig file if it lacks a robot, a transducer, a sensor or limits. [`AcquireError::Open`] and
-/// [`AcquireError::Acquisition`] if a device failed or the rig contradicts its file. [`AcquireError::Request`] with the reason if the taps
-/// give no latency.
+/// [`AcquireError::Acquisition`] if a device failed or the rig contradicts its file. [`AcquireError::Request`] with the reason if the taps give no
+/// latency.
 pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireError> {
     let rig = super::read_rig(path)?;
     check_devices(&rig)?;
@@ -73,7 +73,7 @@ pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireErr
     let study = study.expect("the scene has a study");
     let StudySource::Rig(spec) = &study.source else {
         return Err(AcquireError::Request(
-            "a recording is not tapped".to_owned(),
+            "taps need a rig, not a recording".to_owned(),
         ));
     };
     let info = spec

@@ -1,4 +1,4 @@
-//! `rig teach`: the operator jogs the robot to three places, which give its origin and axes in the rig file.
+//! `rig teach`: the operator jogs the robot to three places, from which the origin and axes of the rig file are computed.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ use crate::presses::FileOpener;
 /// Deadline of one pose.
 const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 
-/// Asks `operator` to jog the robot of `rig` to three places. Returns the frame and the text of the rig file with it. The program moves
+/// Asks `operator` to jog the robot of `rig` to three places. Returns the frame, and the text of the rig file with this frame. The program moves
 /// nothing.
 ///
 /// # Errors

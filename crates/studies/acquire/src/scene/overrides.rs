@@ -1,4 +1,4 @@
-//! Values that replace those of a scene, so that it need not be edited.
+//! Values that override those of a scene.
 
 use std::path::PathBuf;
 
@@ -7,18 +7,18 @@ use taceva_protocol::{ModelSpec, Setting};
 
 use crate::error::AcquireError;
 
-/// Values that replace those of a scene.
+/// Values that override those of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides {
     /// Seed of all random draws of the scene.
     pub seed: Option<u64>,
-    /// Rig file whose devices replace those of every study that presses; relative to the working folder.
+    /// Rig file whose devices replace those of every study that presses. Its path is relative to the working folder.
     pub rig: Option<PathBuf>,
-    /// Model of every study, without the settings of the scene's model.
+    /// Model of every study; it replaces the scene's model and its settings.
     pub model: Option<String>,
-    /// Settings of the model, as `key=value`; others of the scene stay.
+    /// Settings of the model, as `key=value`; other settings of the scene stay.
     pub set: Vec<String>,
-    /// Seeds for fits of the models; presses, split and scored samples stay.
+    /// Seeds of repeated fits of the models; presses, split and scored samples do not change.
     pub seeds: Vec<u64>,
 }
 
@@ -42,7 +42,7 @@ impl Overrides {
             let needed = "settings and seeds need a model that is fitted: name one with --model";
             return Err(AcquireError::Request(format!("study `{study}`: {needed}")));
         };
-        // Rejected as in every other command.
+        // Rejects invalid settings with the same messages as other commands.
         let set = ModelSettings::parse(self.set.iter().map(String::as_str))?;
         for word in set.words() {
             if let Some((key, value)) = word.split_once('=') {

@@ -9,7 +9,7 @@ use taceva_core::{
 use taceva_drivers::{Drivers, Selector};
 use taceva_protocol::{RigFile, RigInfo, Scene, SceneError, SceneProblem, Setting, Study};
 
-/// Byte offset in the scene, and problem.
+/// Byte offset in the scene, and the problem there.
 pub(crate) type Refused = (Option<usize>, SceneProblem);
 
 /// Devices of a study, by name.
@@ -19,7 +19,7 @@ pub(crate) struct RigSpec {
     pub(crate) robot: Option<Setting<String>>,
     pub(crate) force: Option<Setting<String>>,
     pub(crate) lighting: Option<Setting<String>>,
-    /// True if changers are opened with them.
+    /// True if the changers are opened too.
     pub(crate) changes: bool,
     seed: u64,
     /// Base folder of relative paths.
@@ -27,7 +27,7 @@ pub(crate) struct RigSpec {
 }
 
 impl RigSpec {
-    /// Robot and transducer alone, for the exchange of the sensor.
+    /// Only robot and transducer, to exchange the sensor.
     pub(crate) fn without_sensor(&self) -> RigSpec {
         RigSpec {
             sensor: None,
@@ -97,7 +97,7 @@ impl RigSpec {
         })
     }
 
-    /// Selector of `device` for `unit`: as written, plus seed and unit if its driver takes them and the scene does not set them.
+    /// Selector of `device` for `unit`: the written one, plus seed and unit if its driver takes them and the scene does not set them.
     pub(crate) fn selector<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,
@@ -179,7 +179,7 @@ impl RigSpec {
     }
 }
 
-/// Rejects unknown drivers, with the line and the nearest known one.
+/// Rejects unknown drivers, with the line and the most similar known driver.
 pub(crate) fn check_drivers(scene: &Scene, drivers: &Drivers) -> Result<(), SceneError> {
     let known: Vec<(DriverKind, &str)> = keys(&drivers.sensors)
         .chain(keys(&drivers.robots))
@@ -190,8 +190,8 @@ pub(crate) fn check_drivers(scene: &Scene, drivers: &Drivers) -> Result<(), Scen
     scene.check_drivers(&known)
 }
 
-/// Rejects an `enable` that does not name an enabling switch, with the line of the rig file, and a switch in place of a device. Also rejects a
-/// simulated robot: no switch can be held in simulated time. Opens nothing.
+/// Rejects an `enable` that names no enabling switch, with the line of the rig file, and a switch in place of a device. Also rejects a simulated
+/// robot, because no switch can be held in simulated time. Opens nothing.
 pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     check_places(rig, drivers)?;
     let Some(operator) = &rig.operator else {
@@ -215,7 +215,7 @@ pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), Scene
     Ok(())
 }
 
-/// Rejects an enabling switch as robot, force transducer or sensor of `rig`.
+/// Rejects an enabling switch in place of the robot, the force transducer or the sensor of `rig`.
 fn check_places(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     let robot = rig.robot.as_ref().map(|robot| &robot.driver);
     let force = rig.force.as_ref().map(|force| &force.driver);
@@ -267,7 +267,7 @@ pub(crate) fn check_changers(rig: &RigFile, drivers: &Drivers) -> Result<(), Sce
     Ok(())
 }
 
-/// True if the robot of `rig` moves in its base frame, and the file still has the place that a new file begins with.
+/// True if the robot of `rig` moves in its base frame and the file still has the origin and axes of a new file.
 pub(crate) fn is_untaught(rig: &RigFile, drivers: &Drivers) -> bool {
     let Some(robot) = &rig.robot else {
         return false;
@@ -280,12 +280,12 @@ pub(crate) fn is_untaught(rig: &RigFile, drivers: &Drivers) -> bool {
         && robot.axes.value.to_string() == r#"["x", "y", "z"]"#
 }
 
-/// Rejects a robot whose place is that of a new file: it would move elsewhere than to the gel. Opens nothing.
+/// Rejects a robot with the origin and axes of a new file, which would not move to the gel. Opens nothing.
 pub(crate) fn check_taught(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     match &rig.robot {
         Some(robot) if is_untaught(rig, drivers) => {
             let problem = format!(
-                "`origin_mm` and `axes` are those of a new file: run taceva rig teach {}; nothing moves before",
+                "`origin_mm` and `axes` are those of a new file: run taceva rig teach {}; nothing moves until then",
                 taceva_core::shown(rig.name())
             );
             Err(rig.error(robot.origin_mm.at(), SceneProblem::Contradiction(problem)))

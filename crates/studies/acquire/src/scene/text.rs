@@ -1,4 +1,4 @@
-//! Text of a scene with its location, so that errors name the line and relative paths resolve.
+//! Text of a scene with its location, to report lines and to resolve relative paths.
 
 use std::fs::File;
 use std::io::{ErrorKind, Read};
@@ -12,7 +12,7 @@ use crate::error::AcquireError;
 /// A scene as written.
 #[derive(Clone, Debug)]
 pub struct SceneText {
-    /// Name in errors: its path, or the name of a built-in scene.
+    /// Name for errors: the path of the file, or the name of a built-in scene.
     pub name: String,
     /// TOML text.
     pub text: String,
@@ -41,7 +41,7 @@ impl SceneText {
         Ok(SceneText { name, text, folder })
     }
 
-    /// Error for `problem` at the line of the byte `at`.
+    /// Error for `problem` at the line of the byte offset `at`.
     pub fn error(&self, at: Option<usize>, problem: SceneProblem) -> AcquireError {
         let line = at.map(|at| {
             let before = self.text.bytes().take(at);
@@ -64,10 +64,10 @@ pub(crate) fn read_rig_file(path: &Path) -> Result<RigFile, AcquireError> {
     Ok(RigFile::parse(&path.display().to_string(), &text)?)
 }
 
-/// Reads a file whose first version `taceva init` writes for this `subject`.
+/// Reads a file of the kind that `taceva init` writes for this `subject`.
 fn read_text(path: &Path, subject: &str) -> Result<String, AcquireError> {
     let mut text = String::new();
-    // One byte beyond the limit is enough to detect a text that is too long.
+    // One byte beyond the limit is enough to detect a longer text.
     let most = GREATEST_SCENE as u64 + 1;
     let read = File::open(path).and_then(|file| file.take(most).read_to_string(&mut text));
     match read {

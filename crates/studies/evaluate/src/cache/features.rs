@@ -1,4 +1,4 @@
-//! Features of frames and signals, stored for the next model; the oldest are removed beyond a total size.
+//! Features of frames and signals, stored for other models. Beyond a total size, the oldest are removed.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -16,11 +16,11 @@ use super::{Cache, CachedStage, Key};
 use crate::claim::{Claim, Watch};
 use crate::error::EvaluateError;
 
-/// Size limit of all stored features, bytes.
+/// Size limit of all stored features, in bytes.
 const ALL_MAX: u64 = 2 << 30;
 /// Interval at which a waiting task checks whether another has finished.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
-/// Size limit of one set of features, bytes.
+/// Size limit of one set of features, in bytes.
 pub(crate) const ONE_MAX: u64 = ALL_MAX / 4;
 
 /// Features of whole recordings in memory, by key.
@@ -30,7 +30,8 @@ pub(super) struct Memory {
 }
 
 impl Cache {
-    /// The features of `rows`, all rows of `dataset` that any fold may need, from memory or from `make`; they then stay in memory.
+    /// Features of `rows`, which are all rows of `dataset` that a fold may need. Computes them with `make` unless they are in memory, and keeps them
+    /// there.
     pub(crate) fn whole_features(
         &self,
         dataset: &Dataset,
@@ -51,14 +52,14 @@ impl Cache {
         Ok(made)
     }
 
-    /// True if features of whole recordings stay in memory, so that size does not force computing them twice.
+    /// True if features of whole recordings stay in memory, so that even large ones are computed once.
     pub(crate) fn is_in_memory(&self) -> bool {
         self.memory.is_some()
     }
 
-    /// The features of `rows` of `dataset` by `extractor`: those stored, or the result of `make`, which is then stored.
+    /// Features of `rows` of `dataset` by `extractor`: the stored ones, or the result of `make`, which is then stored.
     ///
-    /// Features are a function of frames and reference frame, or of signals and those at rest; the digest of a dataset covers both.
+    /// Features depend on frames and the reference frame, or on signals and the signals at rest. The digest of a dataset covers all of these.
     pub(crate) fn features(
         &self,
         dataset: &Dataset,
@@ -74,7 +75,7 @@ impl Cache {
         let key = features_key(dataset, extractor, rows);
         if let Some(found) = self.take_value(&key) {
             let entry = File::open(self.entry(&key));
-            // Marks the entry as used, because the longest unused goes first; a read-only folder works as well.
+            // Marks the entry as used, because the least recently used is removed first. Failing in a read-only folder is harmless.
             drop(entry.and_then(|entry| entry.set_modified(SystemTime::now())));
             return Ok(found);
         }
@@ -89,7 +90,7 @@ impl Cache {
         self.keep_value(&key, &made);
         drop(turn);
         if let Some(folder) = self.entry(&key).parent() {
-            // Entries that cannot be dropped now are dropped with the next one.
+            // An entry that cannot be removed now is removed with the next one.
             drop(trim(folder, ALL_MAX));
         }
         Ok(made)
@@ -97,7 +98,7 @@ impl Cache {
 }
 
 impl Cache {
-    /// Waits until no other task computes the result of `key`. Without a claim, as in a read-only folder, work may be done twice.
+    /// Waits until no other task computes the result of `key`. Without a claim, as in a read-only folder, the result may be computed twice.
     fn turn(&self, key: &Key) -> Option<Claim> {
         let partial = self.partial();
         fs::create_dir_all(&partial).ok()?;
@@ -117,7 +118,7 @@ impl Cache {
 }
 
 fn features_key(dataset: &Dataset, extractor: &Extractor, rows: &[usize]) -> Key {
-    // The model computes principal components from all features.
+    // The model itself computes principal components, from all features.
     let spec = FeatureSpec {
         pca: None,
         ..*extractor.spec()
@@ -130,7 +131,7 @@ fn features_key(dataset: &Dataset, extractor: &Extractor, rows: &[usize]) -> Key
         .finish()
 }
 
-/// Removes the longest unused files of `folder` until the others total at most `most` bytes.
+/// Removes the least recently used files of `folder` until the rest totals at most `most` bytes.
 fn trim(folder: &Path, most: u64) -> io::Result<()> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
@@ -150,8 +151,8 @@ fn trim(folder: &Path, most: u64) -> io::Result<()> {
     Ok(())
 }
 
-/// Height, width and depth as 32-bit numbers, then the features as in memory, all little-endian. They are read and written in pieces, so
-/// that memory holds the matrix once.
+/// Height, width and depth as 32-bit numbers, then the features as in memory, all little-endian. Reads and writes in blocks, so that memory holds the
+/// matrix once.
 impl Kept for Features {
     fn to_kept(&self) -> Option<impl Read> {
         let FeatureShape {
@@ -204,15 +205,15 @@ impl Kept for Features {
     }
 }
 
-/// Bytes read at once.
+/// Bytes read at a time.
 const BLOCK: usize = 1 << 16;
 
-/// Numbers as bytes, a block of them at a time.
+/// Converts numbers to bytes, one block at a time.
 struct Bytes<'a> {
-    /// The values after the block.
+    /// Values after the block.
     values: &'a [f32],
     block: Vec<u8>,
-    /// Number of bytes of the block already read.
+    /// Number of bytes of the block that were already read.
     read: usize,
 }
 
@@ -251,7 +252,7 @@ mod tests {
         read.expect("it is in memory");
         let found = |bytes: &[u8]| Features::from_kept(bytes, bytes.len());
         assert_eq!(found(&kept), Some(features));
-        // Twelve bytes are a complete matrix without samples; the digest of the file detects that truncation.
+        // Twelve bytes are a complete matrix without samples. The digest of the file detects a truncation to that length.
         for length in (0..kept.len()).filter(|length| *length != 12) {
             assert_eq!(found(&kept[..length]), None, "{length} bytes");
         }

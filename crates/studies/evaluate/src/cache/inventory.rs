@@ -1,4 +1,4 @@
-//! Entries in a folder of a cache, and which of them may be removed.
+//! Entries in a cache folder, and the choice of entries to remove.
 
 use std::fs::{self, Metadata};
 use std::io;
@@ -10,7 +10,7 @@ use taceva_files::{STAGED, TemporaryFolder};
 use super::key::CachedStage;
 use super::{ABANDONED, LAYOUT, PARTIAL, remove};
 
-/// The digits of a key.
+/// Number of digits of a key.
 const DIGITS: usize = 64;
 
 /// An entry: the result of one stage, or a partial entry of a stopped run.
@@ -22,9 +22,9 @@ pub struct CacheEntry {
     pub name: String,
     /// Path of the entry.
     pub path: PathBuf,
-    /// Size, bytes.
+    /// Size in bytes.
     pub bytes: u64,
-    /// Bytes that removing it frees: files shared with a run stay there.
+    /// Number of bytes that removing it frees; excludes files shared with the folder of a run.
     pub own_bytes: u64,
     /// Number of files.
     pub files: u64,
@@ -33,7 +33,7 @@ pub struct CacheEntry {
 }
 
 impl CacheEntry {
-    /// The word for its kind: the name of the stage, or `partial`.
+    /// Name of its kind: the name of the stage, or `partial`.
     pub fn kind(&self) -> &'static str {
         self.stage.map_or(PARTIAL, CachedStage::name)
     }
@@ -49,15 +49,15 @@ impl CacheEntry {
 pub struct Pruning {
     /// Results of only these stages; empty for all.
     pub stages: Vec<CachedStage>,
-    /// Removes entries unused for longer.
+    /// Removes entries that were not used for longer than this.
     pub older_than: Option<Duration>,
-    /// Removes the longest unused entries until the total is at most this many bytes.
+    /// Removes the least recently used entries until the total is at most this many bytes.
     pub keep: Option<u64>,
 }
 
-/// All entries in `folder`, by kind, the longest unused first; empty if the folder does not exist.
+/// All entries in `folder`, by kind, the least recently used first; empty if the folder does not exist.
 ///
-/// Only files of this program are listed; others are ignored.
+/// Lists only files of this program.
 ///
 /// # Errors
 /// If the folder cannot be read.
@@ -90,7 +90,7 @@ fn gather(
             Some(_) => name.len() == DIGITS && name.bytes().all(|byte| byte.is_ascii_hexdigit()),
             None => is_partial(&name),
         };
-        // A run may have finished or removed it meanwhile.
+        // A run may have completed or removed it meanwhile.
         if is_ours && let Ok(facts) = fs::symlink_metadata(entry.path()) {
             let mut sum = Sum::default();
             sum.add(&entry.path(), &facts)?;
@@ -108,7 +108,7 @@ fn gather(
     Ok(())
 }
 
-/// True for a name under which a run writes.
+/// True for the name of a file that a run is writing.
 fn is_partial(name: &str) -> bool {
     name.starts_with(STAGED)
 }
@@ -150,9 +150,9 @@ fn is_shared(facts: &Metadata) -> bool {
     links > 1
 }
 
-/// The entries of `entries` to remove by `pruning` at the time `now`: the too old, then the excess.
+/// Entries that `pruning` removes at the time `now`: first those that are too old, then those beyond the size limit.
 ///
-/// Partial entries are removed once no run can still write them, whatever the rules.
+/// Partial entries are removed once no run can still be writing them, whatever the rules.
 pub fn pruned<'a>(
     entries: &'a [CacheEntry],
     pruning: &Pruning,
@@ -188,7 +188,7 @@ pub fn pruned<'a>(
     going
 }
 
-/// Removes `entry` from the cache in `folder`; a concurrent run finds all of it or nothing.
+/// Removes `entry` from the cache in `folder`. A concurrent run finds either the whole entry or none.
 ///
 /// # Errors
 /// If it cannot be moved away or removed.
@@ -200,7 +200,7 @@ pub fn remove_entry(folder: &Path, entry: &CacheEntry) -> io::Result<()> {
     fs::create_dir_all(&partial)?;
     let folder = TemporaryFolder::create(&partial, STAGED)?;
     match fs::rename(&entry.path, folder.path().join("entry")) {
-        // Somebody was faster.
+        // Another process was faster.
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
         moved => moved,
     }
@@ -214,7 +214,7 @@ mod tests {
 
     const HOUR: Duration = Duration::from_secs(3600);
 
-    /// A cache with a file of `bytes` for each stage and age, in hours.
+    /// A cache with a file of `bytes` bytes for each stage and age, in hours.
     fn cache(kept: &[(CachedStage, u64, usize)]) -> (tempfile::TempDir, Vec<CacheEntry>) {
         let folder = tempfile::tempdir().expect("a folder");
         for (number, (stage, hours, bytes)) in kept.iter().enumerate() {

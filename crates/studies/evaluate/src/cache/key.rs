@@ -1,4 +1,4 @@
-//! The key of a stage's result: the digest of all its inputs.
+//! Key of a result of a stage: the digest of all its inputs.
 
 use std::fmt::{self, Debug};
 
@@ -17,7 +17,7 @@ pub enum CachedStage {
     Fit,
     /// Predictions of the presses that the model was not fitted on.
     Predict,
-    /// The spacings that are predicted for presses on gratings.
+    /// Spacings predicted for presses on gratings.
     Classify,
 }
 
@@ -31,7 +31,7 @@ impl CachedStage {
         CachedStage::Classify,
     ];
 
-    /// The word used in files and folders.
+    /// Name in files and folders.
     pub const fn name(self) -> &'static str {
         match self {
             CachedStage::Acquire => "acquire",
@@ -42,20 +42,20 @@ impl CachedStage {
         }
     }
 
-    /// Version of the result; incremented when the same inputs give another result within a version of this program.
+    /// Version of the result; incremented when the same inputs give another result within one version of this program.
     const fn version(self) -> u32 {
         match self {
             // 2: the recording states how its presses ended.
-            // 3: the recording has a picture of the untouched gel.
+            // 3: the recording has a frame of the untouched gel.
             CachedStage::Acquire => 3,
             // 2: standard deviations follow the predictions.
             // 3: predictions are unclipped.
             CachedStage::Predict => 3,
-            // 2: elastic nets stop their descent earlier, Gaussian processes extend as far as they state.
+            // 2: elastic nets stop their descent earlier; Gaussian processes extrapolate as far as they state.
             // 3: the card states the mean of the labels.
-            // 4: residual networks train with Winograd's convolutions, and their cards state the form in which they predict.
+            // 4: residual networks train with Winograd convolutions, and their cards state the form in which they predict.
             CachedStage::Fit => 4,
-            // 2: the same change.
+            // 2: the same change as version 2 of `Fit`.
             CachedStage::Classify => 2,
             CachedStage::Features => 1,
         }
@@ -70,7 +70,7 @@ pub struct Key {
 }
 
 impl Key {
-    /// Starts the key of a result of `stage`; its parts follow.
+    /// Starts the key of a result of `stage`; add its parts next.
     pub fn of(stage: CachedStage) -> KeyBuilder {
         let builder = KeyBuilder {
             stage,
@@ -100,14 +100,14 @@ impl fmt::Display for Key {
     }
 }
 
-/// Parts of a key, each with its name and its length, so that no two sequences of parts run together.
+/// Parts of a key, each with its name and length, so that different sequences of parts never give the same key.
 pub struct KeyBuilder {
     stage: CachedStage,
     parts: Vec<u8>,
 }
 
 impl KeyBuilder {
-    /// Adds a part in words.
+    /// Adds a text part.
     pub fn part(mut self, name: &str, part: &str) -> KeyBuilder {
         for text in [name, part] {
             self.parts.extend((text.len() as u64).to_le_bytes());
@@ -116,7 +116,7 @@ impl KeyBuilder {
         self
     }
 
-    /// A part in its `Debug` form, which names every field, so that a field added later becomes part of the key without further code.
+    /// Adds a part in its `Debug` form. That form names every field, so a field added later becomes part of the key automatically.
     pub fn whole(self, name: &str, part: &impl Debug) -> KeyBuilder {
         self.part(name, &format!("{part:?}"))
     }

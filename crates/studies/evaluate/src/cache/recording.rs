@@ -1,8 +1,8 @@
-//! Recordings in the folders of runs: the cache notes their paths and keeps no copy.
+//! Recordings in the folders of runs: the cache stores their paths and keeps no copy.
 //!
-//! A note lists the folders that hold one recording, the last first, each after the digest of its header, because the folder may hold
-//! another recording by now. Another run links the files of the first folder that still holds the recording. If there is none, the presses
-//! are made again from the seed, with the same bytes.
+//! A note lists the folders that hold one recording, the latest first. Each line also has the digest of the header, because the folder may hold
+//! another recording by now. Another run links the files of the first folder with an unchanged recording. If there is none, the presses are made
+//! again from the seed, with the same bytes.
 
 use std::fs;
 use std::io;
@@ -14,7 +14,7 @@ use taceva_files::{STAGED, TemporaryFolder, parent_of, sync_folder};
 use super::tree::link;
 use super::{Cache, Key, remove};
 
-/// Maximum folders that a note lists.
+/// Maximum number of folders in a note.
 const PLACES: usize = 8;
 
 impl Cache {
@@ -34,7 +34,7 @@ impl Cache {
                 ));
                 continue;
             }
-            // A run that was removed needs no message.
+            // A missing folder of a removed run needs no message.
             let linked = remove(&beside).and_then(|()| link(&held, &beside));
             match linked {
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {}
@@ -112,9 +112,9 @@ fn header_digest(folder: &Path) -> Option<Digest> {
     Some(Digest::of(&header))
 }
 
-/// Checks the recording at `path`: header and table on opening, and every frame by its digest. The error is a message.
+/// Checks the recording at `path`: header and table on opening, and every frame by its digest. The error is a message for the user.
 ///
-/// Without this check a damaged frame would be found only by a later stage, too late to press again.
+/// Without this check, only a later stage would find a damaged frame, too late to repeat the press.
 fn check(path: &Path) -> Result<(), String> {
     let dataset = Dataset::open(path).map_err(|error| error.to_string())?;
     dataset.verify_frames().map_err(|error| error.to_string())

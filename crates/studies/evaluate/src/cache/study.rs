@@ -1,4 +1,4 @@
-//! The cache as seen by one study of a run.
+//! View of the cache for one study of a run.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use taceva_dataset::Dataset;
 use super::value::Kept;
 use super::{Cache, CachedStage, Key};
 
-/// A stage of a study, and whether its result was found rather than computed.
+/// A stage of a study, and whether its result was reused.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct StageRecord {
     /// The study.
@@ -20,7 +20,7 @@ pub struct StageRecord {
     pub reused: bool,
 }
 
-/// The cache as seen by one study; without a cache, every stage is computed.
+/// View of the cache for one study; without a cache, every stage is computed.
 #[derive(Clone, Copy)]
 pub struct StudyCache<'a> {
     /// The cache, if there is one.
@@ -32,7 +32,7 @@ pub struct StudyCache<'a> {
 }
 
 impl StudyCache<'_> {
-    /// The value stored under `key`, or the result of `make`, which is then stored.
+    /// The value stored under `key`, or else the result of `make`, which is then stored.
     pub fn value<T: Kept, E>(self, key: &Key, make: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
         let Some(cache) = self.cache else {
             return make();
@@ -47,7 +47,7 @@ impl StudyCache<'_> {
         Ok(value)
     }
 
-    /// The recording at `place`: the one stored under `key` if nothing is there yet, or the result of `make`, which is then stored.
+    /// The recording at `place`. If nothing is there, links the one stored under `key`, or else stores the result of `make`.
     pub fn recording<E>(
         self,
         key: &Key,

@@ -6,12 +6,12 @@ use std::path::Path;
 
 use taceva_files::sync_folder;
 
-/// Size below which files are copied, bytes: linking saves nothing, and an edit in one folder does not change the other.
+/// Size in bytes below which files are copied. Linking small files saves nothing, and an edit in one folder does not change the other.
 const LINKED: u64 = 1 << 16;
 
-/// Makes the folder `to` with all files of `from`: large ones linked, or copied if the file system rejects links.
+/// Creates the folder `to` with all files of `from`: large ones linked, or copied if the file system rejects links.
 ///
-/// Names in it are durable when this returns; files are as durable as those of `from`.
+/// Names in it are durable on return. Its files are as durable as those of `from`.
 pub(super) fn link(from: &Path, to: &Path) -> io::Result<()> {
     fs::create_dir(to)?;
     for entry in fs::read_dir(from)? {

@@ -1,4 +1,4 @@
-//! Small stored results: one file each, whose first line is the digest of the rest.
+//! Small stored results, one file each. The first line is the digest of the rest.
 
 use std::fs::File;
 use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom, Write};
@@ -11,14 +11,14 @@ use super::{Cache, Key};
 
 /// A result that can be stored in a file.
 pub trait Kept: Sized {
-    /// A reader of the stored form, new at each call; `None` if the value cannot be stored.
+    /// A new reader of the stored form; `None` if the value cannot be stored.
     fn to_kept(&self) -> Option<impl Read>;
 
-    /// The value from `length` stored bytes; `None` if they do not hold such a value.
+    /// Value from `length` stored bytes; `None` if they do not contain such a value.
     fn from_kept(bytes: impl Read, length: usize) -> Option<Self>;
 }
 
-/// A plugin's model is not stored: only its plugin can load it.
+/// A model of a plugin is not stored, because only its plugin can load it.
 impl Kept for Model {
     fn to_kept(&self) -> Option<impl Read> {
         let is_of_plugin = self.card().plugin.is_some();
@@ -31,7 +31,7 @@ impl Kept for Model {
     }
 }
 
-/// For each row, a byte that says whether there is a value, then the bits of the value.
+/// For each row, a byte that is 1 if there is a value, then the bits of the value.
 impl Kept for Column {
     fn to_kept(&self) -> Option<impl Read> {
         let rows = (0..self.len()).map(|row| self.get(row));
@@ -63,7 +63,7 @@ fn all_of(mut bytes: impl Read, length: usize) -> Option<Vec<u8>> {
     Some(all)
 }
 
-/// Length of the first line, bytes: the digest and the line end.
+/// Length of the first line, in bytes: the digest and the line end.
 const FIRST_LINE: usize = 72;
 
 impl Cache {
@@ -103,7 +103,7 @@ impl Cache {
     }
 }
 
-/// The value in a file, if the rest of the file has the digest of the first line.
+/// Value in a file, if the rest of the file has the digest in the first line.
 fn taken<T: Kept>(mut file: &File) -> io::Result<Option<T>> {
     let length = usize::try_from(file.metadata()?.len()).unwrap_or(usize::MAX);
     let Some(length) = length.checked_sub(FIRST_LINE) else {
@@ -135,7 +135,7 @@ mod tests {
     use super::super::CachedStage;
     use super::*;
 
-    /// Numbers with one that is absent.
+    /// Numbers, one of which is absent.
     fn numbers() -> Column {
         let mut column = Column::default();
         for value in [Some(0.1), None, Some(-0.0), Some(1e300)] {

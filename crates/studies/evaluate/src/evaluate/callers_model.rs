@@ -1,4 +1,4 @@
-//! Predictions of a model that a caller holds, scored by the rules for our own models.
+//! Predictions of a model that the caller holds, scored by the same rules as built-in models.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -19,9 +19,9 @@ use taceva_results::ModelProvenance;
 /// Digest and training data of a model that only the caller has.
 const UNKNOWN: &str = "unknown";
 
-/// Rows for a model that a caller holds: the rows to learn, and the rows to score.
+/// Rows for a model of the caller: the rows to learn from, and the rows to score.
 ///
-/// All its predictions are scored by [`score`](GivenRows::score).
+/// [`score`](GivenRows::score) scores the predictions of the model.
 #[derive(Debug)]
 pub struct GivenRows {
     channels: Channels,
@@ -34,39 +34,39 @@ pub struct GivenRows {
     is_unbounded: bool,
 }
 
-/// Choice of rows for a model that a caller holds.
+/// Choice of rows for a model of the caller.
 #[derive(Clone, Debug, Default)]
 pub struct GivenRequest {
     /// Channels by name; empty for all.
     pub channels: Vec<String>,
     /// True if the model is fitted on the training part now.
     pub learns: bool,
-    /// The split in text form. For a model that does not learn now, the split it was fitted by; `None` if unknown.
+    /// Split in text form. For a model that does not learn now, the split of its fit; `None` if unknown.
     pub split: Option<String>,
     /// The seed of the split.
     pub seed: u64,
-    /// The part that is scored; `None` for the samples that the model has not seen.
+    /// Part to score; `None` for the samples that the model has not seen.
     pub part: Option<DataPart>,
     /// True if the model reads frames.
     pub reads_frames: bool,
-    /// True if predictions of a model that learns now are scored unclipped, not clipped to the bounds of its labels.
+    /// True if predictions of a model that learns now are scored without clipping to the bounds of its labels.
     pub is_unbounded: bool,
 }
 
-/// Name and settings of a model that a caller holds.
+/// Name and settings of a model of the caller.
 #[derive(Clone, Debug, Default)]
 pub struct GivenModel {
     /// Name, such as `sklearn.linear_model.Ridge`.
     pub name: String,
-    /// Settings by name, including that of its features.
+    /// Settings by name, including those of its features.
     pub settings: BTreeMap<String, String>,
 }
 
 impl GivenRows {
-    /// Divides `dataset` as `request` says.
+    /// Divides `dataset` by the split of `request`.
     ///
     /// # Errors
-    /// [`EvaluateError`] for a channel that does not exist, a split that cannot be made, or a part without a sample.
+    /// [`EvaluateError`] for an unknown channel, a split that cannot be made, or a part without samples.
     pub fn new(dataset: &Dataset, request: &GivenRequest) -> Result<GivenRows, EvaluateError> {
         require_samples(dataset)?;
         let channels = chosen_channels(dataset, &request.channels)?;
@@ -106,17 +106,17 @@ impl GivenRows {
         &self.channels
     }
 
-    /// The rows to learn, ascending, each with a label of every channel; empty for a model that does not learn now.
+    /// Rows to learn from, ascending, each with a label of every channel; empty for a model that does not learn now.
     pub fn train(&self) -> &[usize] {
         &self.train
     }
 
-    /// The rows to predict, ascending.
+    /// Rows to predict, ascending.
     pub fn target(&self) -> &[usize] {
         &self.target.rows
     }
 
-    /// The labels of the rows to learn.
+    /// Labels of the rows to learn from.
     ///
     /// # Shapes
     /// `[rows, channels]`, row after row.
@@ -133,14 +133,14 @@ impl GivenRows {
         labels.collect()
     }
 
-    /// The scores of `predictions` for the rows to predict. A model that learnt here is clipped to the bounds of its labels, as ours are.
-    /// Its skill is measured against the mean of its labels. The training data of any other model is unknown, and a note says so.
+    /// Scores of `predictions` for the rows to predict. Predictions of a model that learnt here are clipped to the bounds of its labels, as for
+    /// built-in models. Its skill is measured against the mean of its labels. The training data of any other model is unknown, and a note states so.
     ///
     /// # Shapes
     /// `predictions` are `[rows, channels]`, row after row.
     ///
     /// # Errors
-    /// [`EvaluateError::Request`] for the wrong number of values, or one that is not finite.
+    /// [`EvaluateError::Request`] for a wrong number of values, or a value that is not finite.
     pub fn score(
         self,
         dataset: &Dataset,

@@ -1,4 +1,4 @@
-//! Divisions of a cross-validation, for a caller who fits the models.
+//! Divisions of a cross-validation, for a caller that fits the models.
 
 use taceva_core::shown;
 use taceva_dataset::Dataset;
@@ -8,11 +8,11 @@ use super::folds;
 use crate::error::EvaluateError;
 use crate::rows::Divided;
 
-/// The divisions of the cross-validation `split`, such as `cv:5` or `leave-one-recording-out`, one for each fold. Every sample of a group is
-/// in the test part of one of them.
+/// Divisions of the cross-validation `split`, such as `cv:5` or `leave-one-recording-out`, one for each fold. Every sample of a group is in the test
+/// part of one division.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] for a split that makes one division; [`EvaluateError::Split`] if it is not valid, or has more folds than groups.
+/// [`EvaluateError::Request`] for a split that makes one division; [`EvaluateError::Split`] if the split is invalid, or has more folds than groups.
 pub fn fold_divisions(
     dataset: &Dataset,
     split: &str,

@@ -1,4 +1,4 @@
-//! Progress of one fold, whose name stands before each of its stages.
+//! Progress of one fold, with the name of the fold before each stage.
 
 use taceva_core::Progress;
 
@@ -9,7 +9,7 @@ pub(super) struct FoldProgress<'a> {
 }
 
 impl<'a> FoldProgress<'a> {
-    /// Names `model` and `fold`, such as `fold 2 of 5`, by a stage that ends at once: plain lines then have it whatever the fold does.
+    /// Reports `model` and `fold`, such as `fold 2 of 5`, as a stage of its own. Plain progress lines then always name the fold.
     pub(super) fn of(progress: &'a dyn Progress, model: &str, fold: String) -> FoldProgress<'a> {
         progress.begin(&format!("fit {model}, {fold}"), None);
         progress.end();
@@ -46,7 +46,7 @@ mod tests {
 
     use super::*;
 
-    /// Keeps what it is given.
+    /// Stores the stages that it receives.
     #[derive(Default)]
     struct Kept(Mutex<Vec<String>>);
 

@@ -1,4 +1,4 @@
-//! Cross-validation: each group of samples, or each recording, is predicted by a model fitted on others.
+//! Cross-validation: a model fitted on the other groups, or recordings, predicts each group of samples, or each recording.
 
 mod common_model;
 
@@ -25,13 +25,13 @@ use common_model::together;
 
 /// Default number of folds.
 const COUNT: usize = 5;
-/// Number of groups below which one division scores too few of them, so that cross-validation is the default.
+/// Number of groups below which one division scores too few, so that cross-validation is the default.
 const GROUPS_MANY: usize = 1000;
 
-/// Divisions that together test on every sample.
+/// Divisions that together test every sample.
 pub(crate) struct Folds<'a> {
     dataset: &'a Dataset,
-    /// The division of all folds together.
+    /// Division of all folds together.
     whole: Divided,
     folds: Vec<Fold>,
     are_recordings: bool,
@@ -43,11 +43,10 @@ struct Fold {
     divided: Divided,
 }
 
-/// The folds that `request` names, or the default folds for few groups. `None` if it names one division or a part, because folds have no
-/// parts.
+/// Folds that `request` names, or the default folds for few groups. `None` if it names a part or a split with one division.
 ///
 /// # Errors
-/// [`EvaluateError::Split`] if there is one recording, fewer groups than folds, or the split is not valid.
+/// [`EvaluateError::Split`] if there is only one recording, if there are fewer groups than folds, or if the split is invalid.
 pub(crate) fn of<'a>(
     dataset: &'a Dataset,
     request: &FitRequest,
@@ -69,10 +68,10 @@ pub(crate) fn of<'a>(
     }
 }
 
-/// The folds of the cross-validation that `request` names; `None` if it names none.
+/// Folds of the cross-validation that `request` names; `None` if it names none.
 ///
 /// # Errors
-/// As of [`of`].
+/// As [`of`].
 pub(crate) fn asked<'a>(
     dataset: &'a Dataset,
     request: &FitRequest,
@@ -85,10 +84,10 @@ pub(crate) fn asked<'a>(
     }
 }
 
-/// The folds of `spec`; `None` if it makes one division.
+/// Folds of `spec`; `None` if it makes one division.
 ///
 /// # Errors
-/// As of [`of`].
+/// As [`of`].
 pub(crate) fn of_spec<'a>(
     dataset: &'a Dataset,
     seed: u64,
@@ -105,7 +104,7 @@ pub(crate) fn of_spec<'a>(
     .map(Some)
 }
 
-/// The default folds of a recording with few groups; `None` for a run, which its plan divides, and for joined recordings.
+/// Default folds of a recording with few groups. `None` for a recording of a run, which its plan divides, and for joined recordings.
 fn default_folds(dataset: &Dataset) -> Result<Option<FoldSpec>, EvaluateError> {
     if !dataset.recordings().is_empty() || PlannedRows::of(dataset)?.is_some() {
         return Ok(None);
@@ -119,7 +118,7 @@ fn default_folds(dataset: &Dataset) -> Result<Option<FoldSpec>, EvaluateError> {
     let fields = SplitFields::of(dataset, &rows, &kind);
     let groups = spec.groups(&fields.input(rows.len()))?;
     let groups: BTreeSet<&String> = groups.iter().filter(|name| !name.is_empty()).collect();
-    // Two groups a fold are enough to learn from and to choose settings by.
+    // At least two groups in each fold, enough to learn from and to choose settings by.
     let is_default = (2 * COUNT..GROUPS_MANY).contains(&groups.len());
     Ok(is_default.then_some(spec))
 }
@@ -244,12 +243,12 @@ impl<'a> Folds<'a> {
         })
     }
 
-    /// The division of each fold.
+    /// Division of each fold.
     pub(crate) fn into_divisions(self) -> Vec<Divided> {
         self.folds.into_iter().map(|fold| fold.divided).collect()
     }
 
-    /// Rejects a part: cross-validation scores every sample, by a model that has not seen its group.
+    /// Rejects a part, because cross-validation scores every sample.
     pub(crate) fn refuse_part(&self, request: &EvaluateRequest) -> Result<(), EvaluateError> {
         match request.part {
             None => Ok(()),
@@ -266,7 +265,7 @@ impl<'a> Folds<'a> {
         }
     }
 
-    /// The split in words, without shares, which do not apply to left-out recordings.
+    /// Description of the split without shares, which do not apply to left-out recordings.
     fn words(&self) -> String {
         match self.are_recordings {
             true => "leave-one-recording-out".to_owned(),
@@ -287,12 +286,12 @@ impl<'a> Folds<'a> {
         );
     }
 
-    /// The fit of the first fold.
+    /// Fit of the first fold.
     pub(crate) fn first(&self, request: &FitRequest) -> Result<FitPlan<'a>, EvaluateError> {
         self.plan(request, &self.folds[0])
     }
 
-    /// Fits and predicts fold by fold, and scores all predictions together. Features are computed once.
+    /// Fits and predicts each fold, then scores all predictions together. Features are computed once.
     pub(crate) fn evaluate(
         &self,
         request: &EvaluateRequest,
@@ -352,7 +351,7 @@ impl<'a> Folds<'a> {
         }
         let predicted = predicted.expect("BUG: there are at least two folds");
         let (rows, mut predicted) = predicted.in_order_of(rows);
-        // Each frame counts once for each kind of features, in any number of folds.
+        // Each frame counts once for each kind of features, however many folds there are.
         predicted.frames_decoded = 0;
         let target = Target {
             part: DataPart::Test,

@@ -17,7 +17,7 @@ impl Target {
         is_fitted && self.part != DataPart::Test
     }
 
-    /// The notes on the rows of `dataset`, as `model` predicted them.
+    /// Notes on the rows of `dataset` that `model` predicted.
     pub(super) fn notes(&self, dataset: &Dataset, model: &ModelProvenance) -> Vec<Note> {
         let is_known = self.divided.is_some() || model.origin.is_some();
         [
@@ -31,7 +31,7 @@ impl Target {
         .collect()
     }
 
-    /// Pictures of the test part whose bytes equal a picture of the training part.
+    /// Frames of the test part that are byte-identical to a frame of the training part.
     fn copies(&self, dataset: &Dataset) -> Option<Note> {
         let divided = self.divided.as_ref()?;
         if self.part != DataPart::Test {
@@ -48,7 +48,7 @@ impl Target {
     }
 }
 
-/// A fit made before rows were added, so that the parts now exceed the fitted rows.
+/// Note on a fit from before rows were added, so that the parts now exceed the fitted rows.
 fn fitted_before(dataset: &Dataset, fitted_on: &str) -> Option<Note> {
     let mut stages = dataset.header().stages();
     let (_, rows) = stages.find(|(digest, _)| digest.to_string() == fitted_on)?;
@@ -56,7 +56,7 @@ fn fitted_before(dataset: &Dataset, fitted_on: &str) -> Option<Note> {
     (rows < now).then_some(Note::FittedBefore { rows, now })
 }
 
-/// Too few contact points for any interval.
+/// Note on too few contact points for any interval.
 pub(super) fn few_points(points: Option<&[String]>) -> Option<Note> {
     let distinct: BTreeSet<&String> = points?.iter().collect();
     (distinct.len() < 5).then_some(Note::FewPoints(distinct.len()))

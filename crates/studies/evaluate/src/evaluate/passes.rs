@@ -1,4 +1,4 @@
-//! Rows that each metric reads: metrics of predictions read unseen samples, metrics of the truth alone read all.
+//! Rows that each metric reads: metrics of predictions read unseen samples, metrics of the truth alone read all samples.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -12,10 +12,10 @@ use crate::error::EvaluateError;
 use crate::note::Note;
 use crate::predict::{Predicted, truth};
 
-/// The metrics of a plan, grouped by the rows they read.
+/// Metrics of a plan, grouped by the rows that they read.
 pub(super) struct Passes<'a> {
     plan: &'a MetricPlan,
-    /// The group of every row, if intervals are by groups.
+    /// Group of every row, if intervals are by group.
     groups: Option<&'a [String]>,
     /// Metrics that compare clipped predictions with the truth.
     of_predictions: Vec<&'static Metric>,
@@ -47,7 +47,7 @@ impl<'a> Passes<'a> {
         }
     }
 
-    /// Accumulates `predicted`, the rows `rows` of `dataset`, and the other rows for metrics of the truth alone.
+    /// Accumulates `predicted`, the rows `rows` of `dataset`, and all other rows for metrics of the truth alone.
     pub(super) fn run(
         &self,
         dataset: &Dataset,
@@ -92,7 +92,7 @@ impl<'a> Passes<'a> {
         Ok(total)
     }
 
-    /// The scores of predictions of one recording: the positions `own` of `rows`. Intervals are by its contact points.
+    /// Scores of the predictions of one recording, at the positions `own` of `rows`. Its contact points are the clusters of intervals.
     pub(super) fn of_recording(
         &self,
         dataset: &Dataset,
@@ -126,7 +126,7 @@ impl<'a> Passes<'a> {
         Ok(evaluation.with_bounded_shares(&predicted.bounded(own).shares()))
     }
 
-    /// The note on metrics that read every row, if others read predictions.
+    /// Note on metrics that read every row, if other metrics read predictions.
     pub(super) fn note(&self, dataset: &Dataset) -> Option<Note> {
         let metrics: Vec<&str> = self.of_truth.iter().map(|metric| metric.id).collect();
         let reads_predictions = !self.of_predictions.is_empty() || !self.of_unbounded.is_empty();
@@ -134,7 +134,7 @@ impl<'a> Passes<'a> {
         (!metrics.is_empty() && reads_predictions).then_some(Note::EveryRow { metrics, rows })
     }
 
-    /// The plan with fewer metrics and otherwise unchanged, so that its states merge with those of the whole plan.
+    /// The plan with fewer metrics. Its states merge with those of the whole plan.
     fn restricted(&self, metrics: &[&'static Metric]) -> Result<MetricPlan, EvaluateError> {
         let plan = self.plan;
         let restricted = MetricPlan::new(metrics, plan.channels().clone(), plan.available())

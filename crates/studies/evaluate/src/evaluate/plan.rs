@@ -1,4 +1,4 @@
-//! Steps of an evaluation, before any frame is read.
+//! Steps of an evaluation, computed before any frame is read.
 
 use taceva_core::{SkipReason, Skipped, counted, shown};
 use taceva_dataset::Dataset;
@@ -12,7 +12,7 @@ use crate::plan::Plan;
 use crate::predict::Target;
 use crate::rows::{DataPart, Divided};
 
-/// The steps of [`evaluate`](super::evaluate); reads no frame.
+/// Steps of [`evaluate`](super::evaluate). Reads no frame.
 ///
 /// # Errors
 /// [`EvaluateError`] if the request is not valid.

@@ -13,13 +13,13 @@ use taceva_results::EvaluationReport;
 pub struct EvaluateRequest {
     /// The model, fitted or to be fitted.
     pub model: ModelChoice,
-    /// Metrics and groups by name.
+    /// Names of metrics and of groups of metrics.
     pub metrics: Vec<String>,
-    /// The part that is scored; `None` for the samples that the model has not seen.
+    /// Part to score; `None` for the samples that the model has not seen.
     pub part: Option<DataPart>,
-    /// Facts about the sensor beyond the dataset's header.
+    /// Facts of the sensor beyond the header of the dataset.
     pub sensor: Option<SensorFile>,
-    /// True if the caller states that samples are independent, so that each is a point of its own in intervals.
+    /// True if the caller states that samples are independent. Each sample then counts as one contact point in intervals.
     pub is_independent: bool,
 }
 
@@ -44,7 +44,7 @@ impl EvaluateRequest {
     }
 }
 
-/// The model: to be fitted, or finished.
+/// The model: to be fitted, or already fitted.
 #[derive(Debug)]
 pub enum ModelChoice {
     /// Fitted on the training part first.
@@ -56,10 +56,10 @@ pub enum ModelChoice {
 /// A finished evaluation.
 #[derive(Debug)]
 pub struct Evaluated {
-    /// The scores and where they come from.
+    /// Scores and their provenance.
     pub report: EvaluationReport,
-    /// The state, to be merged with that of other recordings.
+    /// State that can be merged with the states of other recordings.
     pub state: StateFile,
-    /// The division of the dataset; `None` if it was not divided.
+    /// Division of the dataset; `None` if it was not divided.
     pub manifest: Option<SplitManifest>,
 }

@@ -1,4 +1,4 @@
-//! Predictions to scores, with their provenance.
+//! Scores of predictions, with their provenance.
 
 use std::num::NonZeroUsize;
 
@@ -25,7 +25,7 @@ use crate::samples;
 use crate::skill::with_skill;
 use crate::subject;
 
-/// The requested metrics, given the facts of `dataset`.
+/// The requested metrics, with the facts of `dataset`.
 pub(super) fn metrics(
     dataset: &Dataset,
     channels: &Channels,
@@ -37,7 +37,7 @@ pub(super) fn metrics(
     Ok(MetricPlan::new(&with_skill(wanted), channels.clone(), available).with_facts(facts))
 }
 
-/// Description in a result of the model, or the models, behind it.
+/// Description of the model behind a result, or of several models.
 pub struct Behind {
     pub(super) model: ModelProvenance,
     /// Notes on the model.
@@ -47,7 +47,7 @@ pub struct Behind {
 }
 
 impl Behind {
-    /// The card of `model` as a report states it.
+    /// Card of `model` in the form of a report.
     ///
     /// # Errors
     /// [`EvaluateError::ModelFormat`] for a model that cannot be written to a file.
@@ -157,7 +157,7 @@ pub fn score(
     })
 }
 
-/// The reason why samples of `target` are treated as independent; `None` if they are not.
+/// Reason why samples of `target` are treated as independent; `None` if they are not.
 fn independence(asked: Asked<'_>, target: &Target) -> Option<Independence> {
     let found = target.divided.as_ref();
     match (
@@ -170,7 +170,7 @@ fn independence(asked: Asked<'_>, target: &Target) -> Option<Independence> {
     }
 }
 
-/// The scores of each recording alone, if several were joined.
+/// Scores of each single recording, if several were joined.
 fn by_recording(
     dataset: &Dataset,
     plan: &MetricPlan,

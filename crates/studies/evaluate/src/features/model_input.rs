@@ -1,20 +1,20 @@
-//! Input of a model in a recording: frames or signals.
+//! Input that a model reads from a recording: frames or signals.
 
 use taceva_core::{Field, Frame, FrameInfo, Input, InputInfo, SignalInfo, Signals};
 use taceva_dataset::{Dataset, DatasetError};
 use taceva_models::{FeatureSpec, RecordedFrames};
 
-/// The frames or the signals of a recording, with those without contact if requested.
+/// The frames or the signals of a recording, with the reference without contact if requested.
 pub(crate) enum Sight {
     Frames(FrameInfo, Option<Frame>),
     Signals(SignalInfo, Option<Signals>),
 }
 
 impl Sight {
-    /// Frames or signals of `dataset` that `spec` needs, or the name of the missing input.
+    /// Frames or signals of `dataset` that `spec` needs; otherwise the name of the missing input.
     ///
     /// # Errors
-    /// Errors of reading the input without contact.
+    /// Errors of reading the reference without contact.
     pub(crate) fn of(
         dataset: &Dataset,
         spec: &FeatureSpec,
@@ -35,7 +35,7 @@ impl Sight {
         })
     }
 
-    /// The kind and the size.
+    /// Kind and size of the input.
     pub(crate) fn info(&self) -> InputInfo {
         match self {
             Sight::Frames(info, _) => (*info).into(),
@@ -43,7 +43,7 @@ impl Sight {
         }
     }
 
-    /// The input without contact, if requested and known.
+    /// Reference without contact, if requested and known.
     pub(crate) fn reference(&self) -> Option<Input<'_>> {
         match self {
             Sight::Frames(_, reference) => reference.as_ref().map(Input::from),
@@ -52,7 +52,7 @@ impl Sight {
     }
 }
 
-/// Facts of the frames of `dataset` that features depend on. For joined recordings, all must have a frame without contact.
+/// Facts of the frames of `dataset` that features depend on. For joined recordings, all must have a reference without contact.
 pub(crate) fn recorded_frames(dataset: &Dataset) -> Option<RecordedFrames> {
     let (frame, _) = kinds(dataset);
     let has_reference = |own: &Dataset| {
@@ -69,7 +69,7 @@ pub(crate) fn recorded_frames(dataset: &Dataset) -> Option<RecordedFrames> {
     })
 }
 
-/// The frames and the signals of `dataset`, as far as present.
+/// Frames and signals of `dataset`, if present.
 pub(crate) fn kinds(dataset: &Dataset) -> (Option<FrameInfo>, Option<SignalInfo>) {
     let header = dataset.header();
     let frame = header.frames.as_ref().map(|frames| frames.info);

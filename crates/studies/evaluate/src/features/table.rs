@@ -1,4 +1,4 @@
-//! Features of some rows, for a model that a caller holds.
+//! Features of some rows, for a model of the caller.
 
 use taceva_core::Features;
 use taceva_dataset::Dataset;
@@ -13,14 +13,14 @@ use crate::work::Work;
 pub struct FeatureTable {
     /// `[rows, height, width, depth]`.
     pub features: Features,
-    /// The kind of features of each frame, or of its signals.
+    /// Kind of features of each frame or signal.
     pub spec: FeatureSpec,
 }
 
-/// The features of `rows` by `settings`, in that order: the input of a model chosen by name. The default is 32×32 gray.
+/// Features of `rows` by `settings`, in that order, as input of a model chosen by name. The default is 32×32 gray.
 ///
 /// # Errors
-/// [`EvaluateError`] for a setting that no feature has, for rows without a frame or without signals, and if the dataset cannot be read.
+/// [`EvaluateError`] for an unknown setting of features, for rows without a frame or without signals, and if the dataset cannot be read.
 pub fn feature_table(
     dataset: &Dataset,
     settings: &ModelSettings,

@@ -11,14 +11,14 @@ use crate::error::EvaluateError;
 use crate::features::kinds;
 use crate::work::Work;
 
-/// One group in this many is left out.
+/// One in this many groups is left out.
 const LEFT_OUT_OF: usize = 3;
-/// Minimum left-out contact points for an estimate of the spread; with fewer, neighbouring samples form groups.
+/// Least number of left-out contact points for an estimate of the spread. With fewer, neighbouring samples form groups.
 const POINTS_LEAST: usize = 3;
-/// Number of groups of neighbouring samples, if no contact point is known.
+/// Number of groups of neighbouring samples if no contact point is known.
 const RUNS: usize = 10;
 
-/// The training part in two: positions to learn from, and positions to score with the groups by which they are independent.
+/// The training part in two: positions to learn from, and positions to score with their independent groups.
 struct Parts {
     learnt: Vec<usize>,
     left_out: Vec<usize>,
@@ -26,9 +26,9 @@ struct Parts {
 }
 
 impl FitPlan<'_> {
-    /// Tries features from the simplest on and chooses some. Finer grids than the default are tried only if the default improved.
+    /// Tries features, the simplest first, and chooses some. Grids finer than the default are tried only if the default improved the loss.
     ///
-    /// Features without a possible model are reported with the reason; it is an error only if all fail.
+    /// Reports features that allow no model, with the reason. Fails only if all fail.
     pub(super) fn choose_features(
         &mut self,
         open: OpenFeatures,
@@ -82,7 +82,7 @@ impl FitPlan<'_> {
         Ok(choice)
     }
 
-    /// The loss of each left-out sample, with features of `spec`.
+    /// Loss of each left-out sample, with features by `spec`.
     fn attempt(
         &self,
         estimator: &dyn ModelEstimator,
@@ -127,7 +127,7 @@ impl FitPlan<'_> {
         })
     }
 
-    /// The loss of `model` on each left-out sample.
+    /// Loss of `model` on each left-out sample.
     fn losses(
         &self,
         model: &Model,
@@ -141,17 +141,17 @@ impl FitPlan<'_> {
     }
 }
 
-/// The squared error of each sample relative to the variance of `all` labels, averaged over the channels that vary.
+/// Squared error of each sample relative to the variance of `all` labels, averaged over the channels that vary.
 ///
 /// # Shapes
-/// `[samples, channels]` each; the result `[samples]`.
+/// Arguments `[samples, channels]`; result `[samples]`.
 fn losses(found: &[f64], labels: &[f64], all: &[f64], channels: usize) -> Vec<f64> {
     let mut losses = vec![0.0; labels.len() / channels];
     let mut varying = 0.0_f64;
     for channel in 0..channels {
         let own = || all.iter().skip(channel).step_by(channels).copied();
         let least = own().fold(f64::INFINITY, f64::min);
-        // Not tested by the variance: the rounded mean of equal numbers may differ from them.
+        // The variance cannot show this: the rounded mean of equal numbers may differ from them.
         if own().all(|label| label <= least) {
             continue;
         }
@@ -169,7 +169,7 @@ fn losses(found: &[f64], labels: &[f64], all: &[f64], channels: usize) -> Vec<f6
     losses
 }
 
-/// True if the error comes from the tried features, not from the recording or a cancellation.
+/// True if the error comes from the tried features, not from the recording or from a cancellation.
 fn is_own(error: &EvaluateError) -> bool {
     match error {
         EvaluateError::Model(error) => error.kind() != ErrorKind::Interrupted,
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn a_channel_whose_labels_are_all_the_same_takes_no_part() {
-        // The rounded mean of 102 equal tenths is another number.
+        // The rounded mean of 102 values of 0.1 is not 0.1.
         let all: Vec<f64> = (0..102).flat_map(|row| [f64::from(row % 2), 0.1]).collect();
         let labels = [0.0, 0.1, 1.0, 0.1];
         let found = [0.5, 0.1 + 1e-14, 1.0, 0.1];

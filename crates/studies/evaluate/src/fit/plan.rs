@@ -1,4 +1,4 @@
-//! A fit on a dataset: its channels, its rows, and the frames it will read.
+//! Plan of a fit on a dataset: its channels, its rows, and the frames it will read.
 
 use taceva_core::{Channels, counted};
 use taceva_dataset::Dataset;
@@ -19,27 +19,27 @@ pub struct FitPlan<'a> {
     pub(super) dataset: &'a Dataset,
     pub(super) model: ChosenModel,
     pub(super) estimator: Box<dyn ModelEstimator>,
-    /// As typed.
+    /// Settings as typed.
     pub(super) settings: ModelSettings,
-    /// The settings of the model itself.
+    /// Settings of the model alone.
     pub(super) of_model: ModelSettings,
     pub(super) features: FeatureSpec,
     pub(super) open: Option<OpenFeatures>,
-    /// Finer features that the model reads too.
+    /// Finer features that the model also reads.
     pub closer: Option<FeatureSpec>,
     /// The predicted channels.
     pub channels: Channels,
     /// The division of the rows.
     pub divided: Divided,
-    /// The rows to learn from.
+    /// Rows to learn from.
     pub train: Vec<usize>,
-    /// The rows to choose settings by.
+    /// Rows to choose settings by.
     pub validation: Vec<usize>,
     pub(super) left_out: usize,
 }
 
 impl<'a> FitPlan<'a> {
-    /// Plans `request` on the parts that its split makes.
+    /// Plans `request` on the parts of its split.
     ///
     /// # Errors
     /// [`EvaluateError`] for a request that does not suit the dataset.
@@ -77,15 +77,15 @@ impl<'a> FitPlan<'a> {
         let features = by_recording.on(features, frames);
         let features = match (model_reads, frame, signals) {
             (true, _, _) => features.on(&asked, frame, signals)?,
-            // A model that reads no input takes whatever there is.
+            // A model that reads no input accepts any.
             (false, None, Some(info)) => features.of_signals(info),
             (false, _, _) => features,
         };
         let reads_frames = model_reads && features.channels.is_none();
         let mut channels = chosen_channels(dataset, &request.channels)?;
         if request.channels.is_empty() && features.channels.is_none() {
-            // Part of a run may have no picture: heights of the surface are touched without one. A model without pictures is compared with
-            // models of pictures, and no sample has all channels of a run.
+            // Some samples of a run have no frame, such as touches that measure surface height. A model without frames is compared with models that
+            // read frames, and no sample has all channels of a run.
             channels = seen_channels(dataset, &channels);
         }
         let need = || Need {
@@ -124,17 +124,17 @@ impl<'a> FitPlan<'a> {
         })
     }
 
-    /// True if frames are decoded: false for a model that reads no input, or signals.
+    /// True if frames are decoded; false for a model that reads signals or no input.
     pub fn reads_frames(&self) -> bool {
         self.model.reads_features() && self.features.channels.is_none()
     }
 
-    /// The features of frames or signals; if some are still to be chosen, those that the model prefers.
+    /// Features of frames or signals. If some settings are still to be chosen, the preferred ones of the model.
     pub fn features(&self) -> FeatureSpec {
         self.features
     }
 
-    /// Kinds of features; every frame is decoded once for each.
+    /// Number of kinds of features; every frame is decoded once for each.
     pub(crate) fn passes(&self) -> u64 {
         if self.closer.is_some() { 2 } else { 1 }
     }
@@ -183,7 +183,7 @@ impl<'a> FitPlan<'a> {
         );
     }
 
-    /// Stores checkpoints of a long training from now on, and resumes from an existing one.
+    /// Stores checkpoints of a long training in `checkpoints`, and resumes from an existing one.
     pub fn keep_checkpoints(&mut self, checkpoints: Checkpoints) {
         self.estimator.keep_checkpoints(checkpoints);
     }

@@ -1,4 +1,4 @@
-//! Requests of a fit, before any data is read.
+//! Request of a fit.
 
 use taceva_models::{
     ChosenModel, FeatureKinds, FeatureSpec, FeaturesByRecording, ModelEstimator, ModelSettings,
@@ -12,11 +12,11 @@ use crate::error::EvaluateError;
 pub struct FitRequest {
     /// The model.
     pub model: ChosenModel,
-    /// Settings of its features and of itself.
+    /// Settings of the features and of the model.
     pub settings: ModelSettings,
     /// Channels by name; empty for all.
     pub channels: Vec<String>,
-    /// The split in text form; `None` for the default: by point if points have repeats, else random.
+    /// Split in text form; `None` for the default split.
     pub split: Option<String>,
     /// The seed of all random draws.
     pub seed: u64,
@@ -26,12 +26,12 @@ impl FitRequest {
     /// Checks its model and settings; reads no data.
     ///
     /// # Errors
-    /// [`EvaluateError`] for a model that does not exist, or a setting that it does not have.
+    /// [`EvaluateError`] for an unknown model or setting.
     pub fn check(&self) -> Result<(), EvaluateError> {
         Recipe::of(self).map(drop)
     }
 
-    /// The same request with `seed` for the random draws of the model; the division and everything else stay.
+    /// The same request with `seed` for the random draws of the model. The division does not change.
     pub fn with_seed(self, seed: u64) -> Result<FitRequest, EvaluateError> {
         const SEED: &str = "seed";
         if !self.model.setting_keys().contains(&SEED) {
@@ -50,24 +50,24 @@ impl FitRequest {
     }
 }
 
-/// The parsed model and feature settings of a request, before any data is read.
+/// Parsed model and feature settings of a request, before any data is read.
 pub struct Recipe {
     pub(super) model: ChosenModel,
     pub(super) estimator: Box<dyn ModelEstimator>,
     pub(super) of_model: ModelSettings,
     pub(super) features: FeatureSpec,
-    /// Feature settings that the frames of the recording decide.
+    /// Feature settings that depend on the frames of the recording.
     pub(super) by_recording: FeaturesByRecording,
-    /// The settings without those that the frames decide.
+    /// Settings without those that depend on the frames.
     pub(super) asked: ModelSettings,
-    /// Feature settings to be chosen.
+    /// Feature settings that the fit chooses.
     pub(super) open: Option<OpenFeatures>,
-    /// Finer features that some of the candidate models read, and their settings that the frames decide.
+    /// Finer features that some candidate models read, and their settings that depend on the frames.
     pub(super) closer: Option<(FeatureSpec, FeaturesByRecording)>,
 }
 
 impl Recipe {
-    /// The cells of a frame that the model reads, along x and y; `None` if it reads none, or if the frames or a choice decide.
+    /// Grid cells of a frame that the model reads, along x and y. `None` if it reads no frames, or if the frames or a choice decide.
     pub fn cells(&self) -> Option<[u32; 2]> {
         let FeatureSpec {
             kinds,
@@ -80,7 +80,7 @@ impl Recipe {
         (looks && is_known).then_some([width, height])
     }
 
-    /// Reads the settings of the model and of its features.
+    /// Parses the settings of the model and of its features.
     pub fn of(request: &FitRequest) -> Result<Recipe, EvaluateError> {
         let model = &request.model;
         let (by_recording, asked) = FeaturesByRecording::of(&request.settings)?;

@@ -1,4 +1,4 @@
-//! The fit itself: features of frames or signals, then the model.
+//! Fit of a model on features of frames or signals.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ pub(super) struct Seen {
 }
 
 impl FitPlan<'_> {
-    /// Takes the features and fits the model.
+    /// Computes the features and fits the model.
     ///
     /// # Errors
     /// [`EvaluateError`] if the dataset cannot be read, or the model cannot be fitted.
@@ -51,9 +51,9 @@ impl FitPlan<'_> {
         })
     }
 
-    /// The features by `spec` of the frames or signals of the training part, then of the validation part.
+    /// Features by `spec` of the frames or signals of the training part, then of the validation part.
     pub(super) fn see(&self, spec: FeatureSpec, work: Work<'_>) -> Result<Seen, EvaluateError> {
-        // Both parts, whichever is learnt from: stored features are found by their rows.
+        // Always both parts, because stored features are found by their rows.
         let rows = [&self.train[..], &self.validation].concat();
         if !self.model.reads_features() {
             return Ok(Seen {
@@ -75,7 +75,7 @@ impl FitPlan<'_> {
         })
     }
 
-    /// Fits a model on the features `seen`, and on the finer ones, at `positions` of the training part, and on the validation part.
+    /// Fits a model on the features `seen` and on the finer ones, at `positions` of the training part and on the validation part.
     pub(super) fn learn(
         &self,
         estimator: &dyn ModelEstimator,
@@ -139,7 +139,7 @@ impl FitPlan<'_> {
             .collect()
     }
 
-    /// The input that the card states for a model that reads none.
+    /// Input that the card states for a model that reads none.
     fn any_input(&self, spec: FeatureSpec) -> InputInfo {
         let unseen = FrameInfo {
             width: 1,
@@ -179,7 +179,7 @@ impl FitPlan<'_> {
     }
 }
 
-/// The number of the contact point of each row; `None` if a row has none.
+/// Number of the contact point of each row; `None` if a row has none.
 pub(super) fn groups(dataset: &Dataset, rows: &[usize]) -> Option<Vec<u32>> {
     let points = dataset.table().point_id();
     let mut numbers: BTreeMap<&str, u32> = BTreeMap::new();

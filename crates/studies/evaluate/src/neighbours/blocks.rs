@@ -1,4 +1,4 @@
-//! Blocks of time, each longer than the distance over which its samples resemble each other.
+//! Blocks of time, each longer than the time over which its samples resemble each other.
 
 use taceva_dataset::Dataset;
 
@@ -6,17 +6,17 @@ use super::most_alike;
 use super::sequence::Sequence;
 use crate::recordings;
 
-/// Minimum number of blocks in a recording, if it has enough samples, and maximum.
+/// Least and greatest number of blocks in a recording with enough samples.
 const BLOCKS: [usize; 2] = [10, 40];
 
-/// Blocks of time: samples in a row.
+/// Blocks of time: consecutive samples.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Blocks {
-    /// The block of each row.
+    /// Name of the block of each row.
     pub(crate) names: Vec<String>,
-    /// The place of each row in time, counted in samples.
+    /// Position of each row in time, in samples.
     pub(crate) places: Vec<usize>,
-    /// Samples between blocks of different parts.
+    /// Number of samples left out between blocks of different parts.
     pub(crate) gap: usize,
     /// Number of blocks.
     pub(crate) count: usize,
@@ -37,7 +37,7 @@ impl Blocks {
             let sequence = Sequence::of(dataset, own);
             let lag =
                 most_alike(dataset, own, &sequence).map_or(0, |(_, ranks, _)| sequence.lag(&ranks));
-            // Too few rows for several blocks form one.
+            // Too few rows for several blocks form one block.
             numbered(&sequence, own.len(), lag).unwrap_or_else(|| NumberedBlocks {
                 numbers: vec![0; own.len()],
                 places: (0..own.len()).collect(),
@@ -48,7 +48,7 @@ impl Blocks {
         Some(Blocks::one_after_the_other(sections.collect()))
     }
 
-    /// Joins the blocks of consecutive sections. Sections are not neighbours of each other.
+    /// Joins the blocks of consecutive sections. Samples of different sections are not neighbours.
     fn one_after_the_other(sections: Vec<NumberedBlocks>) -> Blocks {
         let gap = sections.iter().map(|own| own.gap).max().unwrap_or(0);
         let mut all = Blocks {
@@ -75,7 +75,7 @@ impl Blocks {
 /// Blocks of a section of rows, by number.
 #[derive(Debug)]
 struct NumberedBlocks {
-    /// The number of the block of each row, from 0.
+    /// Block number of each row, from 0.
     numbers: Vec<usize>,
     places: Vec<usize>,
     gap: usize,

@@ -6,12 +6,12 @@ use super::{PAIRS_LEAST, resemblance};
 use crate::note::SampleOrder;
 use crate::recordings;
 
-/// Resemblance below which samples are far enough apart.
+/// Resemblance below which samples count as independent.
 const APART: f64 = 0.2;
-/// The largest lag tried is the number of samples divided by this.
+/// Divisor of the number of samples that gives the largest tried lag.
 const FARTHEST: usize = 10;
 
-/// Rows by time, or in table order if times are missing. Rows of different segments are not neighbours.
+/// Rows ordered by time, or in table order if times are missing. Rows of different segments are not neighbours.
 #[derive(Debug)]
 pub(super) struct Sequence {
     pub(super) segments: Vec<Vec<usize>>,
@@ -19,8 +19,8 @@ pub(super) struct Sequence {
 }
 
 impl Sequence {
-    /// `rows` of `dataset` as positions among them. A segment begins where times go back, as from clip to clip. If times go back all the
-    /// time, the table is unordered, and rows are sorted by time.
+    /// Orders `rows` of `dataset`, as positions among them. A segment begins where time goes back, as between clips. If time goes back in many
+    /// places, the table is unordered, and rows are sorted by time.
     pub(super) fn of(dataset: &Dataset, rows: &[usize]) -> Sequence {
         let names = recordings::names(dataset, rows);
         let table = dataset.table();
@@ -62,14 +62,14 @@ impl Sequence {
         })
     }
 
-    /// The resemblance of samples to those `lag` later, with the number of pairs.
+    /// Resemblance of samples to the samples `lag` positions later, with the number of pairs.
     pub(super) fn resemblance(&self, ranks: &[Option<f64>], lag: usize) -> Option<(f64, usize)> {
         let pairs = self.pairs(lag);
         let both = pairs.filter_map(|[one, other]| Some([ranks[one]?, ranks[other]?]));
         resemblance(both)
     }
 
-    /// Number of samples after which the ranks hardly resemble each other.
+    /// Least number of samples after which the ranks hardly resemble each other.
     pub(super) fn lag(&self, ranks: &[Option<f64>]) -> usize {
         let farthest = (ranks.len() / FARTHEST).max(1);
         let mut lag = 1;
@@ -85,11 +85,11 @@ impl Sequence {
     }
 }
 
-/// The rows of one recording in segments of ascending times.
+/// Rows of one recording in segments of ascending times.
 fn in_time(mut recording: Vec<usize>, times: &[f64]) -> Vec<Vec<usize>> {
     let goes_back = |pair: &[usize]| times[pair[1]] < times[pair[0]];
     let backwards = recording.windows(2).filter(|pair| goes_back(pair)).count();
-    // In unordered rows every second step goes back.
+    // In unordered rows, every second step goes back.
     if backwards * 8 > recording.len() {
         recording.sort_by(|one, other| times[*one].total_cmp(&times[*other]));
         return vec![recording];

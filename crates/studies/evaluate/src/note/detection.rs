@@ -1,29 +1,29 @@
-//! Detection limit of normal force: verified by light presses, or not.
+//! Detection limit of the normal force, verified by light presses or not.
 
 use std::fmt;
 
 use taceva_results::{Score, Value};
 
-/// Evidence for a least force that is detected.
+/// Evidence for a detection limit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Detection {
     /// A limit, and the light presses that verify it.
     Verified {
-        /// The limit, N.
+        /// The limit, in N.
         limit_n: f64,
-        /// Least and greatest true force of the presses, N.
+        /// Least and greatest true force of the presses, in N.
         forces_n: [f64; 2],
-        /// The presses.
+        /// Number of presses.
         presses: u64,
-        /// The places that they pressed.
+        /// Number of pressed places.
         places: u64,
     },
-    /// Only the noise of untouched frames, with the reason that light presses give no limit.
+    /// Only the noise of untouched frames, with the reason why light presses give no limit.
     Unverified(Option<String>),
 }
 
 impl Detection {
-    /// The evidence in `scores`; `None` if none of them is the noise of untouched frames.
+    /// Evidence in `scores`; `None` without a noise of untouched frames.
     pub(crate) fn of(scores: &[Score]) -> Option<Detection> {
         let has_noise = |score: &Score| {
             score.metric == "noise_equivalent_force" && score.value.number().is_some()

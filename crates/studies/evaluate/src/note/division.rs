@@ -1,11 +1,11 @@
-//! Findings on neighbouring samples, and their division.
+//! Findings on neighbouring samples, and the division of these samples.
 
 use std::fmt;
 
 use taceva_core::{counted, shown};
 use taceva_results::OPTIMISTIC;
 
-/// Order of the samples, by which they are neighbours.
+/// Order that defines neighbouring samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleOrder {
     /// Order of times.
@@ -21,9 +21,9 @@ pub struct Neighbours {
     pub channel: String,
     /// One minus the mean squared rank difference of neighbours over that of random pairs: 0 if independent, 1 if equal.
     pub resemblance: f64,
-    /// Samples between two that hardly resemble each other.
+    /// Number of samples after which two hardly resemble each other.
     pub lag: usize,
-    /// The order in which they are neighbours.
+    /// Order that defines neighbours.
     pub order: SampleOrder,
     /// The column whose values are groups of neighbours; `None` for blocks of time.
     pub column: Option<String>,
@@ -41,11 +41,11 @@ pub enum Division {
     },
     /// Samples with one value of this column stay together.
     Column(String),
-    /// Neighbours were separated, as the caller requested, although many tested samples have a learnt neighbour.
+    /// Neighbours are separated, as the caller requested, although many tested samples have a neighbour in the training part.
     Separated {
-        /// Tested samples with a learnt neighbour.
+        /// Number of tested samples with a neighbour in the training part.
         beside: usize,
-        /// Tested samples.
+        /// Number of tested samples.
         of: usize,
     },
 }
@@ -53,13 +53,13 @@ pub enum Division {
 /// Reasons to treat samples as independent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Independence {
-    /// The caller said so.
+    /// The caller stated it.
     Stated,
-    /// Nothing repeats, and neighbours do not resemble each other.
+    /// No point repeats, and neighbours do not resemble each other.
     Found,
 }
 
-/// Writes both as one sentence.
+/// Writes the findings and the division as one sentence.
 pub(super) fn write(
     found: &Neighbours,
     division: &Division,

@@ -1,4 +1,4 @@
-//! Sentence of each note, for a reader of scores.
+//! Sentence of each note for the reader of scores.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use taceva_results::OPTIMISTIC;
 
 use super::{Independence, Learning, Note, division};
 
-/// Number of recordings below which an interval by recording states that number: Student's t has too few degrees of freedom to be narrow.
+/// Number of recordings below which an interval by recording states that number. With few degrees of freedom, Student's t makes it wide.
 const CLUSTERS_MANY: usize = 10;
 
 impl fmt::Display for Note {
@@ -38,7 +38,7 @@ impl fmt::Display for Note {
                 extension,
             } => write!(
                 f,
-                "{}{} {} added to {} on {} from {}; each sample before kept its part",
+                "{}{} {} added to {} on {} from {}; earlier samples kept their parts",
                 of(recording),
                 counted(*added, "sample"),
                 by_count(*added, "was", "were"),
@@ -112,12 +112,12 @@ impl fmt::Display for Note {
             ),
             Note::Copies { copies, of } => write!(
                 f,
-                "{copies} of {of} pictures of the test part are byte for byte in the fit too: {OPTIMISTIC} (taceva check, \
+                "{copies} of {of} pictures of the test part are byte-identical to pictures of the fit: {OPTIMISTIC} (taceva check, \
                  TAC002 and TAC007)"
             ),
             Note::FittedBefore { rows, now } => write!(
                 f,
-                "the model was fitted when the dataset had {rows} of its {now} samples; the parts are those of the dataset as it is now"
+                "the model was fitted when the dataset had {rows} of its {now} samples; the parts are those of the present dataset"
             ),
             Note::LeftOut { part, count } => write!(
                 f,
@@ -134,7 +134,7 @@ impl fmt::Display for Note {
                 write!(
                     f,
                     "shares of all predictions outside the bounds of the model (the range of labels, extended by a quarter on each side): \
-                     {}; a score marked `bounded` gives the share among its own samples; robustness uses predictions as they are, every \
+                     {}; a score marked `bounded` gives the share among its own samples; robustness uses unclipped predictions, every \
                      other score uses clipped predictions",
                     shares.join(", ")
                 )
@@ -169,7 +169,7 @@ impl fmt::Display for Note {
                 }
             }),
             Note::Unbounded => f.write_str(
-                "predictions were not clipped to the bounds of the training labels, as those of other models are",
+                "predictions were scored unclipped; other models are clipped to the bounds of the training labels",
             ),
             Note::States(count) => write!(f, "{} merged", counted(*count, "state")),
             Note::Shards([own, all]) => write!(
@@ -211,7 +211,7 @@ impl fmt::Display for Note {
     }
 }
 
-/// The name of a recording, as the prefix of a note on it.
+/// Name of a recording, as the prefix of a note on it.
 fn of(recording: &Option<String>) -> String {
     recording
         .as_ref()
@@ -250,7 +250,7 @@ fn clusters(
     Ok(())
 }
 
-/// Columns of unit 1, each with a remedy: `Fz_N` may be `Fz`.
+/// Columns of unit 1, each with a remedy: for instance, `Fz_N` may mean `Fz`.
 fn unit_of_one(names: &[String], f: &mut fmt::Formatter<'_>) -> fmt::Result {
     for (at, name) in names.iter().enumerate() {
         let separator = if at == 0 { "" } else { "; " };

@@ -1,4 +1,4 @@
-//! Predictions as CSV tables, in the form that `score` reads.
+//! Predictions as CSV tables, in the format that `score` reads.
 
 use std::io::{self, Write};
 
@@ -9,19 +9,18 @@ use super::Predicted;
 use crate::rows::DISTANCE;
 
 impl Predicted {
-    /// Writes the predictions as `score` reads them: `sample`, one column for each channel, and `distance` if it is known.
+    /// Writes the predictions: `sample`, one column for each channel, and `distance` if known.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// Errors of `out`.
     pub fn write_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
         self.write(&self.prediction, false, self.distance(), out)
     }
 
-    /// Writes the unclipped predictions in the form of [`write_predictions`](Predicted::write_predictions); `score` computes robustness
-    /// from them.
+    /// Writes the unclipped predictions in the format of [`write_predictions`](Predicted::write_predictions). `score` computes robustness from them.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// Errors of `out`.
     pub fn write_unbounded_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
         self.write(&self.unbounded, false, self.distance(), out)
     }
@@ -29,7 +28,7 @@ impl Predicted {
     /// Writes the standard deviation of each prediction: `sample` and one column for each channel. Returns false if the model gives none.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// Errors of `out`.
     pub fn write_deviations(&self, out: &mut dyn Write) -> io::Result<bool> {
         match &self.deviation {
             Some(deviation) => self.write(deviation, false, None, out).map(|()| true),
@@ -41,7 +40,7 @@ impl Predicted {
     /// and the like), and one column for each channel.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// Errors of `out`.
     pub fn write_truth(&self, out: &mut dyn Write) -> io::Result<()> {
         self.write(&self.truth, true, None, out)
     }

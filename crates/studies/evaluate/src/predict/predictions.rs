@@ -16,29 +16,29 @@ pub struct Predicted {
     pub(super) channels: Channels,
     pub(super) ids: Vec<String>,
     pub(super) points: Option<Vec<String>>,
-    /// Other fields of the rows, by the name of their column.
+    /// Other fields of the rows, by column name.
     pub(super) beside: Vec<(&'static str, Vec<Option<String>>)>,
     pub(super) truth: Vec<Column>,
-    /// Within the bounds of the model.
+    /// Clipped to the bounds of the model.
     pub(super) prediction: Vec<Column>,
     /// Not clipped to the bounds of the model.
     pub(super) unbounded: Vec<Column>,
-    /// The standard deviation of each prediction, if the model gives one.
+    /// Standard deviation of each prediction, if the model gives one.
     pub(super) deviation: Option<Vec<Column>>,
-    /// Distance of each picture from the training part of the model, 1 at its limit, if it was requested and the model knows it.
+    /// Distance of each frame from the training part, if requested and known; 1 at the limit.
     pub(super) distance: Option<Vec<f64>>,
     /// True for each prediction beyond the bounds of the model, by channel; `None` for a channel without bounds.
     pub(super) beyond: Vec<Option<Vec<bool>>>,
-    /// The best constant predictions, by channel, as far as the model knows them.
+    /// Best constant predictions by channel, as far as the model knows them.
     pub(super) constants: BTreeMap<String, f64>,
     /// Frames decoded for the predictions.
     pub frames_decoded: u64,
-    /// Rows of the part that could not be predicted.
+    /// Number of rows of the part that could not be predicted.
     pub left_out: usize,
 }
 
 impl Predicted {
-    /// Appends the predictions of `other`, made by another model; the constants are dropped.
+    /// Appends the predictions of `other`, made by another model; drops the constants.
     ///
     /// # Errors
     /// [`EvaluateError::Unsuited`] if the channels differ.
@@ -90,7 +90,7 @@ impl Predicted {
         Ok(self)
     }
 
-    /// The predictions of `rows` sorted by row, in the order of the recording, with the sorted rows.
+    /// Predictions of `rows` sorted by row, in the order of the recording, with the sorted rows.
     pub(crate) fn in_order_of(self, rows: Vec<usize>) -> (Vec<usize>, Predicted) {
         let mut order: Vec<usize> = (0..rows.len()).collect();
         order.sort_by_key(|at| rows[*at]);
@@ -128,7 +128,7 @@ impl Predicted {
         (order.iter().map(|&at| rows[at]).collect(), predicted)
     }
 
-    /// The part of the dataset.
+    /// Name of the part of the dataset.
     pub fn part(&self) -> &'static str {
         self.part.name()
     }
@@ -143,7 +143,7 @@ impl Predicted {
         &self.channels
     }
 
-    /// The shares of predictions that the bounds of the model changed, by channel; `None` if there are none.
+    /// Note on the shares of predictions that the bounds of the model changed, by channel; `None` if there are none.
     pub fn beyond(&self) -> Option<Note> {
         let shares = self.bounded(0..self.rows());
         let channels = self.channels.iter();
@@ -168,7 +168,7 @@ impl Predicted {
         bounded
     }
 
-    /// The best constant predictions, by channel, as far as the model knows them.
+    /// Best constant predictions by channel, as far as the model knows them.
     pub fn constants(&self) -> &BTreeMap<String, f64> {
         &self.constants
     }
@@ -193,12 +193,12 @@ impl Predicted {
         self.deviation.as_deref()
     }
 
-    /// The [distance](taceva_models::FeatureDistance) of each picture from the training part, if [`predict`](super::predict) computed it.
+    /// [Distance](taceva_models::FeatureDistance) of each frame from the training part, if [`predict`](super::predict) computed it.
     pub fn distance(&self) -> Option<&[f64]> {
         self.distance.as_deref()
     }
 
-    /// The contact point of each row, if all rows name one.
+    /// Contact point of each row, if all rows name one.
     pub fn points(&self) -> Option<&[String]> {
         self.points.as_deref()
     }

@@ -1,25 +1,25 @@
-//! Facts about the source of predictions: our model, or one that a caller holds.
+//! Facts of the source of predictions: a built-in model, or a model of the caller.
 
 use std::collections::BTreeMap;
 
 use taceva_core::Channels;
 use taceva_models::{LabelBounds, Model};
 
-/// Facts about the source of predictions.
+/// Facts of the source of predictions.
 #[derive(Debug)]
 pub struct Predictor {
     /// The channels.
     pub channels: Channels,
-    /// Bounds from the learnt labels, as far as known.
+    /// Bounds from the training labels, as far as known.
     pub bounds: LabelBounds,
-    /// The best constant predictions, by channel, as far as known.
+    /// Best constant predictions by channel, as far as known.
     pub constants: BTreeMap<String, f64>,
     /// True if frames are read.
     pub reads_frames: bool,
 }
 
 impl Predictor {
-    /// A fitted model.
+    /// Facts of a fitted model.
     pub fn of(model: &Model) -> Predictor {
         Predictor {
             channels: model.channels().clone(),

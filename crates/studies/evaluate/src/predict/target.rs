@@ -7,7 +7,7 @@ use taceva_models::Model;
 use crate::error::EvaluateError;
 use crate::rows::{DataPart, Divided, Need, require_samples, usable};
 
-/// Rejects a model of one view for the pictures of another: its numbers would look plausible.
+/// Rejects frames of a view other than that of the model. The predictions would look plausible.
 fn check_view(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     let fitted_on = model.card().provenance.view.as_deref();
     match (fitted_on, dataset.view()) {
@@ -20,7 +20,7 @@ fn check_view(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     }
 }
 
-/// The rows to predict, and the division they come from.
+/// Rows to predict, and their division.
 #[derive(Debug)]
 pub struct Target {
     /// The part.
@@ -29,12 +29,12 @@ pub struct Target {
     pub rows: Vec<usize>,
     /// The division, if there is one.
     pub divided: Option<Divided>,
-    /// Rows of the part that lack the input of the model.
+    /// Number of rows of the part that lack the input of the model.
     pub left_out: usize,
 }
 
 impl Target {
-    /// The target of a fitted model; on the dataset it was fitted on, its own split is made again.
+    /// Target of a fitted model. On the dataset of its fit, repeats its own split.
     pub fn new(
         dataset: &Dataset,
         model: &Model,
@@ -46,10 +46,10 @@ impl Target {
         Target::of(dataset, divided, part, model.reads_frames())
     }
 
-    /// The rows of `part` of a division, or of the whole dataset.
+    /// Rows of `part` of a division, or of the whole dataset.
     ///
     /// # Errors
-    /// [`EvaluateError::Request`] for a part without a row.
+    /// [`EvaluateError::Request`] for a part without rows.
     pub fn of(
         dataset: &Dataset,
         divided: Option<Divided>,

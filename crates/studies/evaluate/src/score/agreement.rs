@@ -7,7 +7,7 @@ use super::row_key::{KeyPair, RowKeys, in_words, key_of};
 use crate::error::EvaluateError;
 use crate::note::PairedBy;
 
-/// Fields that name the row or its surroundings, so that both tables must agree on them.
+/// Fields on which both tables must agree: the row and its surroundings.
 const FIELDS: [Field; 7] = [
     Field::Point,
     Field::FrameDigest,
@@ -18,16 +18,16 @@ const FIELDS: [Field; 7] = [
     Field::Phase,
 ];
 
-/// Minimum tolerance of two stamps of one row, s: both may be rounded to milliseconds, none is trusted below a microsecond.
+/// Least tolerance between two stamps of one row, in s. Stamps may be rounded to milliseconds; none is trusted below a microsecond.
 const LEAST_S: f64 = 1e-6;
 
-/// Number of decimals below which a stamp is not treated as rounded.
+/// Number of decimals below which a stamp does not count as rounded.
 const LEAST_DECIMALS: usize = 3;
 
 /// A column of both tables in which paired rows must agree.
 #[derive(Clone, Debug)]
 pub(super) struct Agreement {
-    /// The name in the predictions.
+    /// Column name in the predictions.
     name: String,
     columns: [usize; 2],
     kind: Kind,
@@ -35,15 +35,15 @@ pub(super) struct Agreement {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// A key: the same word, never missing in only one table.
+    /// A key: the same text in both tables; not missing in only one.
     Key,
-    /// A word; an empty cell matches any.
+    /// A text; an empty cell matches any.
     Word,
-    /// A time, s, rounded to the fewer decimals of both.
+    /// A time in s, compared with the smaller number of decimals of both.
     Stamp,
 }
 
-/// The pairing of the rows of two tables, and the columns in which a pair must agree.
+/// Pairing of the rows of two tables, and the columns in which paired rows must agree.
 #[derive(Clone, Debug)]
 pub(super) struct Matching {
     pub(super) by: PairedBy,
@@ -51,7 +51,7 @@ pub(super) struct Matching {
 }
 
 impl Matching {
-    /// Pairs rows with the same key in `by`, or with the same number if it is `None`, for tables with these headers.
+    /// Pairs rows with the same key in `by`, or with the same number if `by` is `None`, for tables with these headers.
     pub(super) fn of(
         [truth, prediction]: [&CsvTable; 2],
         keys: &RowKeys,
@@ -89,10 +89,10 @@ impl Matching {
         })
     }
 
-    /// Rejects the first pair of rows that disagrees in a column of both tables.
+    /// Rejects the first pair of rows that disagrees in a shared column.
     ///
     /// # Errors
-    /// [`EvaluateError::Table`] at the cell of the predictions.
+    /// [`EvaluateError::Table`] with the cell of the predictions.
     pub(super) fn check(
         &self,
         [truth, prediction]: [&CsvTable; 2],
@@ -147,7 +147,7 @@ impl Agreement {
     }
 }
 
-/// True if two stamps may be one time, written with different numbers of decimals. A stamp that is no number is left to its parser.
+/// True if two stamps may be one time written with different numbers of decimals. The parser reports a stamp that is not a number.
 fn is_same_time(one: &str, other: &str) -> bool {
     let (Ok(first), Ok(second)) = (one.parse::<f64>(), other.parse::<f64>()) else {
         return true;
@@ -158,7 +158,7 @@ fn is_same_time(one: &str, other: &str) -> bool {
     };
     let common = decimals(one).min(decimals(other)).max(LEAST_DECIMALS);
     let rounding = 0.5 * 10_f64.powi(-i32::try_from(common).unwrap_or(i32::MAX));
-    // With a margin, since the decimals themselves are rounded to binary.
+    // With a margin, because decimals are rounded to binary.
     (first - second).abs() <= LEAST_S.max(rounding) * (1.0 + 1e-9)
 }
 

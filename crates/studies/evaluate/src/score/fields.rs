@@ -1,4 +1,4 @@
-//! Columns of a table besides the channels: contact point, scene, repeat and the like.
+//! Columns of a table other than channels: contact point, scene, repeat and others.
 
 use taceva_core::{Column, Field, FieldSet, GratingKind, Labels, Nanometre, Phase};
 use taceva_import::CsvTable;
@@ -36,7 +36,7 @@ const OF_EITHER: [Field; 10] = [
     Field::FrameDigest,
 ];
 
-/// The column of the grating spacing: the actual one in the truth, the predicted one in the prediction.
+/// Column of the grating spacing: the actual one in the truth, the predicted one in the predictions.
 const SPACING: &str = "spacing_mm";
 
 /// Location of a field.
@@ -83,10 +83,10 @@ pub(super) fn stated(places: &[Place]) -> FieldSet {
     FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction) | fields.collect()
 }
 
-/// The names in some rows of a column; an empty cell is no name.
+/// Names in some rows of a column; an empty cell is `None`.
 ///
 /// # Errors
-/// [`EvaluateError`] naming the cell if the field has a closed list of names and it is none of them.
+/// [`EvaluateError`] with the cell if the field has a fixed list of names and the name is not in it.
 pub(super) fn labels(
     table: &CsvTable,
     field: Field,
@@ -112,10 +112,10 @@ pub(super) fn labels(
     Ok(labels)
 }
 
-/// The numbers in some rows of a column of counts or spacings; an empty cell is absent.
+/// Numbers in some rows of a column of counts or spacings; an empty cell is absent.
 ///
 /// # Errors
-/// [`EvaluateError`] naming the cell if it is no whole number from 0, or no length.
+/// [`EvaluateError`] with the cell if it is neither a whole number from 0 nor a length.
 pub(super) fn exact_numbers(
     table: &CsvTable,
     field: Field,

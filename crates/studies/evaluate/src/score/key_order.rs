@@ -1,4 +1,4 @@
-//! Order of keys in rows that are read block by block. If the same keys ascend in both tables, rows are paired by their order.
+//! Order of keys in rows that are read block by block. If both tables have the same ascending keys, rows are paired by number.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -7,17 +7,17 @@ use taceva_import::CsvTable;
 use super::key_parts::by_length;
 use super::row_key::{KeyPair, key_of};
 
-/// The keys of both tables in the blocks read so far, in any order of blocks.
+/// Keys of both tables in the blocks read so far; blocks may come in any order.
 #[derive(Debug)]
 pub(super) struct KeyOrder {
-    /// The columns of keys in the truth and in the prediction.
+    /// Key columns in the truth and in the predictions.
     columns: [usize; 2],
-    /// The number of each block read, with its first and last key.
+    /// Number of each block read, with its first and last key.
     ends: Mutex<Vec<(u64, [String; 2])>>,
 }
 
 impl KeyOrder {
-    /// The order of `key` in two tables with these headers; `None` if one of them lacks it.
+    /// Order of `key` in two tables with these headers; `None` if one of them lacks it.
     pub(super) fn of([truth, prediction]: [&CsvTable; 2], key: &KeyPair) -> Option<KeyOrder> {
         Some(KeyOrder {
             columns: [
@@ -48,7 +48,7 @@ impl KeyOrder {
         true
     }
 
-    /// True if the keys of all blocks read ascend from block to block, so that none occurs twice.
+    /// True if the keys of all blocks ascend from block to block, so that none repeats.
     pub(super) fn ascends(self) -> bool {
         let ends = self.ends.into_inner();
         let mut ends = ends.unwrap_or_else(PoisonError::into_inner);
@@ -74,7 +74,7 @@ mod tests {
         }
     }
 
-    /// True if order is kept in blocks that are read in this order.
+    /// True if the order is kept in blocks that are read in this order.
     fn is_kept(blocks: &[(u64, &[&str])]) -> bool {
         let header = table(&[]);
         let order = KeyOrder::of([&header, &header], &id()).expect("keys");

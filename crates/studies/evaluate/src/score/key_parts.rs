@@ -1,4 +1,4 @@
-//! Rows of a shard and their predictions, paired by key.
+//! Pairs the rows of a shard with their predictions by key.
 
 use std::cmp::Ordering;
 use std::collections::HashMap;
@@ -13,9 +13,9 @@ use crate::error::EvaluateError;
 
 /// Location of the predictions for the rows of a shard.
 pub(super) enum Found {
-    /// In the rows of the same numbers.
+    /// In the rows with the same numbers.
     InOrder,
-    /// In this table, row by row from the first of the shard.
+    /// In this table, which begins at the first row of the shard.
     Gathered(CsvTable),
 }
 
@@ -29,11 +29,11 @@ pub(super) struct ByKey<'a> {
 }
 
 impl ByKey<'_> {
-    /// Finds the predictions of the rows in `own`. If the keys of both tables are the same row by row and ascend, only these rows are read.
-    /// Else both tables are scanned, and the predictions of the shard are sorted into its order.
+    /// Finds the predictions of the rows in `own`. If both tables have the same ascending keys, reads only these rows. Otherwise scans both tables
+    /// and sorts the predictions of the shard into its order.
     ///
     /// # Errors
-    /// [`EvaluateError::Tables`] for a key that is empty, occurs twice, or is missing in one of the tables.
+    /// [`EvaluateError::Tables`] for a key that is empty, repeats, or is missing in one of the tables.
     pub(super) fn pair(&self, own: &Range<u64>) -> Result<Found, EvaluateError> {
         let key = self.key;
         let truth = self.truth.reader()?;
@@ -49,7 +49,7 @@ impl ByKey<'_> {
         self.gathered(&rows).map(Found::Gathered)
     }
 
-    /// The keys of the shard, each with its position in it.
+    /// Keys of the shard, each with its position in the shard.
     fn own_keys(
         &self,
         own: &Range<u64>,
@@ -77,7 +77,7 @@ impl ByKey<'_> {
         Ok(wanted)
     }
 
-    /// Rejects a key of the shard that also belongs to another row of the truth.
+    /// Rejects a key of the shard that another row of the truth also has.
     fn check_once(
         &self,
         own: &Range<u64>,
@@ -97,7 +97,7 @@ impl ByKey<'_> {
         Ok(())
     }
 
-    /// For each row of the shard, its row of the prediction.
+    /// Row number of the prediction for each row of the shard.
     fn rows_of_predictions(
         &self,
         wanted: &HashMap<String, usize>,
@@ -135,7 +135,7 @@ impl ByKey<'_> {
             .collect()
     }
 
-    /// True if the keys in `own` are the same in both tables row by row and ascend. The row before counts too, so that none occurs twice.
+    /// True if both tables have the same ascending keys in `own`. Includes the row before, so that no key repeats.
     fn is_in_order(
         &self,
         own: &Range<u64>,
@@ -168,7 +168,7 @@ impl ByKey<'_> {
         Ok(true)
     }
 
-    /// The predictions in these rows, in their order.
+    /// Predictions in these rows, in that order.
     fn gathered(&self, rows: &[u64]) -> Result<CsvTable, EvaluateError> {
         let header = self.reader.header()?;
         let mut positions: Vec<usize> = (0..rows.len()).collect();
@@ -196,7 +196,7 @@ impl ByKey<'_> {
     }
 }
 
-/// Compares by length, then by text: the numeric order of whole numbers, and some fixed order of other words.
+/// Compares by length, then by text: numeric order for whole numbers, a fixed order for other texts.
 pub(super) fn by_length(one: &str, other: &str) -> Ordering {
     one.len().cmp(&other.len()).then_with(|| one.cmp(other))
 }
@@ -205,7 +205,7 @@ fn part_of(row: u64) -> u64 {
     row / CsvParts::ROWS
 }
 
-/// The parts that contain some of these rows.
+/// Parts that contain some of these rows.
 pub(super) fn parts_of(rows: &Range<u64>) -> Range<u64> {
     match rows.is_empty() {
         true => 0..0,

@@ -1,4 +1,4 @@
-//! Columns that are likely a row key under an unknown name: an error asks about them, and they are never scored.
+//! Detection of columns that are probably a row key under an unknown name. Such a column is an error and is never scored.
 
 use std::collections::HashSet;
 
@@ -10,13 +10,13 @@ use super::table_parts::Reader;
 use super::{ScorePlan, ScoreRequest, tables};
 use crate::error::EvaluateError;
 
-/// Number of rows from which equal sets of different whole numbers are unlikely to be chance.
+/// Least number of rows for which equal sets of distinct whole numbers are unlikely to be chance.
 const LEAST_ROWS: u64 = 5;
 
-/// Passes the cells of a column to the visitor until it returns `false`.
+/// Passes the cells of a column to the visitor until the visitor returns `false`.
 type Cells<'a> = dyn Fn(&str, &mut dyn FnMut(&str) -> bool) -> Result<(), EvaluateError> + 'a;
 
-/// Undeclared channels that are not among the six.
+/// Channels other than the six without a declared unit.
 pub(super) fn doubtful<'a>(
     request: &'a ScoreRequest,
     plan: &'a ScorePlan,
@@ -27,10 +27,10 @@ pub(super) fn doubtful<'a>(
     })
 }
 
-/// Rejects tables with a column that is likely a key and would be scored.
+/// Rejects tables with a column that is probably a key and would be scored.
 ///
 /// # Errors
-/// [`EvaluateError::Tables`] naming the column.
+/// [`EvaluateError::Tables`] with the column.
 pub(super) fn check_tables(
     request: &ScoreRequest,
     plan: &ScorePlan,
@@ -50,7 +50,7 @@ pub(super) fn check_tables(
     )
 }
 
-/// The same check for tables that are read in parts.
+/// As [`check_tables`], for tables that are read in parts.
 ///
 /// # Errors
 /// As [`check_tables`].
@@ -123,7 +123,7 @@ fn refused(request: &ScoreRequest, problem: String) -> EvaluateError {
     }
 }
 
-/// The first text of a column whose first cells are not numbers in both tables.
+/// First text of a column, if its first cells are not numbers in both tables.
 fn text_of_both(name: &str, tables: [&Cells<'_>; 2]) -> Result<Option<String>, EvaluateError> {
     let mut found = None;
     for cells in tables {
@@ -133,7 +133,7 @@ fn text_of_both(name: &str, tables: [&Cells<'_>; 2]) -> Result<Option<String>, E
             first.is_none()
         })?;
         match first {
-            // A decimal comma or a stray sign is reported by the number parser.
+            // The number parser reports a decimal comma or a stray sign.
             Some(text) if text.contains(char::is_alphabetic) && text.parse::<f64>().is_err() => {
                 found = Some(text);
             }
@@ -143,7 +143,7 @@ fn text_of_both(name: &str, tables: [&Cells<'_>; 2]) -> Result<Option<String>, E
     Ok(found)
 }
 
-/// True if a column holds the same whole numbers in both tables, each once.
+/// True if a column holds the same distinct whole numbers in both tables.
 fn counts_rows_of_both(name: &str, tables: [&Cells<'_>; 2]) -> Result<bool, EvaluateError> {
     let mut sets = Vec::new();
     for cells in tables {

@@ -1,5 +1,5 @@
-//! Two tables read once, side by side. Memory holds a few thousand rows of each at a time; they stay in the cache of a core while they are
-//! digested, split, parsed and scored.
+//! Reads two tables once, side by side. Memory holds a few thousand rows of each. They stay in the cache of a core while they are digested, split,
+//! parsed and scored.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -21,9 +21,9 @@ use crate::accumulate::{BATCH_ROWS, Rows};
 use crate::error::EvaluateError;
 use crate::row_ledger::Taken;
 
-/// Scores the tables of `request` in one pass, to the same bytes as [`Scoring`](super::Scoring). Returns `None` if that is not possible:
-/// keys that do not ascend alike in both tables, quoted cells, Parquet, columns that may be keys, and every input with an error.
-/// [`Scoring`](super::Scoring) reads the whole first, so its error messages stay the same.
+/// Scores the tables of `request` in one pass, to the same bytes as [`Scoring`](super::Scoring). Returns `None` if that is impossible: keys that do
+/// not ascend alike in both tables, quoted cells, Parquet, possible key columns, and any error. [`Scoring`](super::Scoring) then reads the tables
+/// again and reports the error.
 ///
 /// # Errors
 /// [`EvaluateError`] if `progress` was cancelled.
@@ -95,13 +95,13 @@ struct Pass<'a> {
     matching: &'a Matching,
     request: &'a ScoreRequest,
     allow_invalid: bool,
-    /// The order of keys, if both tables have a key.
+    /// Order of keys, if both tables have a key.
     order: Option<KeyOrder>,
     /// Number of blocks whose reading has begun.
     blocks: AtomicU64,
-    /// Rows that were scored.
+    /// Number of scored rows.
     rows: AtomicU64,
-    /// True once a thread has met a reason to end the pass for all.
+    /// True once a thread has found a reason to end the pass.
     is_over: AtomicBool,
     progress: &'a dyn Progress,
 }
@@ -127,7 +127,7 @@ impl Pass<'_> {
         Ok(has_rows.then_some(total))
     }
 
-    /// Takes batches until there are none; `None` if one cannot be scored.
+    /// Scores batches until the tables end; `None` if one cannot be scored.
     fn batches(&self) -> Result<Option<Evaluator>, EvaluateError> {
         let block = |stream: &Mutex<CsvStream>| lock(stream).block();
         let mut pair = [block(&self.truth), block(&self.prediction)];
@@ -158,16 +158,16 @@ impl Pass<'_> {
         let mut truth = lock(&self.truth);
         let number = self.blocks.fetch_add(1, Ordering::Relaxed);
         truth.read(BATCH_ROWS, of_truth).ok()?;
-        // Locked before the other is released, so that both tables are read in the same order, while another thread reads the first.
+        // Locked before the first lock is released, so that both tables are read in the same order.
         let mut prediction = lock(&self.prediction);
         drop(truth);
         prediction.read(BATCH_ROWS, of_prediction).ok()?;
         (of_truth.rows() == of_prediction.rows()).then_some(number)
     }
 
-    /// Scores a block; returns false if that is not possible.
+    /// Scores a block; returns false if that is impossible.
     fn take(&self, number: u64, tables: [&CsvTable; 2], evaluator: &mut Evaluator) -> bool {
-        // The first block shows whether a column may be a key; the whole tables show whether it is.
+        // The first block shows possible key columns; the whole tables decide.
         if number == 0 && likely_key::check_tables(self.request, self.plan, tables).is_err() {
             return false;
         }
@@ -209,7 +209,7 @@ mod tests {
 
     const ROWS: usize = 2 * BATCH_ROWS + 100;
 
-    /// A table of two channels after the columns `front` with the `cells` of each row; `off` scales its errors.
+    /// A table of two channels after the columns `front`, with the `cells` of each row; `off` scales its errors.
     fn table(front: &str, cells: impl Fn(usize) -> String, off: f64) -> String {
         let mut text = format!("{front}Px,Fz\n");
         for row in 0..ROWS {

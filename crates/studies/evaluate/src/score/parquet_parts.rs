@@ -1,4 +1,4 @@
-//! Rows of a Parquet table as text, part by part: cells as in a CSV file, so that both are parsed and rejected alike.
+//! Rows of a Parquet table as text, part by part. Cells are formatted as in CSV, so that both are parsed and rejected alike.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
@@ -13,7 +13,7 @@ use crate::error::EvaluateError;
 /// First and last bytes of every Parquet file.
 const MARK: &[u8; 4] = b"PAR1";
 
-/// True if the file at `path` begins and ends with the mark of Parquet. False if it cannot be read; the reader then reports the error.
+/// True if the file at `path` begins and ends with the Parquet magic bytes. False if it cannot be read; the reader then reports the error.
 pub(super) fn is_parquet(path: &Path) -> bool {
     if !path.is_file() {
         return false;
@@ -31,7 +31,7 @@ pub(super) fn is_parquet(path: &Path) -> bool {
 /// The given columns of some rows.
 ///
 /// # Errors
-/// [`EvaluateError::Parquet`]; [`EvaluateError::Table`] for more text than is read at once.
+/// [`EvaluateError::Parquet`]; [`EvaluateError::Table`] for more text than fits into one part.
 pub(super) fn read(
     table: &ParquetTable,
     names: &[String],
@@ -53,7 +53,7 @@ pub(super) fn read(
     read.map_err(|error| by_row(error, rows.start).into())
 }
 
-/// Moves an error to its place in the file: a row number, since a Parquet file has no lines.
+/// Replaces the line of an error by a row number, because a Parquet file has no lines.
 pub(super) fn by_row(mut error: ImportError, first: u64) -> ImportError {
     if let ImportError::Table { place, .. } = &mut error
         && let Some(line) = place.line.take()

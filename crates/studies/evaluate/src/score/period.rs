@@ -1,4 +1,4 @@
-//! Periods of angles in tables, as they are written.
+//! Periods of angles in tables.
 
 use std::fmt;
 use std::str::FromStr;
@@ -22,15 +22,15 @@ use taceva_core::Unit;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Period {
     number: f64,
-    /// True for a number of half turns, as in `2pi`.
+    /// True for a multiple of π, as in `2pi`.
     is_of_pi: bool,
 }
 
-/// Greatest difference of a period in radians from whole degrees, degrees: four decimals of radians.
+/// Greatest difference of a period in radians from whole degrees, in degrees. It allows for four decimals.
 const ROUNDED_DEG: f64 = 0.01;
 
 impl Period {
-    /// Unit of a column whose name and caller state none.
+    /// Unit of a column if neither its name nor the caller states one.
     pub(super) fn own_unit(self, name: &str) -> Unit {
         let by_name = [("_rad", Unit::Radian), ("_deg", Unit::Degree)];
         let by_name = by_name.iter().find(|(end, _)| name.ends_with(end));
@@ -41,10 +41,10 @@ impl Period {
         }
     }
 
-    /// Whole degrees of the period of the column `name` in `unit`.
+    /// Period of the column `name` in `unit`, in whole degrees.
     ///
     /// # Errors
-    /// A message with the remedy if the period does not fit the unit, or is no whole number of degrees.
+    /// A message with the remedy if the period does not fit the unit, or is not a whole number of degrees.
     pub fn degrees(self, name: &str, unit: Unit) -> Result<u16, String> {
         let degrees = match (unit, self.is_of_pi) {
             (Unit::Radian, true) => self.number * 180.0,
@@ -84,7 +84,7 @@ impl Period {
 }
 
 impl From<u16> for Period {
-    /// Period of so many degrees, or radians.
+    /// A period of `number` degrees or radians.
     fn from(number: u16) -> Period {
         Period {
             number: f64::from(number),
@@ -96,7 +96,7 @@ impl From<u16> for Period {
 impl FromStr for Period {
     type Err = String;
 
-    /// The period written as `360`, `6.2832`, `2pi` or `pi`.
+    /// Parses `360`, `6.2832`, `2pi` or `pi`.
     fn from_str(text: &str) -> Result<Period, String> {
         let text = text.trim();
         let of_pi = text.strip_suffix("pi").or_else(|| text.strip_suffix('π'));
@@ -111,7 +111,7 @@ impl FromStr for Period {
                 is_of_pi: of_pi.is_some(),
             }),
             _ => Err(format!(
-                "`{}` is no period, expected a number such as 360, or 2pi",
+                "`{}` is not a period, expected a number such as 360, or 2pi",
                 taceva_core::shown(text)
             )),
         }

@@ -15,21 +15,21 @@ pub struct ScoreRequest {
     pub truth: PathBuf,
     /// The table of the predictions.
     pub prediction: PathBuf,
-    /// Units of channels besides the six; others have the unit 1.
+    /// Units of channels other than the six; the default is 1.
     pub units: Vec<(String, Unit)>,
-    /// Periods of angles: values that differ by a period are equal. A channel named only here is in degrees, or in radians by its name (`_rad`)
-    /// or by a multiple of π.
+    /// Periods of angles: values that differ by a period are equal. A channel named only here is in degrees, unless its name ends in `_rad` or its
+    /// period is a multiple of π.
     pub periods: Vec<(String, Period)>,
-    /// The key that pairs rows; `None` to find it by name.
+    /// Key that pairs rows; `None` to find it by name.
     pub key: Option<RowKey>,
-    /// True if samples are independent, so that each is a point of its own in intervals.
+    /// True if samples are independent, so that each counts as one contact point in intervals.
     pub is_independent: bool,
     /// File of sensor facts: footprint, greatest depth, opacity.
     pub sensor: Option<PathBuf>,
-    /// Metrics and groups by name.
+    /// Names of metrics and of groups of metrics.
     pub metrics: Vec<String>,
-    /// True if cells that are not finite numbers are counted instead of rejected.
+    /// True if non-finite cells are counted instead of rejected.
     pub allow_invalid: bool,
-    /// Threads.
+    /// Number of threads.
     pub jobs: NonZeroUsize,
 }

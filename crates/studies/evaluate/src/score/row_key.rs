@@ -1,4 +1,4 @@
-//! Row keys: columns that name rows, by which two tables are paired.
+//! Row keys: columns that identify rows and pair two tables.
 
 use taceva_core::shown;
 use taceva_import::CsvTable;
@@ -6,7 +6,7 @@ use taceva_import::CsvTable;
 use crate::error::EvaluateError;
 use crate::note::PairedBy;
 
-/// Column names of a row key, beginning with the one that this program writes. The empty name is that of an unnamed index.
+/// Column names of a row key; the first is the one that this program writes. The empty name belongs to an unnamed index.
 pub(super) const KEY_NAMES: [&str; 5] = ["sample", "id", "sample_id", "index", ""];
 
 /// Choice of the row key that pairs two tables.
@@ -19,7 +19,7 @@ pub(super) const KEY_NAMES: [&str; 5] = ["sample", "id", "sample_id", "index", "
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RowKey {
-    /// Pairs rows by position and ignores their names.
+    /// Pairs rows by position and ignores keys.
     Order,
     /// Pairs rows with equal cells in the column of this name.
     Column(String),
@@ -34,7 +34,7 @@ impl From<&str> for RowKey {
     }
 }
 
-/// The column of the truth and the column of the predictions with one key.
+/// Key columns of the truth and of the predictions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct KeyPair {
     pub(super) truth: String,
@@ -50,7 +50,7 @@ impl KeyPair {
     }
 }
 
-/// Row keys that two tables share, in the order in which they are tried.
+/// Row keys that two tables share, in the order of trial.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct RowKeys {
     /// Keys that may pair rows; empty if rows are paired by order.
@@ -94,7 +94,7 @@ impl RowKeys {
         let mut pairs: Vec<KeyPair> = shared.map(KeyPair::shared).collect();
         if pairs.is_empty() {
             let first = |table: &CsvTable| names.clone().find(|name| table.has(name));
-            // An unnamed index counts rows of its own file, so it names no row of the other.
+            // An unnamed index counts the rows of its own file, so it identifies no row of the other.
             let crossed = first(truth).zip(first(prediction));
             let crossed = crossed.filter(|(one, other)| !one.is_empty() && !other.is_empty());
             pairs.extend(crossed.map(|(truth, prediction)| KeyPair {
@@ -120,7 +120,7 @@ impl RowKeys {
             .flat_map(|pair| [pair.truth.as_str(), pair.prediction.as_str()])
     }
 
-    /// Columns that must agree in every pair of rows: keys that did not pair them, unless the caller chose the pairing.
+    /// Key columns that must agree in every pair of rows: keys that did not pair them, unless the caller chose the pairing.
     pub(super) fn others(&self, by: Option<&KeyPair>) -> impl Iterator<Item = &KeyPair> {
         let pairs = self.pairs.iter().filter(|_| !self.is_chosen);
         pairs.filter(move |pair| Some(*pair) != by)
@@ -139,7 +139,7 @@ impl RowKeys {
     }
 }
 
-/// Name of a row key in words.
+/// Name of a row key for messages.
 pub(super) fn in_words(name: &str) -> String {
     match name {
         "" => "unnamed column".to_owned(),
@@ -161,7 +161,7 @@ pub(super) fn is_whole(text: &str) -> bool {
     !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
 }
 
-/// The key among `known` that differs from `key` only in blanks and case.
+/// The key among `known` that differs from `key` only in blanks or case.
 pub(super) fn nearly<'a>(key: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let bare = |text: &str| -> String {
         let letters = text.chars().filter(|letter| !letter.is_whitespace());

@@ -1,4 +1,4 @@
-//! Paired rows of both tables, parsed when they are scored: memory never holds a whole column.
+//! Paired rows of both tables, parsed during scoring. Memory never holds a whole column.
 
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ pub(super) struct PairedRows<'a> {
     truth: &'a CsvTable,
     prediction: &'a CsvTable,
     pairing: &'a Pairing,
-    /// The positions of each channel in the truth and in the prediction.
+    /// Column positions of each channel in the truth and in the predictions.
     channels: Vec<[usize; 2]>,
     /// Locations of the fields that metrics read.
     places: Vec<Place>,
@@ -27,7 +27,7 @@ pub(super) struct PairedRows<'a> {
 }
 
 impl<'a> PairedRows<'a> {
-    /// The rows of the truth with those of the prediction by `pairing`, and the columns of both that `plan` reads.
+    /// Pairs the rows of the truth with those of the predictions by `pairing`, with the columns that `plan` reads.
     pub(super) fn new(
         [truth, prediction]: [&'a CsvTable; 2],
         pairing: &'a Pairing,
@@ -68,7 +68,7 @@ impl<'a> PairedRows<'a> {
         }?)
     }
 
-    /// The rows of the truth, each with the values of its row of the prediction.
+    /// Rows of the truth, each with the values of its prediction.
     fn side_by_side(
         &self,
         plan: &MetricPlan,

@@ -1,10 +1,10 @@
-//! A shard: one of several disjoint ranges of rows of two tables.
+//! Shards: disjoint ranges of the rows of two tables.
 
 use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-/// One of several shards of the rows of a table: together they contain each row once, in order.
+/// One of several shards of the rows of a table. Together they contain each row once, in order.
 ///
 /// ```
 /// use taceva_evaluate::Shard;
@@ -21,7 +21,7 @@ pub struct Shard {
     of: u32,
 }
 
-/// Error of text or numbers that are no shard, with the expected form.
+/// Error for an invalid shard, with the expected form.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "`{}`: {problem}, expected K/N with K from 1 to N, such as 1/8",

@@ -1,4 +1,4 @@
-//! Scores of tables of any length, shard by shard: memory holds a part of the rows at a time.
+//! Scores of tables of any length, shard by shard. Memory holds a part of the rows at a time.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -29,7 +29,7 @@ use crate::note::Note;
 use crate::plan::Plan;
 use crate::row_ledger::Taken;
 
-/// Two tables of any length, scanned once for the location of their rows. A stored scan saves other processes from repeating it.
+/// Two tables of any length, scanned once for the positions of their rows. Other processes can use a stored scan.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ScoreTables {
@@ -54,7 +54,7 @@ impl ScoreTables {
     /// Scans both tables of `request`.
     ///
     /// # Errors
-    /// [`EvaluateError`] if a table cannot be read or has no row, or if they have different numbers of rows.
+    /// [`EvaluateError`] if a table cannot be read or has no row, or if the numbers of rows differ.
     pub fn scan(request: &ScoreRequest) -> Result<ScoreTables, EvaluateError> {
         tables::check_distinct(request)?;
         let tables = both(request)?;
@@ -75,7 +75,7 @@ impl ScoreTables {
         }
     }
 
-    /// The same tables, scanned again if a file has changed.
+    /// The same tables; scans them again if a file has changed.
     ///
     /// # Errors
     /// [`EvaluateError::Tables`] if the content of a file has changed.
@@ -86,7 +86,7 @@ impl ScoreTables {
         })
     }
 
-    /// True if the tables of `request` are read in parts: one is Parquet, which then takes less memory, or exceeds the limit of text.
+    /// True if the tables of `request` are read in parts: one is Parquet, or exceeds the text limit.
     pub fn are_in_parts(request: &ScoreRequest) -> bool {
         let is_long = |path: &Path| {
             let facts = fs::metadata(path);
@@ -102,20 +102,20 @@ impl ScoreTables {
         self.truth.rows()
     }
 
-    /// The digests of the truth and of the predictions.
+    /// Digests of the truth and of the predictions.
     pub fn digests(&self) -> [Digest; 2] {
         [self.truth.digest(), self.prediction.digest()]
     }
 
-    /// Checks everything that is known without reading cells: channels, units, metrics and the sensor.
+    /// Checks channels, units, metrics and the sensor. Reads no cells.
     ///
     /// # Errors
-    /// [`EvaluateError`].
+    /// [`EvaluateError`] for the first failed check.
     pub fn check(&self, request: &ScoreRequest) -> Result<(), EvaluateError> {
         self.understood(request).map(drop)
     }
 
-    /// The steps of [`score`](ScoreTables::score).
+    /// Steps of [`score`](ScoreTables::score).
     ///
     /// # Errors
     /// As [`check`](ScoreTables::check).
@@ -157,10 +157,10 @@ impl ScoreTables {
         Ok(plan)
     }
 
-    /// Scores the rows of `shard`. The states of all shards merge to the scores, and to the state, of all rows at once.
+    /// Scores the rows of `shard`. The states of all shards merge to the same scores and state as one run over all rows.
     ///
     /// # Errors
-    /// [`EvaluateError`] at the first non-finite cell, unless allowed; for a key that occurs twice or is missing in one table.
+    /// [`EvaluateError`] at the first non-finite cell, unless allowed; for a key that repeats or is missing in one table.
     pub fn score(
         &self,
         request: &ScoreRequest,
@@ -205,7 +205,7 @@ impl ScoreTables {
         let [truth, prediction] = [self.truth.reader()?, self.prediction.reader()?];
         let predicted = prediction.header()?;
         let is_six = |name: &str| Channel::SIX.iter().any(|channel| channel.name() == name);
-        // Columns that are neither channels nor known fields are not read: pictures, for instance.
+        // Columns that are neither channels nor known fields, such as frames, are not read.
         let is_key = |name: &str| {
             let chosen = matches!(&request.key, Some(RowKey::Column(key)) if key == name);
             chosen || KEY_NAMES.contains(&name)
@@ -227,7 +227,7 @@ impl ScoreTables {
         })
     }
 
-    /// The predictions of the rows in `own`, by the first key that pairs them.
+    /// Predictions of the rows in `own`, by the first key that pairs them.
     fn paired(
         &self,
         understood: &Understood<'_>,
@@ -274,7 +274,7 @@ impl ScoreTables {
         progress: &dyn Progress,
     ) -> Result<Evaluator, EvaluateError> {
         let parts: Vec<u64> = parts_of(own).collect();
-        // Each thread takes consecutive parts; sums are exact, so the number of threads does not matter.
+        // Each thread reads consecutive parts. Sums are exact, so the number of threads does not matter.
         let work = Work {
             understood,
             own,

@@ -14,7 +14,7 @@ use taceva_tables::ParquetTable;
 use super::parquet_parts;
 use crate::error::EvaluateError;
 
-/// A table of any length: the location of its rows, and the digest of its content.
+/// A table of any length: the positions of its rows, and the digest of its content.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TableParts {
@@ -22,11 +22,11 @@ pub(super) struct TableParts {
     stamp: Stamp,
     digest: Digest,
     rows: u64,
-    /// Location of rows in a CSV file; a Parquet file records its own.
+    /// Row positions in a CSV file; a Parquet file stores its own.
     csv: Option<CsvParts>,
 }
 
-/// Identity of a scanned file: its length and its time of change.
+/// Identity of a scanned file: its length and modification time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Stamp {
@@ -39,11 +39,11 @@ impl TableParts {
     /// Scans the file at `path` once.
     ///
     /// # Errors
-    /// [`EvaluateError`] if it is no table, or cannot be read.
+    /// [`EvaluateError`] if it is not a table, or cannot be read.
     pub(super) fn scan(path: &Path) -> Result<TableParts, EvaluateError> {
         let io = |error| read_error(path, error);
         if !parquet_parts::is_parquet(path) {
-            // Taken before the pass, so that a change during it is noticed later.
+            // Recorded before the pass, so that a change during it is detected later.
             let stamp = Stamp::of(path);
             let parts = CsvParts::scan(path)?;
             return Ok(TableParts {
@@ -65,7 +65,7 @@ impl TableParts {
         })
     }
 
-    /// The same table, scanned again if its file has changed.
+    /// The same table; scans it again if its file has changed.
     ///
     /// # Errors
     /// [`EvaluateError::Tables`] if its content has changed.
@@ -99,7 +99,7 @@ impl TableParts {
         self.rows
     }
 
-    /// A reader of the table.
+    /// Reader of the table.
     ///
     /// # Errors
     /// [`EvaluateError`] if it cannot be opened.
@@ -127,7 +127,7 @@ impl Stamp {
     }
 }
 
-/// Reader of parts of a table; of a Parquet table it reads only the wanted columns.
+/// Reader of parts of a table; reads only the selected columns of a Parquet table.
 #[derive(Debug)]
 pub(super) enum Reader<'a> {
     Csv(&'a CsvParts),
@@ -143,7 +143,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The same reader; of a Parquet table it reads only the columns that `is_wanted` selects, which saves time.
+    /// The same reader, which reads only the columns of a Parquet table that `is_wanted` selects. This saves time.
     pub(super) fn with_columns(self, is_wanted: impl Fn(&str) -> bool) -> Self {
         match self {
             Reader::Parquet(table, mut names) => {
@@ -154,7 +154,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The rows of a part, [`CsvParts::ROWS`] each.
+    /// Rows of a part, [`CsvParts::ROWS`] each.
     pub(super) fn read(&self, part: u64) -> Result<CsvTable, EvaluateError> {
         match self {
             Reader::Csv(parts) => Ok(parts.read(usize::try_from(part).unwrap_or(usize::MAX))?),

@@ -59,10 +59,10 @@ pub(super) fn both_at_once<T: Send>(
     Ok([next()?, next()?])
 }
 
-/// Rejects one file as both truth and prediction: every error would be 0, without meaning.
+/// Rejects the same file as both truth and prediction, because every error would be 0.
 ///
 /// # Errors
-/// [`EvaluateError::Request`].
+/// [`EvaluateError::Request`] for the same file.
 pub(super) fn check_distinct(request: &ScoreRequest) -> Result<(), EvaluateError> {
     let [truth, prediction] =
         [&request.truth, &request.prediction].map(|path| path.canonicalize().ok());
@@ -79,15 +79,15 @@ pub(super) fn check_distinct(request: &ScoreRequest) -> Result<(), EvaluateError
 /// Rejects a table without rows.
 ///
 /// # Errors
-/// [`EvaluateError::Tables`].
+/// [`EvaluateError::Tables`] for a table without rows.
 pub(super) fn check_rows(table: &CsvTable) -> Result<(), EvaluateError> {
     check_some(table.path(), table.rows() as u64)
 }
 
-/// The same check for a table that is read in parts.
+/// As [`check_rows`], for a table that is read in parts.
 ///
 /// # Errors
-/// [`EvaluateError::Tables`].
+/// [`EvaluateError::Tables`] for a table without rows.
 pub(super) fn check_some(path: &Path, rows: u64) -> Result<(), EvaluateError> {
     match rows {
         0 => Err(EvaluateError::Tables {
@@ -98,13 +98,13 @@ pub(super) fn check_some(path: &Path, rows: u64) -> Result<(), EvaluateError> {
     }
 }
 
-/// The common name of both tables: their digests, separated by a space.
+/// Common name of both tables: their digests, separated by a space.
 pub(super) fn input_of(digests: &BTreeMap<String, String>) -> String {
     let digests: Vec<&str> = digests.values().map(String::as_str).collect();
     digests.join(" ")
 }
 
-/// The channels of the prediction. The truth must have each of them, and none of the six that the prediction lacks.
+/// Channels of the predictions. The truth must have each of them, and none of the six that the predictions lack.
 pub(super) fn channels(
     truth: &CsvTable,
     prediction: &CsvTable,
@@ -117,7 +117,7 @@ pub(super) fn channels(
             || KEY_NAMES.contains(&name)
             || keys.names().any(|key| key == name)
     };
-    // Distances that `predict` writes are no predictions, unless the truth has such a column.
+    // Distances that `predict` writes are not predictions, unless the truth has such a column.
     let is_distance = |name: &str| name == DISTANCE && !truth.has(name);
     let is_channel =
         |name: &&String| is_declared(request, name) || !(is_beside(name) || is_distance(name));
@@ -176,7 +176,7 @@ pub(super) fn channels(
     Channels::new(found).map_err(|error| wrong(prediction, error.to_string()))
 }
 
-/// Note on those of `channels` that have unit 1 because nobody states another.
+/// Note on the `channels` with unit 1 because no unit is stated.
 pub(super) fn unit_of_one(request: &ScoreRequest, channels: &Channels) -> Option<Note> {
     let is_six = |name: &str| Channel::SIX.iter().any(|channel| channel.name() == name);
     let names = channels.iter().map(Channel::name);
@@ -192,10 +192,10 @@ pub(super) fn is_declared(request: &ScoreRequest, name: &str) -> bool {
     units.chain(periods).any(|known| known == name)
 }
 
-/// Pairs the rows by the first of `keys` that pairs them all, else by order; returns the key.
+/// Pairs the rows by the first of `keys` that pairs all of them, else by order; returns that key.
 ///
 /// # Errors
-/// [`EvaluateError::Tables`] for a key that is empty, occurs twice, or is in one table only; without a key, for different numbers of rows.
+/// [`EvaluateError::Tables`] for a key that is empty, repeats, or is in only one table; without a key, for different numbers of rows.
 pub(super) fn pair<'a>(
     truth: &CsvTable,
     prediction: &CsvTable,
@@ -227,7 +227,7 @@ pub(super) fn pair<'a>(
     Ok((Pairing::ByOrder, None))
 }
 
-/// The keys of all rows; each is a non-empty word and occurs once.
+/// Row number of each key; a key is a non-empty text and occurs once.
 fn rows_by_key<'a>(
     table: &'a CsvTable,
     name: &str,
@@ -253,7 +253,7 @@ fn rows_by_key<'a>(
     Ok(rows)
 }
 
-/// The error for a row whose key is empty.
+/// Error for a row with an empty key.
 ///
 /// # Errors
 /// [`EvaluateError::Table`] if the table has no column called `name`.
@@ -266,7 +266,7 @@ pub(super) fn without_key(
     Ok(table.refuse(row, table.position(name)?, expected).into())
 }
 
-/// Message for a key that occurs twice, with the lines of both rows if known.
+/// Message for a repeated key, with the lines of both rows if known.
 pub(super) fn comes_twice(name: &str, key: &str, places: Option<[Place; 2]>) -> String {
     let lines = places.and_then(|[first, second]| Some([first.line?, second.line?]));
     let lines = lines.map_or_else(String::new, |[first, second]| {
@@ -279,7 +279,7 @@ pub(super) fn comes_twice(name: &str, key: &str, places: Option<[Place; 2]>) -> 
     )
 }
 
-/// Message for a key that one table has and the other lacks.
+/// Message for a key that only one table has.
 pub(super) fn is_lacking<'a>(
     name: &str,
     key: &str,

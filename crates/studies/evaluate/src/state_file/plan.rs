@@ -17,7 +17,7 @@ use crate::error::EvaluateError;
 pub(crate) struct WrittenPlan {
     metrics: Vec<String>,
     channels: Vec<(String, Unit)>,
-    /// Period of the values of each channel, degrees.
+    /// Period of the values of each channel, in degrees.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     periods: BTreeMap<String, u16>,
     fields: Vec<String>,
@@ -32,10 +32,10 @@ pub(crate) struct WrittenPlan {
     gate_n: f64,
     smoothing_window: u32,
     resolution_tolerance_nm: i64,
-    /// The constants that skill is measured against, by channel, if they are known and the same in all states.
+    /// Constant predictions for the skill by channel, if they are known and equal in all states.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub(crate) constants: BTreeMap<String, f64>,
-    /// True if recordings, not contact points, are the clusters of intervals.
+    /// True if recordings, instead of contact points, are the clusters of intervals.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     by_recording: bool,
     /// True if groups of samples, such as blocks of time, are the clusters.
@@ -97,7 +97,7 @@ impl WrittenPlan {
         }
     }
 
-    /// True if states of both plans merge. The constants of skill may differ, because they enter when scores are finished.
+    /// True if states of both plans can be merged. The constants for the skill may differ, because they are used only at the end.
     pub(crate) fn merges_with(&self, other: &WrittenPlan) -> bool {
         let without = |plan: &WrittenPlan| WrittenPlan {
             constants: BTreeMap::new(),

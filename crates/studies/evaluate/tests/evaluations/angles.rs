@@ -1,4 +1,4 @@
-//! Angles that begin again, rotations and zeros, from the map to the report.
+//! Periodic angles, rotations and zeros, from the map to the report.
 
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;
@@ -12,7 +12,7 @@ use taceva_models::{ModelSettings, Models};
 
 use crate::taxels::WORK;
 
-/// Presses by a tip that points all around: taxels see the direction, and the force beside 0.5 N of a zero.
+/// Presses with a tip at all angles: the taxels sense the direction, and the force plus a zero offset of 0.5 N.
 fn table() -> String {
     let mut text = "a,b,c,d,yaw,rx,ry,rz,fz\n".to_owned();
     for number in 0..240_u32 {

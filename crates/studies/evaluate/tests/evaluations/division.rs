@@ -20,7 +20,7 @@ use taceva_models::{ModelSettings, Models};
 use crate::taxel_drawing::Draws;
 use crate::taxels::WORK;
 
-/// Row of a drawn recording.
+/// Row of a synthetic recording.
 struct Row {
     time_s: Option<f64>,
     force: f64,
@@ -82,7 +82,7 @@ fn walks() -> Vec<Row> {
     (0..table.rows()).map(row).collect()
 }
 
-/// `count` presses of independent forces, which the taxels know but for some noise.
+/// `count` presses of independent forces; the taxels sense the force with some noise.
 fn presses(count: usize) -> Vec<Row> {
     let mut draws = Draws(5);
     let mut row = |_| {
@@ -299,7 +299,7 @@ fn fewer_groups_than_folds_and_parts_of_folds_are_refused() {
     let near = refused("by-column:unit_ld", None);
     assert!(near.contains("did you mean `unit_id`?"), "{near}");
     assert!(refused("random 35/20/10", None).contains("adds up to 65"));
-    // A part is asked of one division, which is the default then.
+    // A part belongs to one division, which is then the default.
     let request = EvaluateRequest {
         part: Some(DataPart::Test),
         ..request("ridge", None)

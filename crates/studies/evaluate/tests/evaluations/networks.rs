@@ -12,7 +12,7 @@ use taceva_models::{ModelSettings, Models};
 use crate::taxel_drawing::{Draws, record};
 use crate::taxels::{WORK, evaluated, r2_of, request};
 
-/// A skin of 8 × 8 pressures, on which a bump of 1 kPa a newton stands at any place.
+/// A skin of 8 × 8 pressure taxels; each sample has a pressure bump of 1 kPa/N at some place.
 fn pressed(path: &std::path::Path) -> Dataset {
     let info = SignalInfo::new(8, 8, 1, Unit::Kilopascal).expect("sixty-four");
     let facts = RecordingFacts::new(

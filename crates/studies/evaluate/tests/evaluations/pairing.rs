@@ -43,7 +43,7 @@ impl Tables {
         self
     }
 
-    /// The same rows in Parquet files, every cell as text but those of `Fz`.
+    /// The same rows in Parquet files, every cell as text except those of `Fz`.
     fn in_parquet(mut self) -> Tables {
         for path in [&mut self.request.truth, &mut self.request.prediction] {
             let to = self.folder.path().join(path.with_extension("parquet"));
@@ -53,7 +53,7 @@ impl Tables {
         self
     }
 
-    /// The scores by every way of reading that takes these tables; they agree, and the last one is returned.
+    /// Scores by every way of reading that accepts these tables. All agree, and the last one is returned.
     fn scored(&self) -> Scored {
         let whole = Scoring::read(self.request.clone()).expect("tables");
         let whole = whole.run(&SilentProgress).expect("scored");
@@ -68,7 +68,7 @@ impl Tables {
         whole
     }
 
-    /// The refusal, which is the same for tables in memory and in parts.
+    /// Error message, which is the same for tables in memory and in parts.
     fn refused(&self) -> String {
         let whole = Scoring::read(self.request.clone())
             .and_then(|tables| tables.run(&SilentProgress))
@@ -106,7 +106,7 @@ fn write_parquet(path: &Path, text: &str) {
     writer.finish().expect("written");
 }
 
-/// `rows` rows under `header`, each the cells that `cells` gives for its number, in the order of `numbers`.
+/// Rows under `header` in the order of `numbers`; `cells` gives the cells of a row number.
 fn table(header: &str, numbers: &[u32], cells: impl Fn(u32) -> String) -> String {
     let mut text = format!("{header}\n");
     for number in numbers {
@@ -118,7 +118,7 @@ fn table(header: &str, numbers: &[u32], cells: impl Fn(u32) -> String) -> String
 const ORDER: [u32; 7] = [0, 1, 2, 3, 4, 5, 6];
 const SHUFFLED: [u32; 7] = [4, 2, 6, 0, 5, 1, 3];
 
-/// The error of every prediction that is paired rightly, in N.
+/// Error of every correctly paired prediction, in N.
 const ERROR: f64 = 0.25;
 
 fn truth_of(number: u32) -> f64 {
@@ -134,7 +134,7 @@ fn notes(scored: &Scored) -> String {
     scored.report.provenance.notes.join("\n")
 }
 
-/// Truth in order and predictions shuffled, each with `key` before its force.
+/// Truth in order and shuffled predictions, each with `key` before its force.
 fn keyed(names: [&str; 2], key: impl Fn(u32) -> [String; 2]) -> Tables {
     let truth = table(&format!("{},Fz", names[0]), &ORDER, |number| {
         format!("{},{}", key(number)[0], truth_of(number))
@@ -294,7 +294,7 @@ fn rows_that_disagree_in_time_point_or_picture_are_refused() {
         );
         assert!(error.contains("paired by order"), "{error}");
     }
-    // Times that one of both rounds, and names that one of both leaves out, are no contradiction.
+    // Rounded times and names that one table lacks are no contradiction.
     let rounded = Tables::new("t_s,Fz\n0.3333333,1\n0.5,2\n", "t_s,Fz\n0.333,1\n,2\n");
     assert_eq!(mae(&rounded.scored()).to_bits(), 0.0_f64.to_bits());
 }
@@ -326,7 +326,7 @@ fn a_column_of_whole_numbers_that_names_rows_is_asked_about_and_never_scored() {
             .score("mae", "frame_number")
             .is_some()
     );
-    // Counts that are predicted repeat, or are not the same: they are scored as ever.
+    // Predicted counts repeat, or differ from the truth: they are scored as channels.
     let counts = Tables::new(
         "Fz,fingers\n0,1\n1,2\n2,2\n3,1\n4,3\n",
         "Fz,fingers\n0,1\n1,2\n2,2\n3,1\n4,3\n",

@@ -1,4 +1,4 @@
-"""What scikit-learn says of the recording that `drawn.rs` draws: the numbers that stand in `main.rs`.
+"""Computes the scikit-learn scores in `taxels.rs` for the synthetic recording of `taxel_drawing.rs`.
 
 Run it with scikit-learn and numpy; it prints the R² of each model on the last fifth, fitted on the first four fifths.
 """
@@ -34,7 +34,7 @@ def recording():
             values.append(300.0 + line + bend + noise)
         forces.append(force)
         signals.append(values)
-    # Kept in single precision, computed with in double.
+    # Stored in single precision, computed in double precision.
     return numpy.array(forces), numpy.array(signals, dtype=numpy.float32).astype(float)
 
 
@@ -42,7 +42,7 @@ forces, signals = recording()
 learnt = ROWS * 4 // 5
 print("numpy", numpy.__version__, "scikit-learn", sklearn.__version__)
 for strength in [1e-3, 1.0]:
-    # Of standardised features the mean eigenvalue of the Gram matrix is the number of samples.
+    # For standardised features, the mean eigenvalue of the Gram matrix is the number of samples.
     model = make_pipeline(StandardScaler(), Ridge(alpha=strength * learnt, solver="cholesky"))
     model.fit(signals[:learnt], forces[:learnt])
     least, greatest = forces[:learnt].min(), forces[:learnt].max()

@@ -1,4 +1,4 @@
-//! A drawn recording of taxels: the same numbers, to the last bit, as `reference.py` draws.
+//! A synthetic recording of taxels, identical to the last bit to the output of `reference.py`.
 
 use std::path::Path;
 
@@ -9,9 +9,9 @@ use taceva_dataset::{
     Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, SignalsSpec, Source,
 };
 
-/// Rows of places, places a row and numbers a place: as many as the magnetometers of eFlesh.
+/// Rows of taxels, taxels in a row and values of a taxel, as in the magnetometers of eFlesh.
 pub(crate) const GRID: [u32; 3] = [5, 1, 3];
-/// Rows that are drawn without contact.
+/// Number of rows without contact.
 pub(crate) const REST: u32 = 40;
 
 /// Numbers from −1 to 1: the upper half of a linear congruential sequence.
@@ -28,7 +28,7 @@ impl Draws {
     }
 }
 
-/// A force in N and what fifteen numbers in µT say of it: each its own straight line and parabola on an offset, with noise.
+/// A force in N and fifteen signals in µT. Each signal is its own quadratic function of the force plus an offset and noise.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "signals are kept in single precision"
@@ -46,12 +46,12 @@ pub(crate) fn sample(row: u32, draws: &mut Draws) -> (f64, Vec<f32>) {
     (force, values.collect())
 }
 
-/// `rows` samples in the folder `path`, a hundredth of a second apart, recorded some hundreds at once.
+/// Records `rows` samples in the folder `path`, 0.01 s apart, in batches of several hundred.
 pub(crate) fn record(path: &Path, rows: u32) -> Dataset {
     record_changed(path, rows, |_, values| values)
 }
 
-/// The same, its numbers changed on the way.
+/// As [`record`], with changed numbers.
 pub(crate) fn record_changed(
     path: &Path,
     rows: u32,

@@ -72,7 +72,7 @@ fn ridge_scores_what_scikit_learn_scores() {
             (found - expected).abs() < 1e-9,
             "{word}: {found} for {expected}"
         );
-        // Less what they say at rest they say the same.
+        // Subtracting the signals at rest does not change the result.
         let found = evaluated(&dataset, "ridge", &[word, "difference=true"]).expect("evaluated");
         assert!(
             (r2(&found) - expected).abs() < 1e-6,
@@ -137,7 +137,7 @@ fn a_model_of_signals_says_what_it_is_of_and_refuses_other_grids() {
         text.contains(r#"\"signals\":{\"rows\":5,\"columns\":1,\"channels\":3,\"unit\":\"uT\"}"#),
         "{text}"
     );
-    // Force drives all three axes: the numbers of each are divided by the power of two next to their spread, some tens of µT.
+    // Force drives all three axes. The signals of each are divided by the power of two nearest to their spread, some tens of µT.
     let spread = model.card().spread.clone().expect("of signals");
     assert!(
         spread
@@ -210,7 +210,7 @@ fn a_signal_that_never_changes_harms_no_model() {
     assert!(r2(&found) > 0.99);
 }
 
-/// Two counts without any of the other grid.
+/// A recording with another grid of taxels: two signals in counts.
 fn another_grid(path: &std::path::Path) -> Dataset {
     use taceva_core::{Channel, Channels, Clock, Readings, Sample, SignalInfo, Signals, Unit};
     use taceva_dataset::{

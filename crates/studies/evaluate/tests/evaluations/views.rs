@@ -1,4 +1,4 @@
-//! A gripper of two fingers, each of which sees a part of the force: models of one finger and of both side by side.
+//! A gripper of two fingers, each of which measures a part of the force: models of one finger and of both side by side.
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -16,12 +16,12 @@ use crate::taxels::{WORK, evaluated, of, r2, request};
 const ROWS: u32 = 90;
 const SIDE: u32 = 16;
 
-/// Forces that the fingers feel, two numbers from 0 to 1 that say nothing of each other.
+/// Forces on the two fingers: two independent numbers from 0 to 1.
 fn felt(row: u32) -> [f64; 2] {
     [row * 37 % 64, row * 53 % 61].map(|number| f64::from(number) / 64.0)
 }
 
-/// Gray pictures whose middle is as bright as the force that the finger feels.
+/// Gray frames whose middle is as bright as the force on the finger.
 fn pictures(finger: usize) -> Vec<u8> {
     let header = format!(
         "{{'descr': '|u1', 'fortran_order': False, 'shape': ({ROWS}, {SIDE}, {SIDE}), }}\n"
@@ -51,7 +51,7 @@ fn pictures(finger: usize) -> Vec<u8> {
     bytes
 }
 
-/// The recording of a gripper whose force is what both fingers feel.
+/// Recording of a gripper whose force is the sum over both fingers.
 fn gripper(folder: &Path) -> Dataset {
     let lab = folder.join("lab");
     std::fs::create_dir(&lab).expect("made");
@@ -122,7 +122,7 @@ fn a_view_that_nobody_named_is_asked_for_with_those_that_there_are() {
     asked(
         evaluate_plan(&dataset, &of(ModelChoice::Fit(request("ridge", &[])))).expect_err("which"),
     );
-    // A constant looks at nothing.
+    // A constant model reads no frame.
     evaluated(&dataset, "baseline", &[]).expect("no picture is read");
 }
 
@@ -141,7 +141,7 @@ fn a_model_keeps_its_view_and_predicts_no_other() {
     let model = Models::builtin().open(&path).expect("a model");
     assert_eq!(model.card().provenance.view.as_deref(), Some("right"));
     let own = predict(&seen(&dataset, "right"), &model, None, WORK).expect("predicted");
-    // On its own recording it is the part that the model has not seen.
+    // On its own recording, the default part is the one that the model has not seen.
     assert_eq!((own.part(), own.rows()), ("test", 18));
     for view in ["left", "left+right"] {
         let problem = predict(&seen(&dataset, view), &model, None, WORK).expect_err(view);

@@ -6,25 +6,25 @@ use crate::scene::{Scene, Study};
 use crate::source::RigInfo;
 use crate::text::{SceneError, SceneProblem};
 
-/// Allowance for the signals of a rig. [`Default`] is the allowance for signals without noise.
+/// Noise and timing of the signals of a rig. [`Default`] is for signals without noise.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Signals {
-    /// Noise of the reported pose: one standard deviation an axis, in mm.
+    /// Noise of the reported pose: one standard deviation per axis, in mm.
     pub pose_noise_mm: f64,
     /// Noise of the force at rest: one standard deviation, in N; 0 if none is stated.
     pub force_noise_n: f64,
     /// Greatest age of a reading that counts as current, in s.
     pub stale_s: f64,
     /// True if bit-equal readings after a motion mean a frozen signal, even with new sequence numbers. False if the steps of the transducer are as
-    /// coarse as its noise. Then only a repeated sequence number means a frozen signal.
+    /// coarse as its noise; then only a repeated sequence number means a frozen signal.
     pub equality_is_frozen: bool,
-    /// True if the host zeroes the force by a mean over a quarter of a second. The zero of the transducer is then set once a session.
+    /// True if the host zeroes the force by a mean over 0.25 s. The transducer then sets its own zero only once a session.
     pub host_zero: bool,
 }
 
-/// Least allowed age of a reading, in s: three periods of a transducer of 60 Hz.
+/// Least allowed age of a reading, in s: three periods of a 60 Hz transducer.
 pub const STALE_S: f64 = 0.05;
-/// Readings that a slower transducer may miss in a row.
+/// Number of readings that a slower transducer may miss in a row.
 const STALE_READINGS: f64 = 3.0;
 /// Greatest travel of the tip in contact while readings grow stale, in mm.
 const BLIND_MM: f64 = 0.25;
@@ -47,12 +47,12 @@ impl Signals {
         *self == Signals::default()
     }
 
-    /// Tolerance of a reported pose along each axis, in mm: a pose this close to its target has arrived.
+    /// Tolerance of a reported pose along each axis, in mm. A pose this close to its target has arrived.
     pub(crate) fn slack_mm(&self) -> f64 {
         3.0 * self.pose_noise_mm
     }
 
-    /// Least force out of contact that noise does not explain, in N.
+    /// Least force out of contact that exceeds the noise, in N.
     pub(crate) fn air_n(&self) -> f64 {
         5.0 * self.force_noise_n
     }
@@ -72,7 +72,7 @@ impl Signals {
         if let Some((descriptor, facts)) = force {
             signals.force_noise_n = facts.noise.map_or(0.0, |noise| noise.0);
             signals.stale_s = stale_s(facts);
-            // A transducer that states no resolution counts as fine: a superfluous halt is harmless.
+            // A transducer without a stated resolution counts as fine; an unnecessary halt is harmless.
             signals.equality_is_frozen = facts.seldom_repeats();
             signals.host_zero = descriptor.source() == DriverSource::Real;
             let who = || format!("the force transducer `{}`", descriptor.key());
@@ -102,9 +102,9 @@ impl Signals {
     }
 }
 
-/// Rejects a rig with two clocks: that of a simulated bench and that of the machine.
+/// Rejects a rig with two clocks: the clock of a simulated bench and the clock of the machine.
 ///
-/// A real sensor may join a bench: its frames are stamped on arrival, and its recording is simulated.
+/// A real sensor may join a bench. Its frames are then stamped on arrival, and the recording counts as simulated.
 fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneError> {
     let is_simulated = |device: &Descriptor| device.source() == DriverSource::Simulated;
     let Some(robot) = &rig.robot else {
@@ -129,13 +129,13 @@ fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneErr
     Err(study.device_text(scene).error(at, problem))
 }
 
-/// Longest time from a passed limit to a tip at rest, in ms: one period of the transducer, latency of the link, sending of the halt, and
-/// the stop time of the arm.
+/// Longest time from an exceeded limit to a tip at rest, in ms: one period of the transducer, latency of the link, sending of the halt, and stop time
+/// of the arm.
 const HALT_MS: f64 = 50.0;
-/// Share of link and sending in [`HALT_MS`], in ms.
+/// Part of [`HALT_MS`] for link and sending, in ms.
 const SEND_MS: f64 = 2.0;
 
-/// Rejects a robot whose stop time leaves no time for a guard.
+/// Rejects a robot whose stop time is too long for a guard.
 fn stops_in_time(
     scene: &Scene,
     study: &Study,
@@ -164,7 +164,7 @@ fn stops_in_time(
     Err(study.device_text(scene).error(at, problem))
 }
 
-/// Pose noise as stated. Else a real arm has its repeatability as noise, a simulated one none.
+/// Stated pose noise. By default the repeatability of a real arm, and zero for a simulated one.
 fn pose_noise_mm(robot: &Descriptor) -> f64 {
     let Some(facts) = robot.robot() else {
         return 0.0;

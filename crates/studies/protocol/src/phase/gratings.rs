@@ -1,4 +1,4 @@
-//! Boards of every spacing, each pressed many times at the centre, each time at another angle.
+//! Boards of every spacing, each pressed many times at the centre at different angles.
 
 use taceva_core::{Nanometre, Specimen};
 
@@ -7,15 +7,15 @@ use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press};
 use crate::scene::spacings;
 
-/// Half a turn, in thousandths of a degree: lines and dots look the same after it.
+/// Half a turn, in thousandths of a degree. Lines and dots look the same after it.
 const HALF_TURN: i64 = 180_000;
 
-/// Presses board by board, since boards are changed by hand.
+/// Presses board by board, because boards are changed by hand.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::Gratings);
     let spec = &inputs.protocol.gratings;
     let Ok(spacings) = spacings(spec) else {
-        // Rejected when the scene was read.
+        // Parsing has rejected such gratings.
         return Vec::new();
     };
     let depth = fraction_of(inputs.depth_max, spec.depth_fraction.value);
@@ -36,7 +36,7 @@ pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
                 Press {
                     specimen,
                     turn_millidegrees,
-                    // Presses at equal angles remain different presses.
+                    // Presses at equal angles must still have different ids.
                     repeat: Some(press),
                     ..inputs.press([Nanometre(0); 2], Motion::Indent(vec![straight(depth)]))
                 }

@@ -1,9 +1,9 @@
-//! The first held-out presses, repeated in every scene of light; in that of calibration they are the held-out presses themselves.
+//! First held-out presses, repeated in every light scene. In the light scene of calibration, they are the held-out presses themselves.
 
 use super::{PhaseInputs, spatial};
 use crate::press::Press;
 
-/// Presses scene by scene, since a light needs time to settle; empty if the light cannot be set.
+/// Presses for each light scene in turn, because a light needs time to settle; empty if the light cannot be set.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let points = u64::from(inputs.protocol.lighting.points.value);
     let lights = inputs.lights.iter();

@@ -1,4 +1,4 @@
-//! Loading and unloading by the same steps, for the hysteresis of the gel.
+//! Loading and unloading in equal steps, for the hysteresis of the gel.
 
 use taceva_core::Phase;
 
@@ -6,7 +6,7 @@ use super::{PhaseInputs, straight};
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
-/// One press a point. The deepest waypoint belongs to both branches and is visited once for each.
+/// One press at each point. The deepest waypoint belongs to both branches and is visited once for each.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::LoadUnload);
     let spec = &inputs.protocol.hysteresis;

@@ -6,7 +6,7 @@ use super::{PhaseInputs, nanometres, straight};
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
-/// Presses each point trial by trial, to every depth. With markers a trial ends with a shear at the greatest depth.
+/// Presses at each point, trial by trial, to every depth. With markers, a trial ends with a shear at the greatest depth.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::Repeatability);
     let spec = &inputs.protocol.repeatability;

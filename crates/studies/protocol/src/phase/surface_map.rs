@@ -1,10 +1,10 @@
-//! Height of the surface, felt at the same points on every unit, for the differences between units.
+//! Surface height, measured at the same points on every unit, for the differences between units.
 
 use super::PhaseInputs;
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press};
 
-/// Presses unit by unit, since units are changed by hand.
+/// Presses unit by unit, because units are changed by hand.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::SurfaceMap);
     let points = u64::from(inputs.protocol.surface.points.value);

@@ -1,4 +1,4 @@
-//! Pass 2: finds the metrics that apply to this sensor, in full or for some channels.
+//! Pass 2: finds the metrics that apply to this sensor, for all or some channels.
 
 use taceva_core::{Field, SkipReason};
 
@@ -7,7 +7,7 @@ use super::study_facts::StudyFacts;
 use crate::phase_kind::PhaseKind;
 use crate::reason::{PlanReason, Subject};
 
-/// Removes metrics that are not wanted or do not apply, and channels that a metric cannot use.
+/// Removes metrics that are not requested or do not apply, and channels that a metric cannot use.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
     for mut metric in std::mem::take(&mut collected.metrics) {
         if let Some(reason) = obstacle(&metric, &collected, facts) {
@@ -82,7 +82,7 @@ fn obstacle(
     None
 }
 
-/// Drops shear channels from metrics of repeated predictions if the gel has no markers: its pictures do not show shear (TacEva 2025).
+/// Drops shear channels from metrics of repeated predictions if the gel has no markers, because its frames do not show shear (TacEva 2025).
 fn narrow_shear(metric: &mut PlannedMetric, collected: &mut Collected, facts: &StudyFacts<'_>) {
     let reads_repeats =
         metric.phase == PhaseKind::Repeatability && metric.fields.contains(Field::Prediction);

@@ -1,4 +1,4 @@
-//! Pass 6: rejects a plan that contradicts itself or its limits; removes nothing.
+//! Pass 6: rejects a plan that contradicts itself or exceeds its limits. Removes nothing.
 
 use std::collections::BTreeSet;
 
@@ -9,10 +9,10 @@ use super::study_facts::StudyFacts;
 use crate::phase_kind::PhaseKind;
 use crate::text::SceneProblem;
 
-/// Greatest number of presses of a plan: at ten seconds a press, four months without a pause.
+/// Greatest number of presses in a plan; at ten seconds each, they take four months.
 const GREATEST_PRESSES: u64 = 1_000_000;
 
-/// Rejects a protocol with too many presses, before any is drawn.
+/// Rejects a protocol with too many presses before any is drawn.
 pub(super) fn is_drawable(facts: &StudyFacts<'_>) -> Result<(), SceneProblem> {
     let Some(phase_inputs) = &facts.phase_inputs else {
         return Ok(());
@@ -30,7 +30,7 @@ pub(super) fn is_drawable(facts: &StudyFacts<'_>) -> Result<(), SceneProblem> {
     })
 }
 
-/// Accepts `collected` if every need is met, no press occurs twice, and none exceeds the limits or the surface.
+/// Accepts `collected` if every need is met, press ids are unique, and all presses are within the limits and the surface.
 pub(super) fn pass(
     collected: Collected,
     facts: &StudyFacts<'_>,

@@ -20,7 +20,7 @@ pub(crate) struct MetricNeeds {
 }
 
 impl MetricNeeds {
-    /// Needs of every metric of the catalogue.
+    /// Needs of every metric in the catalogue.
     pub(crate) fn catalogue() -> Vec<MetricNeeds> {
         catalogue::ALL
             .iter()
@@ -47,11 +47,11 @@ impl MetricNeeds {
     }
 }
 
-/// Phase on which a metric is computed: the one that varies what the metric reads.
+/// Phase for a metric: the one that varies the fields that the metric reads.
 fn phase_of(id: &str, fields: FieldSet) -> PhaseKind {
     let reads = |field| fields.contains(field);
     match id {
-        // It reads the same fields as every accuracy; only its name marks it as a metric of held-out points.
+        // Reads the same fields as every accuracy metric; only its name marks it as a metric of held-out points.
         "r_spatial" => PhaseKind::Spatial,
         // Both read predictions without contact.
         "noise_equivalent_force" | "zero_error" => PhaseKind::Idle,
@@ -73,9 +73,9 @@ fn phase_of(id: &str, fields: FieldSet) -> PhaseKind {
 pub struct PlannedMetric {
     /// Id in the catalogue.
     pub id: String,
-    /// Channels of the truth that it is computed for, or from.
+    /// Channels of the truth for which, or from which, it is computed.
     pub channels: Vec<String>,
-    /// Phase on which it is computed; in a recording, all samples with the fields that it reads.
+    /// Phase for its computation. For a recording, all samples with the fields that it reads.
     pub phase: PhaseKind,
     pub(crate) fields: FieldSet,
     pub(crate) required: Vec<String>,
@@ -89,22 +89,22 @@ pub struct PlannedPress {
     pub id: ContentId,
     /// The press itself.
     pub press: Press,
-    /// Phases that want it, in order.
+    /// Phases that need it, in order.
     pub phases: Vec<PhaseKind>,
-    /// True if pictures are taken; otherwise no camera is called.
+    /// True if frames are captured.
     pub frames: bool,
 }
 
 /// A model to fit before metrics are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fit {
-    /// Field that it predicts: labels, or the spacing of a grating.
+    /// Predicted field: labels, or the spacing of a grating.
     pub field: Field,
-    /// Phase on which it is fitted.
+    /// Phase whose presses it is fitted on.
     pub phase: PhaseKind,
 }
 
-/// A plan in progress: everything at first, less after each pass.
+/// A plan in progress: complete at first, smaller after each pass.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Collected {
     pub(crate) metrics: Vec<PlannedMetric>,
@@ -119,11 +119,11 @@ pub(crate) struct Collected {
 /// Channels that a rig could measure, in order.
 pub(crate) const CHANNELS: [&str; 7] = ["Px", "Py", "Pz", "Fx", "Fy", "Fz", SURFACE];
 
-/// Channel of the height of first contact, along z of the sensor's frame, in mm.
+/// Channel of the height of first contact, along z of the sensor frame, in mm.
 pub(crate) const SURFACE: &str = "surface_z";
 
 impl Collected {
-    /// Everything: all metrics, all presses, all fields, all models.
+    /// Collects all metrics, presses, fields and models.
     pub(crate) fn everything(metrics: &[MetricNeeds], facts: &StudyFacts<'_>) -> Collected {
         let channels = facts.all_channels();
         let metrics = metrics.iter().map(|needs| PlannedMetric {
@@ -162,7 +162,7 @@ impl Collected {
                     phase: PhaseKind::Gratings,
                 },
             ],
-            // Nothing of the protocol presses a sensor of taxels yet.
+            // The protocol cannot press a taxel sensor yet.
             fields: Field::ALL
                 .into_iter()
                 .filter(|field| *field != Field::Signals)
@@ -172,12 +172,12 @@ impl Collected {
         }
     }
 
-    /// Stores `subject` as skipped.
+    /// Stores `subject` as skipped for `reason`.
     pub(crate) fn skip(&mut self, subject: Subject, reason: PlanReason) {
         self.skipped.push(PlanSkip { subject, reason });
     }
 
-    /// Reason for which `subject` was skipped; `None` if it was not.
+    /// Reason why `subject` was skipped; `None` if it was not.
     pub(crate) fn reason_of(&self, subject: &Subject) -> Option<&PlanReason> {
         self.skipped
             .iter()
@@ -185,9 +185,9 @@ impl Collected {
             .map(|skip| &skip.reason)
     }
 
-    /// True if a kept metric or model of phase `kind` reads pictures.
+    /// True if a kept metric or model of phase `kind` reads frames.
     pub(crate) fn looks_at_pictures(&self, kind: PhaseKind) -> bool {
-        // The idle phase measures how pictures arrive.
+        // The idle phase measures the timing of frames.
         if kind == PhaseKind::Idle {
             return self.phases.contains(&kind);
         }
@@ -198,7 +198,7 @@ impl Collected {
     }
 }
 
-/// Fields derived from pictures.
+/// Fields derived from frames.
 const PICTURES: [Field; 5] = [
     Field::Frame,
     Field::Prediction,

@@ -1,4 +1,4 @@
-//! Pass 7: estimates the cost of a plan, for readers only.
+//! Pass 7: estimates the cost of a plan, for information only.
 
 use taceva_core::{FrameInfo, Nanometre};
 
@@ -14,17 +14,17 @@ pub struct Cost {
     pub presses: u64,
     /// Number of samples, if no press ends early.
     pub samples: u64,
-    /// Number of pictures.
+    /// Number of frames.
     pub frames: u64,
-    /// Size of those pictures as stored, before compression, in bytes; `None` if the frame size is unknown.
+    /// Size of the stored frames before compression, in bytes; `None` if the frame size is unknown.
     pub bytes: Option<u64>,
-    /// Time of motion, rest and exposure, in minutes; excludes changes of units and boards by hand.
+    /// Time of motion, rest and exposure, in minutes; excludes manual changes of units and boards.
     pub minutes: f64,
 }
 
-/// Assumed frame rate, in frames per second: one below the slowest sensor of the TacEva study.
+/// Assumed frame rate, in frames per second: just below the slowest sensor of the TacEva study.
 const UNKNOWN_RATE: f64 = 24.0;
-/// Duration of a reading of force and pose after a segment, in s.
+/// Duration of reading force and pose after a segment, in s.
 const LOOK_S: f64 = 0.005;
 
 /// Estimates the cost of `presses`.
@@ -98,7 +98,7 @@ impl Price<'_> {
         }
     }
 
-    /// Duration of the approach from the clearance to a surface at its expected height, in s.
+    /// Duration of the search for a surface at its expected height, in s.
     fn search(&self) -> f64 {
         self.guarded(self.contact.clearance_mm.value)
     }
@@ -125,8 +125,8 @@ mod tests {
     use crate::scene::Scene;
     use crate::source::SourceInfo;
 
-    /// Duration of a press, in s. The tip starts 5 mm away and moves at 2 mm/s in contact and 8 mm/s above it. Clearance is 1 mm, segments
-    /// are 1/8 mm; rest takes 0.5 s, a frame 0.25 s.
+    /// Duration of a press, in s. The tip starts 5 mm away and moves at 2 mm/s in contact and 8 mm/s in the air. The clearance is 1 mm and segments
+    /// are 1/8 mm. A rest takes 0.5 s, a frame 0.25 s.
     fn seconds(motion: Motion, frames: bool) -> f64 {
         let mut scene = Scene::parse("small", SMALL).expect("a scene");
         let source = SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));
@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn a_touch_costs_the_way_the_search_the_rest_and_a_frame_if_one_is_taken() {
-        // The approach: 1 mm / 2 mm/s, and eight readings of 5 ms.
+        // Approach: 1 mm at 2 mm/s, and eight readings of 5 ms.
         let search = 0.5 + 8.0 * 0.005;
         assert_takes(Motion::Touch, false, 0.625 + search + 0.5);
         assert_takes(Motion::Touch, true, 0.625 + search + 0.5 + 0.25);
@@ -182,7 +182,7 @@ mod tests {
             waypoint(250_000, 250_000, Phase::Unload),
         ];
         let search = 0.5 + 8.0 * 0.005;
-        // Half a millimetre each, the second a quarter up and a quarter sideways: four readings.
+        // 0.5 mm each; the second has a vertical and a sideways part of 0.25 mm: four readings.
         let waypoint = 0.25 + 4.0 * 0.005 + 0.5 + 0.25;
         let back = (0.25 + 1.0) / 8.0;
         let expected = 0.625 + search + 2.0 * waypoint + back;

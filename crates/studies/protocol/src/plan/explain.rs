@@ -37,7 +37,7 @@ impl fmt::Display for Plan {
             if self.adds_skill() {
                 writeln!(
                     f,
-                    "add   metric  {SKILL}: says whether predictions take part in verdicts"
+                    "add   metric  {SKILL}: decides whether predictions take part in verdicts"
                 )?;
             }
         }
@@ -70,11 +70,11 @@ impl fmt::Display for Plan {
     }
 }
 
-/// Metric that is added to every study of predictions.
+/// Metric that is added to every study with predictions.
 const SKILL: &str = "skill";
 
 impl Plan {
-    /// True if the skill of the model is added because a metric reads predictions.
+    /// True if the model skill is added because a metric reads predictions.
     fn adds_skill(&self) -> bool {
         let reads = |metric: &PlannedMetric| metric.fields.contains(Field::Prediction);
         self.metrics.iter().any(reads) && !self.metrics.iter().any(|metric| metric.id == SKILL)
@@ -97,7 +97,7 @@ impl fmt::Display for Costs<'_> {
             write!(f, ", {}", counted(cost.frames, "frame"))?;
         }
         if let Some(bytes) = cost.bytes.filter(|bytes| *bytes > 0) {
-            // Lossless compression reduces it by an amount that depends on the noise.
+            // Lossless compression reduces the size by an amount that depends on the noise.
             write!(f, ", at most {} MB", bytes.div_ceil(1_000_000))?;
         }
         Ok(())
@@ -109,7 +109,7 @@ fn joined<T: fmt::Display>(items: &[T]) -> String {
     words.join(", ")
 }
 
-/// Groups skips of one kind and one reason on one line; omits metrics that were not requested.
+/// Groups skipped items of one kind and reason on one line; omits metrics that were not requested.
 fn grouped(skipped: &[PlanSkip]) -> Vec<(String, &PlanReason)> {
     let mut lines: Vec<(&Subject, String, &PlanReason)> = Vec::new();
     let news = skipped
@@ -188,7 +188,7 @@ impl Serialize for Plan {
         plan.serialize_field("cost", &self.cost)?;
         plan.serialize_field("skipped", &skipped)?;
         plan.serialize_field("frame", &self.frame)?;
-        // The recording depends on it: a run that keeps other frames is another run.
+        // The recording depends on it, so a run with another frame size is another run.
         if let Some(kept) = &self.kept_frames {
             plan.serialize_field("kept_frames", kept)?;
         }

@@ -1,4 +1,4 @@
-//! Pass 4: merges equal presses, and sorts presses for the fewest changes of unit, specimen and light.
+//! Pass 4: merges equal presses, and sorts presses to minimise changes of unit, specimen and light.
 
 use std::collections::BTreeMap;
 
@@ -48,7 +48,7 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
         let name = press.press.light.as_ref()?;
         facts.lights.iter().position(|light| light == name)
     };
-    // The sort is stable: within equal keys, presses keep the order of their phase.
+    // The sort is stable, so equal keys keep the order of their phase.
     presses.sort_by_key(|press| {
         let board = match press.press.specimen {
             Specimen::Sphere { .. } => None,

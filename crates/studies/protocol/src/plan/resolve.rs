@@ -1,4 +1,4 @@
-//! Pass 1: resolves the source of each channel and field. Removes those without a source; the reason is the chain of missing sources.
+//! Pass 1: finds the source of each channel and field. Removes those without a source; the reason is the chain of missing sources.
 
 use taceva_core::{Field, SkipReason};
 
@@ -60,7 +60,7 @@ fn field_reason(field: Field, collected: &Collected, facts: &StudyFacts<'_>) -> 
         FieldSource::Recording { fields, .. } => {
             let of_model = [Field::Prediction, Field::PredictedSpacing].contains(&field);
             let seen = if of_model { Field::Frame } else { field };
-            // A reader computes digest and brightness from the pictures.
+            // The reader computes digest and brightness from the frames.
             let read_off = [Field::FrameDigest, Field::Intensity].contains(&field);
             let there = fields.contains(seen) || (read_off && fields.contains(Field::Frame));
             if !there {

@@ -1,4 +1,4 @@
-//! Facts of a study before it begins: statements of scene and descriptors, joined and checked for contradictions.
+//! Facts of a study before it begins, joined from scene and descriptors and checked for contradictions.
 
 mod surface;
 
@@ -25,7 +25,7 @@ pub(crate) enum ModelChoice {
     Estimator,
 }
 
-/// The source of the fields of samples.
+/// Source of the sample fields.
 #[derive(Clone, Debug)]
 pub(crate) enum FieldSource {
     Rig {
@@ -50,11 +50,11 @@ pub(crate) struct StudyFacts<'a> {
     pub(crate) lights: Vec<String>,
     /// Requested metrics; `None` for all.
     pub(crate) wanted: Option<Vec<&'static str>>,
-    /// Inputs from which presses are drawn; `None` if nothing is pressed.
+    /// Inputs for drawing presses; `None` if nothing is pressed.
     pub(crate) phase_inputs: Option<PhaseInputs<'a>>,
     pub(crate) limits: Option<RigLimits>,
     pub(crate) frame: Option<FrameInfo>,
-    /// Size to which frames are reduced before they are stored.
+    /// Frame size in storage; `None` keeps frames whole.
     pub(crate) kept_frames: Option<FrameSize>,
     pub(crate) footprint: Option<Footprint>,
     /// Frame rate, in frames per second.
@@ -70,7 +70,7 @@ impl StudyFacts<'_> {
         }
     }
 
-    /// Channels that presses of `kind` could give: the surface map gives a height, other phases a depth.
+    /// Channels that presses of `kind` can give: the surface map gives a height, other phases a depth.
     pub(crate) fn channels_on(&self, kind: PhaseKind) -> Vec<String> {
         let mut channels = self.all_channels();
         if !self.is_recording() {
@@ -94,7 +94,7 @@ impl StudyFacts<'_> {
             Fact::Footprint => (self.footprint.is_some(), "footprint"),
             Fact::DepthMax => (self.limits.is_some() || depth_max.is_some(), "depth_max_mm"),
             Fact::FrameSize => (self.frame.is_some(), "frame_size"),
-            // The computation of the metric checks facts of later catalogues.
+            // The metric itself checks facts of later catalogues when it is computed.
             _ => return None,
         };
         (!known).then_some(SkipReason::FactAbsent(name))
@@ -106,7 +106,7 @@ impl StudyFacts<'_> {
     }
 }
 
-/// Gathers the facts of `study` from `source`. Presses borrow `units` and `lights`.
+/// Collects the facts of `study` from `source`. Presses borrow `units` and `lights`.
 pub(crate) struct Gather<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) study: &'a Study,
@@ -145,7 +145,7 @@ impl<'a> Gather<'a> {
         let footprint = self.footprint(sensor.and_then(|sensor| sensor.footprint))?;
         let frame = sensor.and_then(|sensor| sensor.frame);
         self.is_mapped(rig)?;
-        // Without a robot nothing moves, so no limits apply.
+        // Without a robot, nothing moves and no limits apply.
         let limits = match rig.robot {
             Some(_) => Some(limits(scene, study, rig)?),
             None => None,
@@ -210,8 +210,8 @@ impl<'a> Gather<'a> {
         })
     }
 
-    /// Size at which frames are stored, if those of the sensor can be reduced to it. If the sensor does not state its frames, the check
-    /// happens after it is opened.
+    /// Size of stored frames, if the sensor frames can be reduced to it. If the sensor does not state its frame size, the check happens after it is
+    /// opened.
     fn kept_frames(&self, frame: Option<FrameInfo>) -> Result<Option<FrameSize>, SceneError> {
         let Some(kept) = self.study.frames else {
             return Ok(None);
@@ -229,7 +229,7 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// Merges a fact that the scene and the source may both state; a contradiction is an error.
+    /// Merges a fact that scene and source may both state; rejects a contradiction.
     fn agreed(
         &self,
         key: &str,
@@ -239,7 +239,7 @@ impl<'a> Gather<'a> {
         match (written, stated) {
             (Some(written), Some(stated)) if written.value != stated => {
                 let problem = format!(
-                    "`{key}` is {}, but the sensor says {stated}: one of them is wrong",
+                    "`{key}` is {}, but the sensor states {stated}: correct one of them",
                     written.value
                 );
                 Err(self.refusal(written.at(), SceneProblem::Contradiction(problem)))
@@ -248,7 +248,7 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// Rejects depths and thresholds of the protocol beyond their limits.
+    /// Rejects depths and thresholds of the protocol that exceed their limits.
     fn depths(&self, limits: &RigLimits) -> Result<(), SceneError> {
         let protocol = &self.scene.protocol;
         for (key, depth) in [
@@ -290,7 +290,7 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// Ids of the requested metrics; their names were checked when the scene was read.
+    /// Ids of the requested metrics; parsing has checked their names.
     fn wanted(&self) -> Option<Vec<&'static str>> {
         let want = self.scene.metrics.want.as_ref()?;
         let names = want.iter().map(|name| name.value.as_str());
@@ -303,7 +303,7 @@ impl<'a> Gather<'a> {
     }
 }
 
-/// Scenes of light to visit, that of calibration first.
+/// Light scenes to visit, the one of calibration first.
 pub(crate) fn lights(
     scene: &Scene,
     study: &Study,
@@ -329,7 +329,7 @@ pub(crate) fn lights(
         return Ok(known);
     };
     if known.is_empty() && rig.lighting.is_none() {
-        // A person sets it, which needs a real rig.
+        // The operator sets it, which needs a real rig.
         let is_real = |robot: &taceva_core::Descriptor| robot.source() == DriverSource::Real;
         return match rig.robot.as_ref().is_some_and(is_real) {
             true => Ok(written.value.clone()),
@@ -371,7 +371,7 @@ fn whole_nanometres_within(millimetres: f64) -> Nanometre {
     }
 }
 
-/// Fields of each press that the protocol itself knows.
+/// Fields of each press that the protocol itself determines.
 pub(crate) const OF_THE_PROTOCOL: [Field; 6] = [
     Field::Point,
     Field::DepthStep,

@@ -1,4 +1,4 @@
-//! The planner on metrics of its own, so that each rule is tried whatever the catalogue holds.
+//! Tests of the planner with synthetic metrics, so that each rule is tested independently of the catalogue.
 
 pub(crate) mod bench;
 mod explained;
@@ -68,7 +68,7 @@ fn every_reason_has_its_golden_line_in_the_text_of_a_plan() {
         .into_iter()
         .map(|reason| explained(reason, &mut plan))
         .collect();
-    // What nobody asked for is no news: its line is empty.
+    // A plan omits the reason of a metric that was not requested, so its line is empty.
     let golden = include_str!("../../tests/golden/reasons.txt");
     assert_eq!(lines, golden.lines().collect::<Vec<_>>());
 }
@@ -103,7 +103,7 @@ fn planning_twice_changes_nothing() {
         let everything = Collected::everything(&paper_metrics(), &facts);
         let once = refine(everything.clone(), &facts).expect("a plan");
         assert_eq!(refine(once.clone(), &facts).expect("the same"), once);
-        // Nothing is added: every pass works on what the one before left.
+        // Nothing is added: every pass works on the result of the previous one.
         let kept = |collected: &Collected| {
             collected
                 .presses

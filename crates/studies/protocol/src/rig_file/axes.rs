@@ -1,4 +1,4 @@
-//! Mapping between the axes of a device and those of the sensor.
+//! Mapping between device axes and sensor axes.
 
 use std::fmt;
 
@@ -37,10 +37,10 @@ impl Along {
 }
 
 impl SignedAxes {
-    /// Parses the axis of the device for x, y and z of the sensor, with `-` for the opposite direction.
+    /// Parses the device axis for x, y and z of the sensor; `-` means the opposite direction.
     ///
     /// # Errors
-    /// A message with the fault and the expected words: a word that names no axis, an axis named twice, or a left-handed frame.
+    /// A message with the fault and the expected values, for an invalid axis name, a repeated axis, or a left-handed frame.
     pub fn read<T: AsRef<str>>(words: [T; 3]) -> Result<SignedAxes, String> {
         let mut axes = [Along { axis: 0, sign: 1.0 }; 3];
         for (along, word) in axes.iter_mut().zip(&words) {
@@ -64,12 +64,12 @@ impl SignedAxes {
         }
     }
 
-    /// Converts a vector from the frame of the device to that of the sensor.
+    /// Converts a vector from the device frame to the sensor frame.
     pub fn to_sensor(self, device: [f64; 3]) -> [f64; 3] {
         self.0.map(|along| along.sign * device[along.axis])
     }
 
-    /// Converts a vector from the frame of the sensor to that of the device.
+    /// Converts a vector from the sensor frame to the device frame.
     pub fn to_device(self, sensor: [f64; 3]) -> [f64; 3] {
         let mut device = [0.0; 3];
         for (along, value) in self.0.iter().zip(sensor) {
@@ -78,7 +78,7 @@ impl SignedAxes {
         device
     }
 
-    /// Components measured in the sensor's frame by a transducer that measures `device` in its own.
+    /// Components in the sensor frame that a transducer with the components `device` measures.
     pub fn measured(self, device: Axes) -> Axes {
         let [forces, torques] = [
             [Axis::Fx, Axis::Fy, Axis::Fz],
@@ -95,8 +95,8 @@ impl SignedAxes {
         measured
     }
 
-    /// Corrects these axes from three forces along x, y and z of the sensor. `felt` holds, for each, the axis and sign (1 or −1) that these
-    /// axes report. `None` if the result is not right-handed.
+    /// Corrects these axes from three forces along x, y and z of the sensor. `felt` holds the axis and sign (1 or −1) that these axes report for
+    /// each. `None` if the result is not right-handed.
     pub(crate) fn as_felt(self, felt: [(usize, f64); 3]) -> Option<SignedAxes> {
         let along = felt.map(|(axis, sign)| Along {
             axis: self.0[axis].axis,
@@ -106,7 +106,7 @@ impl SignedAxes {
         (axes.determinant() > 0.5).then_some(axes)
     }
 
-    /// Determinant: 1 for right-handed axes, −1 for left-handed ones, 0 if one axis is named twice.
+    /// Determinant: 1 for right-handed axes, −1 for left-handed ones, 0 for a repeated axis.
     fn determinant(self) -> f64 {
         let [x, y, z] = [0, 1, 2].map(|axis| {
             let mut row = [0.0; 3];

@@ -1,4 +1,4 @@
-//! Table `[changers]` of a rig file: the devices that change specimen, unit and light.
+//! Table `[changers]` of a rig file: devices that change specimen, unit and light.
 
 use std::time::Duration;
 
@@ -10,7 +10,7 @@ use crate::text::{SceneError, SceneProblem, Setting, Text};
 const USUAL_CHANGE_S: f64 = 60.0;
 const GREATEST_CHANGE_S: f64 = 3_600.0;
 
-/// Changers of a rig; a person makes all other changes.
+/// Changers of a rig. The operator makes all other changes.
 ///
 /// ```
 /// use taceva_protocol::RigFile;
@@ -28,9 +28,9 @@ const GREATEST_CHANGE_S: f64 = 3_600.0;
 pub struct RigChangers {
     /// Selector of the changer that mounts specimens on the robot.
     pub specimen: Option<Setting<String>>,
-    /// Selector of the changer that puts units of the sensor under the robot.
+    /// Selector of the changer that places sensor units under the robot.
     pub unit: Option<Setting<String>>,
-    /// Selector of the lighting, which replaces that of the scene.
+    /// Selector of the lighting; it replaces the lighting of the scene.
     pub light: Option<Setting<String>>,
     /// Longest duration of a change of specimen or unit.
     pub patience: Duration,

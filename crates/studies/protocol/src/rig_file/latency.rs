@@ -1,13 +1,13 @@
-//! Measured latencies of the devices of a rig, and their storage in the rig file.
+//! Measured latencies of the devices of a rig, and their entries in the rig file.
 
 use super::RigFile;
 use crate::text::Setting;
 
-/// Delay of a device behind the robot, measured by taps.
+/// Delay of a device relative to the robot, measured by taps.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Latency {
-    /// Delay between the stamps as corrected so far, in ms; below 0 if the robot reports later.
+    /// Remaining delay between the corrected stamps, in ms; negative if the robot reports later.
     pub after_robot_ms: f64,
     /// Two standard errors of the delay, in ms.
     pub error_ms: f64,
@@ -15,7 +15,7 @@ pub struct Latency {
     pub spread_ms: f64,
 }
 
-/// Latencies of the devices of a rig, in ms, rounded to tenths: the delay between an observation and its stamp.
+/// Latencies of the devices of a rig, in ms, rounded to 0.1 ms: delays between an observation and its stamp.
 ///
 /// ```
 /// use taceva_protocol::{RigFile, RigLatencies};
@@ -28,7 +28,7 @@ pub struct Latency {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct RigLatencies {
-    /// Latency of the robot; `None` leaves it as it is.
+    /// Latency of the robot; `None` leaves it unchanged.
     pub robot_ms: Option<f64>,
     /// Latency of the transducer.
     pub force_ms: f64,
@@ -37,11 +37,11 @@ pub struct RigLatencies {
 }
 
 impl RigLatencies {
-    /// Computes the latencies from taps. `before` holds the latencies of robot, transducer and sensor that correct the stamps already.
-    /// `force` and `sensor` are the remaining delays behind the robot.
+    /// Computes the latencies from taps. `before` holds the latencies of robot, transducer and sensor that already correct the stamps. `force` and
+    /// `sensor` are the remaining delays relative to the robot.
     ///
-    /// Taps measure differences only, so the robot keeps its latency. If another latency falls below 0 by more than its error, all three
-    /// are shifted until the earliest device has 0.
+    /// Taps measure only differences, so the robot keeps its latency. If another latency is below 0 by more than its error, all three are shifted
+    /// until the least is 0.
     pub fn measured(before: [f64; 3], force: &Latency, sensor: &Latency) -> RigLatencies {
         let [robot_ms, force_ms, sensor_ms] = before;
         let force_ms = force_ms + force.after_robot_ms;
@@ -51,7 +51,7 @@ impl RigLatencies {
             true => -force_ms.min(sensor_ms),
             false => 0.0,
         };
-        // People read the file, and no latency is known to less than a tenth.
+        // Rounded for readers of the file; no latency is known to better than 0.1 ms.
         let tenths = |latency_ms: f64| ((latency_ms + shift_ms).max(0.0) * 10.0).round() / 10.0;
         RigLatencies {
             robot_ms: is_early.then(|| tenths(robot_ms)),
@@ -62,7 +62,7 @@ impl RigLatencies {
 }
 
 impl RigFile {
-    /// Text of the file with `latencies`, otherwise unchanged. `None` if a device is missing, or its table has no room for a line after `driver`.
+    /// Text of the file with `latencies`, otherwise unchanged. `None` if a device is missing, or its table cannot take a line after `driver`.
     pub fn with_latencies(&self, latencies: &RigLatencies) -> Option<String> {
         let (force, sensor) = (self.force.as_ref()?, self.sensor.as_ref()?);
         let mut written = vec![
@@ -74,12 +74,12 @@ impl RigFile {
             written.push((&robot.driver, robot.latency_ms, robot_ms));
         }
         let mut text = self.text.whole().to_owned();
-        // Edits the last place first, so that earlier places keep their offsets.
+        // Edits the last position first, so that earlier byte offsets stay valid.
         written.sort_by_key(|(driver, ..)| std::cmp::Reverse(driver.at()));
         for (driver, before, latency_ms) in written {
             put(&mut text, driver, before, latency_ms)?;
         }
-        // An inline table or dotted keys have no room for a line behind the driver.
+        // An inline table or dotted keys cannot take a line after the driver.
         let read = RigFile::parse(self.name(), &text).ok()?;
         let latency = |setting: Option<Setting<f64>>| setting.map(|setting| setting.value);
         let expected = RigFile {
@@ -113,7 +113,7 @@ impl RigFile {
     }
 }
 
-/// Replaces a latency, or inserts it on a line behind the driver.
+/// Replaces a latency, or inserts it on a line after the driver.
 fn put(
     text: &mut String,
     driver: &Setting<String>,
@@ -178,7 +178,7 @@ mod tests {
             + "\nlatency_ms = 38.2";
         let written = with(TEXT, &MEASURED).expect("three tables");
         assert_eq!(written, expected);
-        // A second call changes nothing, and a robot without a new latency is not touched.
+        // A second call changes nothing, and a robot without a new latency is left unchanged.
         assert_eq!(with(&written, &MEASURED), Some(written.clone()));
         let kept = RigLatencies {
             robot_ms: None,
@@ -200,7 +200,7 @@ mod tests {
             "sensor = { driver = \"lab/camera\" }",
         );
         let inline = inline.replace("rig_version = 1\n", "rig_version = 1\n#\n");
-        // In TOML the line would belong to [force] there.
+        // In TOML, the line would belong to [force] there.
         let moved = inline.replace("sensor = { driver = \"lab/camera\" }", "");
         let moved = moved.replace("#\n", "sensor = { driver = \"lab/camera\" }\n");
         assert_eq!(with(&moved, &MEASURED), None);

@@ -4,12 +4,12 @@ use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 
 use super::{Carried, RigRobot, SignedAxes};
 
-/// Place and rotation of the base frame of a robot relative to the frame of the sensor.
+/// Place and rotation of the robot base frame relative to the sensor frame.
 ///
-/// Let A be the rotation from base to sensor by `axes`, o the `origin_mm`, and Q the rotation of the tool since registration:
+/// Let A be the rotation from base to sensor by `axes`, o the `origin_mm`, and Q the tool rotation since registration:
 ///
 /// - If the robot carries the indenter, the tip is at A·(p − o), rotated by A·Q·Aᵀ.
-/// - If it carries the sensor, the tip rests at o in the base. It is at A·Qᵀ·(o − p), rotated by A·Qᵀ·Aᵀ.
+/// - If it carries the sensor, the tip rests at o in the base frame. It is at A·Qᵀ·(o − p), rotated by A·Qᵀ·Aᵀ.
 ///
 /// # Units
 /// mm and degrees.
@@ -35,7 +35,7 @@ impl Registration {
         }
     }
 
-    /// Pose of the tip in the sensor's frame, for a robot that reports `base`.
+    /// Pose of the tip in the sensor frame for the reported pose `base`.
     pub fn to_sensor(&self, base: &Pose) -> Pose {
         let since = product(&matrix(&base.rotation), &transposed(&matrix(&self.turned)));
         let place = coordinates(&base.position);
@@ -54,7 +54,7 @@ impl Registration {
         )
     }
 
-    /// Target of the robot for the pose `tip` in the sensor's frame.
+    /// Robot target for the pose `tip` in the sensor frame.
     pub fn to_base(&self, tip: &Pose) -> Pose {
         let turn = self.turn_to_base(&matrix(&tip.rotation));
         let place = self.axes.to_device(coordinates(&tip.position));
@@ -107,7 +107,7 @@ fn matrix(rotation: &Rotation) -> Matrix {
     ]
 }
 
-/// Angles of a rotation. At y = ±90° x and z share an axis; x is then that of `near`.
+/// Angles of a rotation. At y = ±90°, x and z share an axis, and x is taken from `near`.
 fn rotation(turn: &Matrix, near: &Rotation) -> Rotation {
     let level = turn[0][0].hypot(turn[1][0]);
     let y = (-turn[2][0]).atan2(level).to_degrees();

@@ -1,17 +1,17 @@
-//! Registration of a robot from three places to which an operator jogged it.
+//! Registration of a robot from three places to which an operator jogs it.
 
 use taceva_core::{Point, Pose};
 
 use super::{Carried, RigFile, SignedAxes};
 
-/// Shortest way that shows a direction, in mm.
+/// Shortest jog that defines a direction, in mm.
 const SHORTEST_MM: f64 = 5.0;
-/// Greatest distance of the end of a way from an axis of the base, in mm.
+/// Greatest distance of the end of a jog from an axis of the base, in mm.
 const RESIDUAL_MM: f64 = 0.5;
 /// Greatest rotation of the tool between two places, in degrees.
 const TURN_DEG: f64 = 0.5;
 
-/// Poses of a robot in its base frame with its tip over three places of the gel.
+/// Poses of a robot in its base frame with the tip at three places of the gel.
 ///
 /// ```
 /// use taceva_core::{Millimetre, Pose};
@@ -30,9 +30,9 @@ const TURN_DEG: f64 = 0.5;
 pub struct Jogged {
     /// The tip just touches the middle of the gel.
     pub middle: Pose,
-    /// From the middle along x of the sensor.
+    /// The tip is displaced from the middle along x of the sensor.
     pub along_x: Pose,
-    /// From the middle along y of the sensor.
+    /// The tip is displaced from the middle along y of the sensor.
     pub along_y: Pose,
 }
 
@@ -43,24 +43,24 @@ pub struct Taught {
     pub origin_mm: [f64; 3],
     /// `axes` of its robot.
     pub axes: SignedAxes,
-    /// Distance from its axis at the end of the worse way, in mm.
+    /// Distance of the end of the worse jog from its axis, in mm.
     pub residual_mm: f64,
 }
 
-/// Reasons for which three places define no frame.
+/// Reasons why three places define no frame.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum TeachError {
-    /// The way is too short.
+    /// The jog is too short.
     #[error(
         "the jog along {axis} is {way_mm:.2} mm long, expected at least {SHORTEST_MM} mm: jog farther"
     )]
     Short {
         /// Axis of the sensor.
         axis: char,
-        /// Length of the way, in mm.
+        /// Length of the jog, in mm.
         way_mm: f64,
     },
-    /// The way follows no axis of the base.
+    /// The jog follows no axis of the base.
     #[error(
         "the jog along {axis} ends {residual_mm:.2} mm off the nearest axis of the base, expected at most {RESIDUAL_MM} mm: turn the sensor parallel to the base, or jog along one axis of the base only"
     )]
@@ -70,12 +70,12 @@ pub enum TeachError {
         /// Distance from the nearest axis of the base, in mm.
         residual_mm: f64,
     },
-    /// Both ways follow one line.
+    /// Both jogs follow the same axis.
     #[error(
         "both jogs follow one axis of the base, which defines no frame: jog along x of the sensor first, then from the middle along y"
     )]
     OneLine,
-    /// The tool was rotated on the way.
+    /// The tool was rotated during a jog.
     #[error(
         "the tool rotated by {turn_deg:.1} degrees during the jog along {axis}: jog without rotating it"
     )]
@@ -91,8 +91,8 @@ impl Jogged {
     /// Computes origin and axes of the rig file for a robot that moves `carries`.
     ///
     /// # Errors
-    /// [`TeachError`] if a way is shorter than 5 mm, or more than half a millimetre off the axes of the base. Also if the tool was rotated,
-    /// or both ways follow one line.
+    /// [`TeachError`] if a jog is shorter than 5 mm, or ends more than 0.5 mm off the axes of the base. Also if the tool was rotated, or both jogs
+    /// follow the same axis.
     pub fn taught(&self, carries: Carried) -> Result<Taught, TeachError> {
         let (x, beside_x) = way(&self.middle, &self.along_x, 'x')?;
         let (y, beside_y) = way(&self.middle, &self.along_y, 'y')?;
@@ -114,7 +114,7 @@ impl Jogged {
         let axes = SignedAxes::read([x, y, z].map(word));
         let Point { x, y, z } = self.middle.position;
         Ok(Taught {
-            // Whole micrometres: no arm is more exact.
+            // Whole micrometres, which is finer than the accuracy of any arm.
             origin_mm: [x.0, y.0, z.0].map(|side| (side * 1e3).round() / 1e3),
             axes: axes.expect("the third is at right angles to both others"),
             residual_mm: beside_x.max(beside_y),
@@ -122,7 +122,7 @@ impl Jogged {
     }
 }
 
-/// Axis of the base that a way follows, with its sign, and its distance from the axis at the end, in mm.
+/// Axis of the base that a jog follows, with its sign, and the distance of its end from the axis, in mm.
 fn way(from: &Pose, to: &Pose, axis: char) -> Result<((usize, f64), f64), TeachError> {
     let (one, other) = (&from.position, &to.position);
     let way = [
@@ -166,7 +166,7 @@ impl RigFile {
             (robot.origin_mm.at()?, format!("[{x:?}, {y:?}, {z:?}]")),
             (robot.axes.at()?, taught.axes.to_string()),
         ];
-        // Edits the last place first, so that earlier places keep their offsets.
+        // Edits the last position first, so that earlier byte offsets stay valid.
         written.sort_by_key(|(at, _)| std::cmp::Reverse(*at));
         let mut text = text.to_owned();
         for (at, value) in written {
@@ -178,7 +178,7 @@ impl RigFile {
     }
 }
 
-/// Byte offset behind the array at the start of `text`; `None` if it has no end.
+/// Byte offset after the array at the start of `text`; `None` if it has no end.
 fn end_of_array(text: &str) -> Option<usize> {
     let mut is_comment = false;
     for (at, letter) in text.char_indices() {

@@ -1,4 +1,4 @@
-//! Interpolation of force and pose to the time of a frame, since the three are read one after the other.
+//! Interpolation of force and pose to the time of a frame. The three are read one after the other.
 
 use taceva_core::{Degree, Millimetre, Newton, NewtonMillimetre, Point, Pose, Rotation, Wrench};
 
@@ -14,13 +14,13 @@ pub(crate) struct Look {
 }
 
 impl Look {
-    /// Time from which both force and pose are current.
+    /// Earliest time at which both force and pose are current.
     pub(crate) fn since_s(&self) -> f64 {
         self.wrench_s.max(self.pose_s)
     }
 }
 
-/// Force and pose at `at_s`, interpolated between two readings; a time outside takes the nearer reading.
+/// Force and pose at `at_s`, interpolated between two readings; outside their times, the nearer reading.
 pub(crate) fn between(before: &Look, after: &Look, at_s: f64) -> (Wrench, Pose) {
     let wrench = Mix::new(before.wrench_s, after.wrench_s, at_s);
     let pose = Mix::new(before.pose_s, after.pose_s, at_s);
@@ -30,7 +30,7 @@ pub(crate) fn between(before: &Look, after: &Look, at_s: f64) -> (Wrench, Pose) 
     )
 }
 
-/// Force at `at_s`, interpolated between two readings, each with its time in s; a time outside takes the nearer reading.
+/// Force at `at_s`, interpolated between two readings, each with its time in s; outside their times, the nearer reading.
 ///
 /// ```
 /// use taceva_core::{Newton, Wrench};
@@ -47,7 +47,7 @@ pub fn wrench_between(before: (&Wrench, f64), after: (&Wrench, f64), at_s: f64) 
 struct Mix(f64);
 
 impl Mix {
-    /// Counts whole nanoseconds, as clocks do, so that the hour of the day does not change the last bits.
+    /// Counts whole nanoseconds, as clocks do, so that the time of day does not change the last bits.
     fn new(before_s: f64, after_s: f64, at_s: f64) -> Mix {
         let [span_ns, part_ns] = [after_s, at_s].map(|time_s| ((time_s - before_s) * 1e9).round());
         if span_ns > 0.0 {
@@ -112,7 +112,7 @@ mod tests {
         let (before, after) = (look(1.0, 0.4), look(1.2, 0.8));
         let (wrench, pose) = between(&before, &after, 1.1);
         assert!((wrench.force[2].0 - 0.6).abs() < 1e-12);
-        // The pose was read 10 ms later, so 1.1 s is 0.09 s of 0.2 s between its readings.
+        // The pose was read 10 ms later, so 1.1 s is 0.09 s into the 0.2 s between its readings.
         assert!((pose.position.z.0 - 0.29).abs() < 1e-12);
     }
 

@@ -1,11 +1,11 @@
-//! Workspace of the tip. The box is convex, so a straight line between two places in it stays in it.
+//! Workspace of the tip. The box is convex, so a straight line between two of its places stays inside.
 
 use taceva_core::{Footprint, Nanometre, Pose};
 
 use super::error::StopCause;
 use crate::plan::Plan;
 
-/// Workspace of a plan, in mm of the sensor's frame.
+/// Workspace of a plan, in mm of the sensor frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     half_x: f64,
@@ -14,12 +14,12 @@ pub(super) struct Bounds {
     deepest: f64,
 }
 
-/// Rounding error of sums of a few lengths, in mm.
+/// Rounding error of the sum of a few lengths, in mm.
 const ROUNDING_MM: f64 = 1e-9;
 
 impl Bounds {
-    /// Workspace over the footprint and the shears of `plan`, from `height_mm` above the clearance down to the greatest depth below the
-    /// search. `None` if the plan moves nothing.
+    /// Workspace over the footprint and the shears of `plan`, from `height_mm` above the clearance down to the greatest depth below the search.
+    /// `None` if the plan moves nothing.
     pub(super) fn of(plan: &Plan, height_mm: f64) -> Option<Bounds> {
         let [half_x, half_y] = plan.footprint.as_ref().map(Footprint::half_extent)?;
         let shear = plan
@@ -29,7 +29,7 @@ impl Bounds {
         let shear = shear.flat_map(|waypoint| waypoint.shear);
         let shear = shear.map(|shear| shear.0.abs()).max().unwrap_or(0);
         let limits = plan.limits.as_ref()?;
-        // A motion starts at the reported pose, which noise can place outside.
+        // A motion starts at the reported pose, which can be outside because of noise.
         let slack_mm = ROUNDING_MM + limits.signals.slack_mm();
         let side = |half: Nanometre| Nanometre(half.0 + shear).to_millimetres() + slack_mm;
         Some(Bounds {
@@ -40,7 +40,7 @@ impl Bounds {
         })
     }
 
-    /// Accepts `target` if it is in the workspace.
+    /// Rejects a `target` outside the workspace.
     pub(super) fn admit(&self, target: &Pose) -> Result<(), StopCause> {
         let [x, y, z] = [
             target.position.x.0,

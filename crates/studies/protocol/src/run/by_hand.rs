@@ -1,4 +1,4 @@
-//! Manual steps of a press: the operator is asked while nothing moves.
+//! Manual steps of a press. The robot stands still while the operator is asked.
 
 use taceva_core::Fault;
 
@@ -10,7 +10,7 @@ use super::tip::Step;
 use crate::plan::PlannedPress;
 
 impl Run<'_> {
-    /// Mounts the specimen and sets the light of a press, by a changer or by the operator. Returns true if the operator skipped a step.
+    /// Mounts the specimen and sets the light of a press, by a changer or the operator. Returns true if the operator skipped a step.
     pub(super) fn is_skipped(&mut self, planned: &PlannedPress) -> Result<bool, RunError> {
         let failed = |run: &mut Self, cause| run.abandoned(Some(planned.id), cause);
         if self.needs_what_was_skipped(planned) {
@@ -51,8 +51,8 @@ impl Run<'_> {
             .any(|question| self.skipped.contains(question))
     }
 
-    /// Asks for clearance to continue after a skipped step, before anything moves without a question. An operator who skips a step has not
-    /// confirmed that hands are out of reach, and the robot is still halted.
+    /// Asks the operator for clearance after a skipped step, before anything moves. An operator who skips a step has not confirmed that hands are out
+    /// of reach, and the robot is still halted.
     fn ask_to_go_on(&mut self, planned: &PlannedPress) -> Result<(), RunError> {
         let specimen = planned.press.specimen;
         let is_changed = self.mounted != Some(specimen) && self.is_held_by_changer(specimen);
@@ -103,8 +103,8 @@ impl Run<'_> {
         }
     }
 
-    /// Asks while the robot is halted at or above the height of travel. Releases it only if the operator confirms that hands are out of
-    /// reach.
+    /// Asks the operator while the robot is halted at or above the travel height. Releases the robot only if the operator confirms that hands are out
+    /// of reach.
     pub(super) fn ask(&mut self, question: &Question) -> Step<Answer> {
         if self.operator.is_none() {
             return Ok(Answer::Stop);
@@ -121,7 +121,7 @@ impl Run<'_> {
         Ok(answer)
     }
 
-    /// Continues after a fault of the robot: the operator checks and acknowledges it there, then the tip leaves the gel.
+    /// Continues after a robot fault: the operator acknowledges it at the robot, then the tip leaves the gel.
     pub(super) fn go_on_after(&mut self, fault: Fault, error: RunError) -> Result<(), RunError> {
         let Some(operator) = &mut self.operator else {
             return Err(error);
@@ -161,7 +161,7 @@ mod tests {
     #[test]
     fn a_tip_that_is_low_is_raised_before_somebody_is_asked_and_does_not_move_before_a_yes() {
         for answer in [Answer::Done, Answer::Skip, Answer::Stop] {
-            // The gel pushes back below the contact; readings differ.
+            // The gel pushes back below the contact height; readings differ.
             let mut rig = Rig::new(CONTACT_MM + 0.5, |question, height_mm| {
                 let pressed_mm = (height_mm - CONTACT_MM).max(0.0);
                 Some(0.5 * pressed_mm + f64::from(question) * 1e-6)

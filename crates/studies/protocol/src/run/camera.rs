@@ -1,4 +1,4 @@
-//! Captures frames taken after the tip came to rest.
+//! Captures frames of the resting tip.
 
 use std::time::Duration;
 
@@ -8,11 +8,11 @@ use super::error::StopCause;
 use super::event::Event;
 use super::tip::{Step, Tip};
 
-/// Lost, damaged or outdated frames after which the run gives up.
+/// Number of lost, damaged or outdated frames after which the run stops.
 const FRAME_TRIES: u32 = 10;
 /// Deadline for one frame.
 const FRAME_DEADLINE: Deadline = Deadline::after(Duration::from_secs(1));
-/// Greatest lead of a frame over the clock of the run, in s; a greater one means another clock.
+/// Greatest lead of a frame over the run clock, in s; a greater lead means another clock.
 const AHEAD_S: f64 = 0.001;
 
 /// A sensor that captures frames.
@@ -46,7 +46,7 @@ impl<'a> Camera<'a> {
                         .expect("the buffer was made with the length of the frame");
                     return Ok((frame, stamp));
                 }
-                // A streaming driver returns its newest frame. One received before this call is neither lost nor late.
+                // A streaming driver returns its newest frame. A frame received before this call is neither lost nor late.
                 Ok(stamp) if stamp.received_s.is_some_and(|at_s| at_s < asked_s) => {}
                 Ok(_) => events(&Event::FrameRetried),
                 Err(error) if [ErrorKind::Timeout, ErrorKind::Protocol].contains(&error.kind()) => {

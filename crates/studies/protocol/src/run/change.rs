@@ -1,4 +1,4 @@
-//! Mounting by a changer that moves; the robot is halted away from the gel meanwhile.
+//! Mounting by a moving changer. The robot is halted away from the gel meanwhile.
 
 use std::time::Duration;
 
@@ -10,20 +10,20 @@ use super::session::Run;
 use super::tip::Step;
 use crate::plan::PlannedPress;
 
-/// Reasons for which a moving changer did not mount a specimen.
+/// Reasons why a moving changer did not mount a specimen.
 enum Unmounted {
-    /// The changer failed: the robot is halted, and the mounted specimen is unknown.
+    /// The changer failed. The robot is halted, and the mounted specimen is unknown.
     Failed(StopCause),
     /// The robot did not retreat, or could not be released.
     Robot(StopCause),
 }
 
 impl Run<'_> {
-    /// Mounts the specimen of `planned` by the changer, if it holds the specimen and must move. If the changer fails and an operator is
-    /// present, returns the reason; the changer is not used again.
+    /// Mounts the specimen of `planned` by the changer, if the changer holds it and must move. If the changer fails and an operator is present,
+    /// returns the reason; the changer is not used again.
     ///
     /// # Errors
-    /// [`RunError`] if no operator is present and the changer fails or does not hold the specimen. The tip is above the gel, halted.
+    /// [`RunError`] without an operator if the changer fails or does not hold the specimen. The robot is halted above the gel.
     pub(super) fn change(&mut self, planned: &PlannedPress) -> Result<Option<String>, RunError> {
         let specimen = planned.press.specimen;
         let Some(patience) = self
@@ -51,7 +51,7 @@ impl Run<'_> {
             Ok(()) => Ok(None),
             Err(Unmounted::Robot(cause)) => Err(self.abandoned(Some(planned.id), cause)),
             Err(Unmounted::Failed(cause)) => {
-                // After a failure the state of the changer is unknown: a person must check it.
+                // After a failure, the state of the changer is unknown, so the operator must check it.
                 self.specimens = None;
                 self.mounted = None;
                 if self.tip.cancel.is_cancelled() {
@@ -98,7 +98,7 @@ impl Run<'_> {
         (self.events)(&Event::Mounted(specimen));
     }
 
-    /// Raises the tip to the height of travel if it is lower, and halts the robot there.
+    /// Raises the tip to the travel height if it is lower, and halts the robot there.
     pub(super) fn stand_out_of_the_way(&mut self) -> Step<()> {
         if !self.tip.is_high() {
             self.wait_until_held()?;

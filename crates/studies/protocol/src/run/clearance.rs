@@ -1,4 +1,4 @@
-//! Raises the tip before somebody changes anything below it.
+//! Raises the tip before an operator changes something below it.
 
 use taceva_core::{ForceTransducer, Robot};
 
@@ -12,14 +12,14 @@ use super::time::Cancel;
 use super::tip::{DEADLINE, Pace, Step, Tip};
 use crate::plan::Plan;
 
-/// Raises the tip straight to the height of travel if it is lower, and halts the robot there, clear of hands. Returns true if it moved.
+/// Raises the tip straight to the travel height if it is lower, and halts the robot there, clear of hands. Returns true if it moved.
 ///
-/// If `robot` is a name, the operator enables that robot before it moves. A tip that is high enough is only halted. `supervisor` watches
-/// this robot and receives every reading of force as under [`run_guarded`](super::run_guarded). On a rig with an enabling switch nothing
-/// moves until somebody holds it, for up to `patience_s`.
+/// If `robot` is a name, the operator enables that robot before it moves. A tip that is high enough is only halted. `supervisor` watches this robot
+/// and receives every force reading, as under [`run_guarded`](super::run_guarded). With an enabling switch, nothing moves until the switch is held,
+/// for up to `patience_s`.
 ///
 /// # Errors
-/// [`RunError`] as of [`run`](super::run).
+/// [`RunError`], as [`run`](super::run).
 pub fn raise(
     plan: &Plan,
     arm: &mut dyn Robot,
@@ -92,7 +92,7 @@ pub(super) fn enable(
     }
 }
 
-/// Error before any motion: the tip was left where it was found.
+/// Error before any motion: the tip stayed in place.
 fn unmoved(cause: StopCause) -> RunError {
     RunError {
         press: None,
@@ -102,7 +102,7 @@ fn unmoved(cause: StopCause) -> RunError {
 }
 
 impl Tip<'_> {
-    /// True if the tip is at or above the height of travel.
+    /// True if the tip is at or above the travel height.
     pub(super) fn is_high(&self) -> bool {
         self.here().position.z.0 <= -self.pace.clearance_mm
     }

@@ -1,37 +1,37 @@
-//! The devices of a run, borrowed.
+//! Borrowed devices of a run.
 
 use std::time::Duration;
 
 use taceva_core::{Deadline, DriverError, ForceTransducer, Lighting, Robot, Sensor, Specimen};
 
-/// Borrowed devices of a run, which starts and stops them.
+/// Borrowed devices of a run. The run starts and stops them.
 pub struct Devices<'a> {
-    /// Carries the specimen.
+    /// Robot with the specimen.
     pub robot: &'a mut dyn Robot,
-    /// Measures the force.
+    /// Force transducer.
     pub force: &'a mut dyn ForceTransducer,
-    /// Takes pictures; `None` if the plan takes none.
+    /// Sensor; `None` if the plan needs no frames.
     pub sensor: Option<&'a mut dyn Sensor>,
-    /// Sets the light; `None` leaves this to the sensor.
+    /// Lighting; `None` if the sensor sets the light.
     pub lighting: Option<&'a mut dyn Lighting>,
-    /// Changes specimens; with `None`, one specimen serves the whole run.
+    /// Changer of specimens; `None` if one specimen serves the whole run.
     pub specimens: Option<&'a mut dyn SpecimenChanger>,
 }
 
-/// Changes the specimen on the robot: a tool changer, a simulated bench, or a person.
+/// Changer of the specimen on the robot: a tool changer, a simulated bench, or an operator.
 pub trait SpecimenChanger {
-    /// Mounts `specimen`, turned straight, and returns once it can be pressed. The tip is far from the gel.
+    /// Mounts `specimen` unrotated, and returns once it is ready to press. The tip is far from the gel.
     ///
     /// # Errors
-    /// [`DriverError`] if it is missing or was not mounted in time.
+    /// [`DriverError`] if the specimen is missing or was not mounted in time.
     fn mount(&mut self, specimen: Specimen, deadline: Deadline) -> Result<(), DriverError>;
 
-    /// True if the changer holds `specimen`; others are mounted by hand.
+    /// True if the changer holds `specimen`; the operator mounts others.
     fn holds(&self, _specimen: Specimen) -> bool {
         true
     }
 
-    /// Longest duration of one mount; the robot is halted meanwhile. `None` for a changer without moving parts, such as a simulated bench.
+    /// Longest duration of a mount, while the robot is halted. `None` for a changer without moving parts, such as a simulated bench.
     fn patience(&self) -> Option<Duration> {
         None
     }

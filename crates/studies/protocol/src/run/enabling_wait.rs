@@ -1,4 +1,4 @@
-//! Waits for a held enabling switch while nothing moves.
+//! Waits until the enabling switch is held; nothing moves meanwhile.
 
 use std::time::Duration;
 
@@ -13,7 +13,7 @@ use crate::content_id::ContentId;
 /// Interval between readings of the switch.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Operator who is called to hold the enabling switch, with the longest wait.
+/// Operator for the enabling switch, with the longest wait.
 pub(super) struct Attendant<'c> {
     pub(super) operator: Option<&'c mut dyn Operator>,
     pub(super) events: &'c mut dyn FnMut(&Event),
@@ -22,7 +22,7 @@ pub(super) struct Attendant<'c> {
 }
 
 impl Tip<'_> {
-    /// Waits until the enabling switch is held, at most `patience_s`; returns at once on a rig without one.
+    /// Waits until the enabling switch is held, at most `patience_s`. Returns at once without a switch.
     pub(super) fn wait_until_held(&mut self, attendant: &mut Attendant<'_>) -> Step<()> {
         let withheld = |tip: &Tip<'_>| tip.supervisor.lock().withheld();
         if withheld(self).is_none() {
@@ -47,8 +47,8 @@ impl Tip<'_> {
         }
     }
 
-    /// Error that ends a run, after the tip was raised above the gel. The tip moves only while the enabling switch is held; each release is
-    /// followed by another wait and try.
+    /// Error that ends a run, after the tip was raised above the gel. The tip moves only while the enabling switch is held. Each release leads to
+    /// another wait and attempt.
     pub(super) fn abandoned(&mut self, cause: StopCause, mut attendant: Attendant<'_>) -> RunError {
         if let StopCause::Tripped(trip) = cause {
             (attendant.events)(&Event::Halted(trip));
@@ -67,7 +67,7 @@ impl Tip<'_> {
             let _ = self.robot.halt();
             match self.wait_until_held(attendant) {
                 Ok(()) => {}
-                // The original cause says more than the missing hold.
+                // The original cause is more informative than the missing hold.
                 Err(_) if !cause.is_release() => return (cause, Left::InPlace),
                 Err(unheld) => return (unheld, Left::InPlace),
             }
@@ -106,7 +106,7 @@ impl Run<'_> {
             .map_err(|cause| RunError { press, cause, left })
     }
 
-    /// Error that ends the run, after the tip was brought to a safe place.
+    /// Error that ends the run, after the tip was raised above the gel if possible.
     pub(super) fn abandoned(&mut self, press: Option<ContentId>, cause: StopCause) -> RunError {
         let attendant = Attendant {
             operator: match &mut self.operator {

@@ -9,10 +9,10 @@ use super::reference_touch::TouchFault;
 use crate::content_id::ContentId;
 use crate::text::SceneError;
 
-/// A run that stopped before its end. All finished presses are durable, and the same call resumes it.
+/// A run that stopped early. All finished presses are durable, and the same call resumes it.
 #[derive(Debug)]
 pub struct RunError {
-    /// Unfinished press, if one had begun; it is repeated from its start.
+    /// Unfinished press, if one had begun. It is repeated from its start.
     pub press: Option<ContentId>,
     /// Cause.
     pub cause: StopCause,
@@ -27,7 +27,7 @@ pub enum StopCause {
     /// The run was cancelled.
     #[error("stopped on request")]
     Cancelled,
-    /// Presses are left because the operator skipped a step; all others are made.
+    /// Presses are missing because the operator skipped a step; all others are made.
     #[error(
         "{} {} left because the operator skipped a step that {}: resume the same run",
         counted(*presses, "press"),
@@ -35,7 +35,7 @@ pub enum StopCause {
         by_count(*presses, "it needs", "they need")
     )]
     Skipped {
-        /// Number of presses left.
+        /// Number of missing presses.
         presses: usize,
     },
     /// A device failed.
@@ -47,7 +47,7 @@ pub enum StopCause {
     /// A press could not be made durable.
     #[error("cannot record the press: {0}")]
     Log(SinkError),
-    /// No frame was taken after the tip came to rest.
+    /// No valid frame of the resting tip was captured.
     #[error("{attempts} frames in a row were lost, damaged or older than the contact{}", of_last(.last))]
     Frames {
         /// Number of tries.
@@ -55,7 +55,7 @@ pub enum StopCause {
         /// Last error of the sensor; `None` if it returned only outdated frames.
         last: Option<String>,
     },
-    /// A motion would leave the workspace; it was not made.
+    /// A motion would leave the workspace. It was not made.
     #[error("a motion to {place} would leave the workspace of the plan")]
     Workspace {
         /// The target, in mm.
@@ -64,9 +64,9 @@ pub enum StopCause {
     /// The rig contradicts its rig file.
     #[error("{0}")]
     Rig(Box<SceneError>),
-    /// The guard reacts so late that a limit would be passed too far.
+    /// The guard reacts so late that a limit would be exceeded too far.
     #[error(
-        "force readings arrive up to {reaction_ms:.0} ms late on this machine, and the tip travels {overshoot_mm:.3} mm in that time: expected at most {greatest_mm:.3} mm, a part of the depth; stop other programs, start the run by `chrt -f 10 taceva run …`, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
+        "force readings arrive up to {reaction_ms:.0} ms late on this machine, and the tip travels {overshoot_mm:.3} mm in that time: expected at most {greatest_mm:.3} mm (30 % of the allowed depth); stop other programs, start the run by `chrt -f 10 taceva run …`, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
     )]
     SlowGuard {
         /// Time from a limit to the halt, in ms: the 99.9th percentile.
@@ -78,7 +78,7 @@ pub enum StopCause {
         /// Greatest allowed speed in contact, in mm/s.
         speed_mm_s: f64,
     },
-    /// In the gentle touch before the first press, force or picture did not respond like a gel.
+    /// Force or frames did not respond as a gel should in the gentle touch before the first press.
     #[error("{0}")]
     Touch(TouchFault),
     /// The enabling switch was not held within the wait of the rig file.
@@ -89,13 +89,13 @@ pub enum StopCause {
         /// Wait, in s.
         patience_s: f64,
     },
-    /// The plan needs something that the run was not given.
+    /// The plan needs something that the run lacks.
     #[error("the plan needs {0}")]
     Missing(String),
 }
 
 impl StopCause {
-    /// True if force, pose or frames failed to arrive in time, so that the press can be repeated.
+    /// True if force, pose or frames did not arrive in time, so that the press can be repeated.
     pub fn is_silence(&self) -> bool {
         matches!(
             self,
@@ -104,7 +104,7 @@ impl StopCause {
         )
     }
 
-    /// True if force or pose came too late. A busy machine does that to emulated devices.
+    /// True if force or pose arrived too late, as on a busy machine with emulated devices.
     pub(super) fn is_late(&self) -> bool {
         matches!(
             self,
@@ -113,12 +113,12 @@ impl StopCause {
         )
     }
 
-    /// True if the enabling switch was released: the press is repeated once it is held.
+    /// True if the enabling switch was released; the press is repeated once it is held.
     pub fn is_release(&self) -> bool {
         matches!(self, StopCause::Tripped(Trip::Released))
     }
 
-    /// Fault for which a device stopped itself: a person acknowledges it there before anything moves again.
+    /// Fault with which a device stopped itself. The operator acknowledges it at the device before anything moves again.
     pub fn fault(&self) -> Option<Fault> {
         match self {
             StopCause::Device(error) => error.fault(),
@@ -139,7 +139,7 @@ pub enum Left {
     Untouched,
     /// Above the gel.
     Clear,
-    /// Halted in place: the force could not be trusted, or the robot did not obey.
+    /// Halted in place, because the force could not be trusted or the robot did not obey.
     InPlace,
 }
 

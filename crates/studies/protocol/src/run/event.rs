@@ -1,4 +1,4 @@
-//! Events of a run, for display while it goes on.
+//! Events of a run, for display during the run.
 
 use taceva_core::{Millimetre, PressOutcome, Specimen};
 
@@ -13,41 +13,41 @@ pub enum Event {
     Started {
         /// Number of presses of this unit.
         presses: usize,
-        /// Number of those finished in earlier runs.
+        /// Number of presses that earlier runs finished.
         finished: usize,
     },
     /// A specimen was mounted.
     Mounted(Specimen),
     /// The light was set.
     Lit(String),
-    /// A press is left for another run, because the operator skipped a step that it needs.
+    /// A press is left for another run because the operator skipped a step that it needs.
     Skipped(ContentId),
     /// A press begins.
     Approaching {
         /// The press.
         press: ContentId,
-        /// Its number among the presses of this unit, from 1.
+        /// Number of the press among those of this unit, from 1.
         number: usize,
     },
     /// The gel was touched.
     Contact {
-        /// Height of the contact in the sensor's frame, positive into the gel.
+        /// Height of the contact in the sensor frame, in mm, positive into the gel.
         height: Millimetre,
     },
-    /// A frame was unusable. Another one is captured.
+    /// A frame was unusable, so another one is captured.
     FrameRetried,
     /// A sample was taken.
     Sampled {
-        /// Its number in the press, from 0.
+        /// Number of the sample in the press, from 0.
         number: usize,
     },
     /// The supervisor halted the robot.
     Halted(Trip),
     /// The tip left the gel after a halt.
     Retracted,
-    /// The enabling switch is not held, and nothing moves until it is.
+    /// The enabling switch is not held. Nothing moves until it is.
     Unheld,
-    /// A press was interrupted by stale signals or a released enabling switch, and is repeated from its start.
+    /// A press was interrupted by stale signals or a released enabling switch. It is repeated from its start.
     Redone {
         /// The press.
         press: ContentId,
@@ -61,6 +61,6 @@ pub enum Event {
         /// Outcome.
         outcome: PressOutcome,
     },
-    /// A place was visited in the air, in a rehearsal.
+    /// A rehearsal visited a place in the air.
     Rehearsed(ContentId),
 }

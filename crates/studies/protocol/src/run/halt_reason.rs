@@ -1,10 +1,10 @@
-//! Reasons for which the supervisor halts the robot.
+//! Reasons why the supervisor halts the robot.
 
 use std::fmt;
 
 use taceva_core::Limit;
 
-/// Reasons for which the supervisor halts the robot.
+/// Reasons why the supervisor halts the robot.
 ///
 /// # Units
 /// mm, N, N/s and s.
@@ -32,12 +32,12 @@ pub enum Trip {
         /// The limit.
         limit_n: f64,
     },
-    /// A force out of contact.
+    /// A force occurs out of contact.
     UnexpectedContact {
         /// The force.
         force_n: f64,
     },
-    /// The force rises faster than any gel allows.
+    /// The force rises faster than with any gel.
     ForceRate {
         /// The rate.
         rate_n_s: f64,
@@ -49,19 +49,19 @@ pub enum Trip {
     },
     /// A reading is not finite.
     NotFinite,
-    /// Readings are equal to the last bit although the tip moved.
+    /// Readings are bit-equal although the tip moved.
     Frozen {
         /// Number of equal readings.
         readings: u32,
     },
     /// The last force is too old.
     StaleForce {
-        /// Its age.
+        /// Age of the force.
         age_s: f64,
     },
     /// The last pose is too old.
     StalePose {
-        /// Its age.
+        /// Age of the pose.
         age_s: f64,
     },
     /// The enabling switch is not held.
@@ -76,7 +76,7 @@ pub enum Trip {
 }
 
 impl Trip {
-    /// Limit of the gel that was reached with healthy signals: the press ends, the run continues. `None` for other reasons.
+    /// Limit of the gel that was reached with healthy signals: the press ends, and the run continues. `None` for other reasons.
     pub fn limit(self) -> Option<Limit> {
         match self {
             Trip::Depth { .. } => Some(Limit::Depth),
@@ -132,12 +132,12 @@ impl fmt::Display for Trip {
             }
             Trip::StaleForce { age_s } => write!(
                 f,
-                "the last force reading is {:.0} ms old; on a busy machine, start the run by `chrt -f 10 taceva run …`; a device that stamps by a clock of its own seems late on any machine",
+                "the last force reading is {:.0} ms old; on a busy machine, start the run by `chrt -f 10 taceva run …`; a device with its own clock appears late on any machine",
                 age_s * 1e3
             ),
             Trip::StalePose { age_s } => write!(
                 f,
-                "the last pose reading is {:.0} ms old; on a busy machine, start the run by `chrt -f 10 taceva run …`; a device that stamps by a clock of its own seems late on any machine",
+                "the last pose reading is {:.0} ms old; on a busy machine, start the run by `chrt -f 10 taceva run …`; a device with its own clock appears late on any machine",
                 age_s * 1e3
             ),
             Trip::Released => f.write_str("the enabling switch is not held"),

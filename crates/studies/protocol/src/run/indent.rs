@@ -1,4 +1,4 @@
-//! Waypoints of a press, and the rest of them after a limit of the gel.
+//! Waypoints of a press, and the remaining ones after a limit of the gel.
 
 use taceva_core::{Limit, Nanometre, Phase, PressOutcome};
 
@@ -10,14 +10,14 @@ use super::tip::{Step, Tip};
 use crate::plan::PlannedPress;
 use crate::press::Waypoint;
 
-/// Greatest number of draw-backs at one waypoint, each at least one segment: noise at the limit needs one or two.
+/// Greatest number of draw-backs at one waypoint, each at least one segment long. Noise at the limit needs one or two.
 const DRAW_BACKS: u32 = 32;
 
 impl Run<'_> {
     /// Visits the waypoints, whose depths count from `height_mm`.
     ///
-    /// If a limit of the gel stops the tip, it draws back until it may rest and takes the sample of that waypoint there. Deeper waypoints
-    /// are skipped. Waypoints on the way out are visited from that depth.
+    /// If a limit of the gel stops the tip, the tip draws back until it may rest and takes the sample of that waypoint there. Deeper waypoints are
+    /// skipped. Waypoints of the unloading are visited from that depth.
     pub(super) fn indent(
         &mut self,
         planned: &PlannedPress,
@@ -80,7 +80,7 @@ impl Run<'_> {
         Ok(limit)
     }
 
-    /// Takes the sample of an unreachable waypoint as near to it as the tip may rest; returns the depth there, in mm.
+    /// Takes the sample of an unreachable waypoint as close to it as the tip may rest. Returns the depth there, in mm.
     fn visit_at_limit(
         &mut self,
         planned: &PlannedPress,
@@ -105,7 +105,7 @@ impl Run<'_> {
 enum Visit {
     /// Skip the waypoint.
     Not,
-    /// Turning point: sample at the depth that was reached.
+    /// Turning point: take the sample at the reached depth.
     WhereItIs,
     /// Visit the waypoint.
     Waypoint,
@@ -153,9 +153,9 @@ mod tests {
         use Visit::{Not, Waypoint as Visited, WhereItIs};
         assert_eq!(visits(0.25), [Not, Not, WhereItIs, Visited, Visited]);
         assert_eq!(visits(0.05), [Not, Not, Not, Not, WhereItIs]);
-        // A depth that was just reached is visited on the way out.
+        // The unloading visits a depth that was just reached.
         assert_eq!(visits(0.3), [Not, WhereItIs, Visited, Visited, Visited]);
-        // The limit acts on the way out: the gel pushes harder than a moment before.
+        // The limit acts during unloading: the gel pushes harder than before.
         assert_eq!(visits(0.39), [Not, WhereItIs, Visited, Visited, Visited]);
     }
 

@@ -1,13 +1,13 @@
-//! Limits of a gel, and the length of the next stride by its measured stiffness.
+//! Limits of a gel, and the length of the next stride from its measured stiffness.
 
 use taceva_core::Wrench;
 
-/// Part of the greatest depth that a tip without contact may travel at once without passing a limit.
+/// Part of the greatest depth that a tip without contact may travel at once without exceeding a limit.
 const UNFELT_PART: f64 = 0.125;
-/// Multiple of the measured depth to which the stiffness of a gel is extrapolated.
+/// Multiple of the measured depth up to which the stiffness of a gel is extrapolated.
 const KNOWN_DEPTHS: f64 = 2.0;
-/// Factor on the ratio of force to depth that bounds the stiffness. A sphere reaches it at six times the depth (force ∝ depth^1.5);
-/// sideways the gel is softer.
+/// Factor on the ratio of force to depth that bounds the stiffness. A sphere reaches it at six times the depth (force ∝ depth^1.5). The gel is softer
+/// sideways.
 const STIFFER: f64 = 3.0;
 
 /// Limits of a gel.
@@ -38,7 +38,7 @@ impl Felt {
 }
 
 impl Bearing {
-    /// Longest stride of the tip inward or sideways at `depth_mm` under the force `felt`, in mm.
+    /// Longest inward or sideways stride of the tip at `depth_mm` under the force `felt`, in mm.
     pub(super) fn room_mm(&self, depth_mm: f64, felt: &Felt) -> f64 {
         let normal_n = felt.normal_n.abs().max(self.threshold_n);
         let stiffness_n_mm = STIFFER * normal_n / depth_mm.max(0.0);
@@ -81,7 +81,7 @@ mod tests {
                 let room_mm = GEL.room_mm(depth_mm, &pressed(force_n(depth_mm)));
                 let after_mm = depth_mm + room_mm;
                 assert!(after_mm <= 1.0 + 1e-12 && force_n(after_mm) <= 1.8 + 1e-9);
-                // The least stride of a run.
+                // Least stride of a run.
                 depth_mm += room_mm.max(0.015);
             }
         }
@@ -105,7 +105,7 @@ mod tests {
                 "{depth_mm} mm, {felt:?}"
             );
         }
-        // The gel is soft, but measured to 0.1 mm only.
+        // The gel is soft, but measured only to 0.1 mm.
         assert!((GEL.room_mm(0.1, &pressed(0.03)) - 0.2).abs() < 1e-12);
         // 1.2 N of shear are left, at an assumed 6 N/mm.
         assert!((GEL.room_mm(0.3, &pressed(0.6)) - 0.2).abs() < 1e-12);

@@ -1,4 +1,4 @@
-//! Log of a run: it knows the finished presses, and makes new ones durable.
+//! Log of finished presses. It makes new ones durable.
 
 use taceva_core::{Frame, PressOutcome, Sample, SinkError};
 
@@ -11,23 +11,23 @@ pub trait PressLog {
     /// True if `press` was appended, in this run or an earlier one.
     fn is_finished(&self, press: ContentId) -> bool;
 
-    /// Appends a whole press and returns once it is durable. After an interruption the log has all of it or nothing.
+    /// Appends a complete press and returns once it is durable. After an interruption, the log has all of it or nothing.
     ///
     /// # Errors
-    /// Any failure to make it durable; the run stops, and the press counts as not made.
+    /// Any failure to make it durable. The run then stops, and the press counts as not made.
     fn append(&mut self, record: &PressRecord) -> Result<(), SinkError>;
 
-    /// Stores a picture without contact, in the reference light. It comes before the first press with pictures of each unit, and again if
-    /// that press is repeated.
+    /// Stores a reference frame without contact, in the reference light. It precedes the first press with frames of each unit, and is repeated with
+    /// that press.
     ///
     /// # Errors
-    /// Any failure to make it durable; the run stops.
+    /// Any failure to make it durable. The run then stops.
     fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError>;
 
     /// Stores the start of a session on the rig of a rig file, before its first press.
     ///
     /// # Errors
-    /// Any failure to make it durable; the run stops.
+    /// Any failure to make it durable. The run then stops.
     fn session(&mut self, record: &SessionRecord) -> Result<(), SinkError> {
         let _ = record;
         Ok(())

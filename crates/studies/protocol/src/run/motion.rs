@@ -16,8 +16,7 @@ impl Tip<'_> {
         })
     }
 
-    /// Makes one straight motion at the speed of contact, as an expiring motion if the robot supports it: it stops by itself if this host
-    /// falls silent.
+    /// Makes one straight motion at the contact speed. Uses an expiring motion if the robot supports it, which stops by itself if the host fails.
     pub(super) fn go_expiring(&mut self, target: Pose) -> Step<()> {
         let speed = self.pace.contact;
         self.go_by(target, speed, |robot, deadline| {

@@ -1,4 +1,4 @@
-//! Picture, pose and force of one moment.
+//! Frame, pose and force of one moment.
 
 use taceva_core::{Frame, Pose, Stamp, Wrench};
 
@@ -15,7 +15,7 @@ pub(super) struct Observed {
     pub(super) frame: Option<Frame>,
 }
 
-/// Observes the state after `before`; force and pose are read before and after the picture and interpolated to its time.
+/// Observes the state after `before`. Reads force and pose before and after the frame, and interpolates them to its time.
 pub(super) fn observe(
     before: Look,
     tip: &mut Tip<'_>,

@@ -1,4 +1,4 @@
-//! The operator at a rig, and the questions for manual steps.
+//! Operator of a rig, and the questions for manual steps.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ pub trait Operator {
     /// Asks `question` and waits for the answer; returns [`Answer::Stop`] soon after `cancel` was cancelled.
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer;
 
-    /// Displays that the enabling switch must be held, for which the run waits `patience_s` at most. Returns at once. Does nothing by default.
+    /// Shows that the enabling switch must be held within `patience_s`. Returns at once; does nothing by default.
     fn call_to_hold(&mut self, _patience_s: f64) {}
 }
 
@@ -19,26 +19,26 @@ pub trait Operator {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Question {
-    /// Let this robot move: the operator types its name, or presses a button with it.
+    /// Enable this robot: the operator types its name or presses a button with the name.
     Enable(String),
-    /// Mount this specimen on the robot, turned straight.
+    /// Mount this specimen on the robot, unrotated.
     Mount(Specimen),
     /// Put this unit of the sensor under the robot.
     Unit(String),
-    /// Set this scene of light.
+    /// Set this light scene.
     Light(String),
-    /// Check and acknowledge this fault at the robot, which then moves again.
+    /// Check and acknowledge this fault at the robot. The robot moves again afterwards.
     Acknowledge(Fault),
-    /// Jog the tip to this place with the robot's own tool.
+    /// Jog the tip to this place with the controls of the robot.
     Jog(Spot),
-    /// Do this by hand, because the changer failed.
+    /// Do this step by hand, because the changer failed.
     Instead {
-        /// Step: [`Mount`](Question::Mount) or [`Unit`](Question::Unit).
+        /// The step: [`Mount`](Question::Mount) or [`Unit`](Question::Unit).
         of_changer: Box<Question>,
         /// Reason of the failure.
         why: String,
     },
-    /// Take all hands out of reach: after a skipped step the robot continues with presses that need no operator.
+    /// Take all hands out of reach. After a skipped step, the robot continues with presses that need no operator.
     GoOn,
     /// Continue although the touch differs from that of an earlier session of this recording.
     Resume(ChangedTouch),
@@ -55,7 +55,7 @@ pub enum Spot {
     AlongY,
 }
 
-/// Difference between a touch and that of an earlier session.
+/// Difference between a touch and the touch of an earlier session.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChangedTouch {
     /// Change of the height of the gel, in mm; positive means deeper.
@@ -69,7 +69,7 @@ pub struct ChangedTouch {
 pub enum Answer {
     /// Done, and all hands are out of reach.
     Done,
-    /// Not possible now: the run skips presses that need it.
+    /// Not possible now. The run skips presses that need it.
     Skip,
     /// Stop the run.
     Stop,

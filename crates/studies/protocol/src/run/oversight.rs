@@ -5,8 +5,8 @@ use super::supervisor::SharedSupervisor;
 
 /// Guard of a run on a robot that threads watch.
 ///
-/// `supervisor` watches the robot of the run. One thread of the caller shows it every reading of force, another one poses in motion. The
-/// transducer of the run only passes on the readings of the first thread.
+/// `supervisor` watches the robot of the run. One thread of the caller passes it every force reading, another one passes poses during motions. The
+/// transducer of the run only returns readings of the first thread.
 pub struct Oversight<'a> {
     pub(super) supervisor: SharedSupervisor,
     pub(super) session: Option<SessionSpec<'a>>,
@@ -14,7 +14,7 @@ pub struct Oversight<'a> {
 }
 
 impl<'a> Oversight<'a> {
-    /// Creates a guard without a session, whose run does not wait for an enabling switch.
+    /// Creates a guard without a session, which does not wait for an enabling switch.
     pub fn new(supervisor: SharedSupervisor) -> Oversight<'a> {
         Oversight {
             supervisor,
@@ -25,8 +25,8 @@ impl<'a> Oversight<'a> {
 
     /// Adds a session on the rig of a rig file, with the patience of that file.
     ///
-    /// Before the first press the operator enables the robot, the tip passes through the air and touches the gel gently. The touch is
-    /// compared with the rig file and with earlier sessions of the recording.
+    /// Before the first press, the operator enables the robot, and the tip passes through the air and touches the gel gently. The touch is compared
+    /// with the rig file and with earlier sessions of the recording.
     #[must_use]
     pub fn with_session(self, session: SessionSpec<'a>) -> Oversight<'a> {
         Oversight {

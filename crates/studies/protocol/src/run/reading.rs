@@ -1,4 +1,4 @@
-//! Reads force and pose of a resting tip and shows them to the supervisor.
+//! Reads force and pose of a resting tip and passes them to the supervisor.
 
 use std::time::Duration;
 
@@ -12,21 +12,21 @@ use super::supervisor::Observation;
 use super::surface_fit::DepthForce;
 use super::tip::{DEADLINE, Step, Tip, is_silent};
 
-/// Deadline of one reading; reading is retried until the supervisor finds the force stale.
+/// Deadline of one reading. Reading is retried until the supervisor finds the force stale.
 pub(super) const READ_DEADLINE: Duration = Duration::from_millis(20);
 /// Delay before the next reading after an outdated one.
 const LATE_REST: Duration = Duration::from_millis(1);
-/// Greatest number of readings without a current one, in case the clock stands still.
+/// Greatest number of readings without a current one, in case the clock stops.
 const READ_TRIES: u32 = 64;
 
 impl Tip<'_> {
-    /// Reads force and pose and shows both to the supervisor.
+    /// Reads force and pose and passes both to the supervisor.
     pub(super) fn look(&mut self) -> Step<Look> {
         let reading = self.read_force()?;
         let asked_s = self.clock.now_s();
         let (pose, stamp) = match self.robot.pose(DEADLINE) {
             Ok(read) => read,
-            // A robot that does not answer has a stale pose.
+            // A robot that does not reply has a stale pose.
             Err(error) if is_silent(&error) => {
                 let age_s = self.clock.now_s() - asked_s;
                 return Err(self.halt_for(Trip::StalePose { age_s }));
@@ -59,8 +59,8 @@ impl Tip<'_> {
 
     /// Reads a force measured after this call.
     ///
-    /// The tip rests meanwhile, so late links and filters cost time and no travel. Readings from before the end of the last motion are
-    /// shown to the supervisor, then the next one is read.
+    /// The tip rests meanwhile, so late links and filters cost time but no travel. Readings from before the end of the last motion only go to the
+    /// supervisor; then the next one is read.
     pub(super) fn read_force(&mut self) -> Step<Reading> {
         let asked_s = self.clock.now_s();
         for _ in 0..READ_TRIES {
@@ -103,7 +103,7 @@ impl Tip<'_> {
             Observation::Force(..) | Observation::Numbered(..)
         );
         let seen = match (self.is_guarded && is_force, supervisor.tripped()) {
-            // The guard thread has shown this reading already. Shown twice, it would count as a repeated signal.
+            // The guard thread has passed on this reading already. A second time would count as a repeated signal.
             (true, Some(trip)) => Err(trip),
             (true, None) => Ok(()),
             (false, _) => supervisor.observe(observation, now_s),
@@ -115,7 +115,7 @@ impl Tip<'_> {
 /// A reading of the transducer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
-    /// Force as reported, with the zero of the transducer.
+    /// Force as reported, before the zero of the host is subtracted.
     pub(super) said: Wrench,
     /// Time of the measurement, in s.
     pub(super) valid_s: f64,

@@ -1,4 +1,4 @@
-//! Start of a session on the rig of a rig file: its inputs, its reference touch, and the faults that the touch can reveal.
+//! Start of a session on the rig of a rig file: its inputs, its reference touch, and faults that the touch reveals.
 
 use std::fmt;
 
@@ -12,20 +12,20 @@ use crate::rig_file::RigFile;
 pub struct SessionSpec<'a> {
     /// The rig.
     pub rig: &'a RigFile,
-    /// Name of the robot that the operator must enable; `None` for an emulated one.
+    /// Name of the robot that the operator must enable; `None` for an emulated robot.
     pub robot: Option<&'a str>,
     /// Reference touches of earlier sessions of this recording.
     pub touched: &'a [ReferenceTouch],
 }
 
-/// A gentle touch at the middle of the gel, by which sessions of one recording are compared.
+/// A gentle touch at the middle of the gel, for the comparison of the sessions of one recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReferenceTouch {
-    /// The unit of the sensor.
+    /// Unit of the sensor.
     pub unit: String,
     /// Specimen that touched the gel.
     pub specimen: Specimen,
-    /// Height of the gel in the sensor's frame, in mm, positive into the gel.
+    /// Height of the gel in the sensor frame, in mm, positive into the gel.
     pub height_mm: f64,
     /// Depth of the touch below that height, in mm.
     pub depth_mm: f64,
@@ -34,12 +34,12 @@ pub struct ReferenceTouch {
 }
 
 impl ReferenceTouch {
-    /// Greatest apparent motion of the gel between two sessions, in mm: arms repeat to tenths.
+    /// Greatest apparent displacement of the gel between two sessions, in mm; arms repeat to about 0.1 mm.
     const HEIGHT_MM: f64 = 0.1;
-    /// Greatest relative change of its force.
+    /// Greatest relative change of the force.
     const FORCE_PART: f64 = 0.1;
 
-    /// Change since the `earlier` touch; `None` if it is within the repeatability of arms and gels.
+    /// Change since the `earlier` touch; `None` if within the repeatability of arms and gels.
     pub(super) fn changed_since(&self, earlier: &ReferenceTouch) -> Option<ChangedTouch> {
         let changed = ChangedTouch {
             height_mm: self.height_mm - earlier.height_mm,
@@ -59,13 +59,13 @@ pub struct SessionRecord {
     pub touch: ReferenceTouch,
     /// Force reported without contact.
     pub zero: Wrench,
-    /// True for each push, to +x and to +y, that was felt with the sign of the rig file.
+    /// True for each push, to +x and to +y, that was measured with the sign of the rig file.
     pub pushes_felt: [bool; 2],
-    /// True if the picture changed in contact and only then; false if no picture is taken.
+    /// True if the frames changed in contact and only then; false without frames.
     pub picture_changed: bool,
-    /// Time from a limit to the halt, in ms: the 99.9th percentile.
+    /// Time from an exceeded limit to the halt, in ms: the 99.9th percentile.
     pub reaction_ms: f64,
-    /// Travel of the tip in that time until it rests, in mm.
+    /// Travel of the tip from an exceeded limit until it rests, in mm.
     pub overshoot_mm: f64,
 }
 
@@ -82,21 +82,21 @@ pub enum TouchFault {
         /// Depth reached, in mm.
         depth_mm: f64,
     },
-    /// A force remains after the tip has left.
+    /// A force remains after the tip has left the gel.
     Clings {
         /// Remaining force, in N.
         force_n: f64,
     },
-    /// The picture does not change in contact.
+    /// The frames do not change in contact.
     Unseen {
-        /// Greatest change of a part of it in contact, in steps of an 8-bit pixel.
+        /// Greatest change of a part of the frame in contact, in steps of an 8-bit pixel.
         in_contact: f64,
         /// Greatest change in the air, in the same steps.
         in_air: f64,
     },
-    /// The picture stays changed after the tip has left.
+    /// The frames stay changed after the tip has left the gel.
     Stays {
-        /// Greatest change of a part of it in contact, in steps of an 8-bit pixel.
+        /// Greatest change of a part of the frame in contact, in steps of an 8-bit pixel.
         in_contact: f64,
         /// Greatest change after contact, in the same steps.
         after: f64,
@@ -112,7 +112,7 @@ impl fmt::Display for TouchFault {
                 depth_mm,
             } => write!(
                 f,
-                "at {depth_mm:.3} mm depth the force is {force_n:.4} N, expected at least {wanted_n:.4} N: check how the transducer is mounted and what it measures"
+                "at {depth_mm:.3} mm depth the force is {force_n:.4} N, expected at least {wanted_n:.4} N: check the mounting and the signal of the transducer"
             ),
             TouchFault::Clings { force_n } => write!(
                 f,

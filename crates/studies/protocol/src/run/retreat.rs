@@ -1,4 +1,4 @@
-//! Leaving the gel: after a press, after a halt, and after a fault once signals are trusted again.
+//! Retreat from the gel: after a press, after a halt, and after a fault once signals can be trusted again.
 
 use std::time::Duration;
 
@@ -7,14 +7,14 @@ use taceva_core::{Millimetre, Point, Pose};
 use super::supervisor::MotionStage;
 use super::tip::{Step, Tip};
 
-/// Height above the first contact from which the tip counts as in the air, in mm.
+/// Height above the first contact at which the tip counts as in the air, in mm.
 const AIR_MM: f64 = 0.5;
-/// Maximum recovery attempts after a fault; each checks force and pose, then retreats.
+/// Greatest number of recovery attempts after a fault. Each checks force and pose, then retreats.
 const RECOVERY_TRIES: u32 = 10;
 const RECOVERY_REST: Duration = Duration::from_millis(20);
 
 impl Tip<'_> {
-    /// Retreats along the approach path, supervised, to the height of travel above the target.
+    /// Retreats along the approach path under supervision, to the travel height above the target.
     pub(super) fn retreat(&mut self) -> Step<()> {
         self.turn_back()?;
         let Point { x, y, z } = self.target.position;
@@ -59,7 +59,7 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// Ends a halt and starts supervision against a rise of the force above its present value.
+    /// Ends a halt, and supervises that the force does not rise above its present value.
     fn turn_back(&mut self) -> Step<()> {
         self.release()?;
         self.find_pose()?;
@@ -96,7 +96,7 @@ impl Tip<'_> {
         done
     }
 
-    /// True if two readings of the resting tip are healthy and differ, as those of a live transducer do.
+    /// True if two readings of the resting tip are healthy and differ, as with a live transducer.
     fn is_trustworthy(&mut self) -> bool {
         if self.release().is_err() || self.find_pose().is_err() {
             return false;

@@ -1,4 +1,4 @@
-//! A test rig with scripted behaviour that records every motion.
+//! A scripted test rig that records every motion.
 
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
@@ -18,16 +18,16 @@ use crate::plan::{Plan, plan_study};
 use crate::scene::Scene;
 use crate::source::SourceInfo;
 
-/// Height of the gel; all lengths are sums of powers of two, so that arithmetic is exact.
+/// Height of the gel, in mm. All lengths are sums of powers of two, so that arithmetic is exact.
 pub(super) const CONTACT_MM: f64 = 0.25;
 pub(super) const SEGMENT_MM: f64 = 0.125;
 pub(super) const CONTACT_MM_S: f64 = 4.0;
 pub(super) const TRAVEL_MM_S: f64 = 16.0;
 
-/// Force at each reading by its number and the height of the tip, in N; `None` is a timeout.
+/// Force in N from the number of the reading and the height of the tip; `None` is a timeout.
 type Force = Box<dyn FnMut(u32, f64) -> Option<f64> + Send>;
 
-/// A live transducer without contact: no two readings are equal.
+/// A live transducer without contact; no two readings are equal.
 pub(super) fn nothing(question: u32, _: f64) -> Option<f64> {
     Some(f64::from(question) * 1e-6)
 }
@@ -45,9 +45,9 @@ pub(super) struct State {
     pub(super) halted: bool,
     /// True if the robot reports motions that it does not make.
     pub(super) stuck: bool,
-    /// Number of timeouts when a halt is cleared.
+    /// Number of attempts to clear a halt that time out.
     pub(super) unheard: u32,
-    /// Height in mm of an obstacle, which a guard thread reports once to this supervisor.
+    /// Height in mm of an obstacle that a guard thread reports once to this supervisor.
     pub(super) obstacle: Option<(f64, SharedSupervisor)>,
     questions: u32,
     force: Force,
@@ -245,7 +245,7 @@ pub(super) fn plan() -> Plan {
     plan
 }
 
-/// Lets `act` move the tip of `rig`, which touched the gel at [`CONTACT_MM`].
+/// Runs `act` on the tip of `rig`, which has touched the gel at [`CONTACT_MM`].
 pub(super) fn with_tip<T>(rig: &Rig, act: impl FnOnce(&mut Tip<'_>) -> T) -> T {
     let plan = plan();
     let limits = plan.limits.clone().expect("it moves");

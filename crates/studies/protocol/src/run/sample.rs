@@ -1,4 +1,4 @@
-//! Builds the sample of a waypoint or picture from the observation and the plan.
+//! Builds the sample of a waypoint or frame from the observation and the plan.
 
 use taceva_core::{Limit, Nanometre, Readings, Sample, Specimen};
 
@@ -10,11 +10,11 @@ use crate::press::Motion;
 /// Position of a sample in its press.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Spot {
-    /// Number of its waypoint or picture.
+    /// Number of its waypoint or frame.
     pub(super) number: u32,
-    /// Height from which depths count, in mm.
+    /// Height of depth 0, in mm.
     pub(super) zero_mm: f64,
-    /// Limit of the gel that kept the tip from the waypoint.
+    /// Limit of the gel that stopped the tip before the waypoint.
     pub(super) limited_by: Option<Limit>,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Gathered {
     pub(super) samples: Vec<Sample>,
 }
 
-/// Sample at `spot`; channels that are not measured are absent.
+/// Sample at `spot`; channels without a measurement are absent.
 pub(super) fn sample(
     planned: &PlannedPress,
     spot: Spot,
@@ -70,7 +70,7 @@ pub(super) fn sample(
         .with_unit_id(press.unit.clone())
         .with_scene_id(press.light.clone())
         .with_point_id(press.point_id())
-        // The depth of a limited sample is no level that repeats share.
+        // Repeats do not share the depth of a limited sample, so it has no depth step.
         .with_depth_step(
             waypoint
                 .filter(|_| spot.limited_by.is_none())
@@ -94,7 +94,7 @@ mod tests {
     use crate::press::Waypoint;
     use crate::run::rig::plan;
 
-    /// Sample of the second of two waypoints, half a millimetre below a contact at 0.25 mm.
+    /// Sample of the second of two waypoints, 0.5 mm below a contact at 0.25 mm.
     fn second(motion: Motion, limited_by: Option<Limit>) -> Sample {
         let mut plan = plan();
         let planned = &mut plan.presses[0];
@@ -172,7 +172,7 @@ mod tests {
             truths(&sample),
             [x, y, z, force[0], force[1], force[2], None, None]
         );
-        // A limited sample has no depth level; all else is unchanged.
+        // A limited sample has no depth step; everything else is unchanged.
         let limited = second(Motion::Indent(waypoints), Some(Limit::Depth));
         assert_eq!(
             (limited.depth_step, limited.phase),

@@ -27,25 +27,25 @@ pub(super) struct Run<'a> {
     pub(super) plan: &'a Plan,
     pub(super) mounted: Option<Specimen>,
     pub(super) lit: Option<String>,
-    /// Sum of the weights of interruptions by stale signals.
+    /// Total weight of interruptions by stale signals.
     silences: u32,
-    /// Presses made again after stale signals or a released switch.
+    /// Number of presses repeated after stale signals or a released switch.
     redone: u32,
-    /// True for emulated devices, which a busy machine makes late.
+    /// True for emulated devices, which a busy machine delays.
     is_emulated: bool,
-    /// Longest wait for a held enabling switch, in s.
+    /// Longest wait for the enabling switch to be held, in s.
     pub(super) patience_s: f64,
     /// Steps that the operator skipped.
     pub(super) skipped: Vec<Question>,
     /// True from a skipped step until the operator confirms that hands are out of reach.
     pub(super) is_reach_unknown: bool,
-    /// Session that has not begun; `None` without a rig file, and from the first press on.
+    /// Session before its start; `None` without a rig file, and from the first press on.
     pub(super) session: Option<SessionSpec<'a>>,
 }
 
-/// Interruptions of one press by stale signals that end the run.
+/// Number of interruptions of one press by stale signals that end the run.
 const SILENCES_OF_A_PRESS: u32 = 3;
-/// Interruptions by stale signals in a run that end it.
+/// Number of interruptions of a run by stale signals that end it.
 const SILENCES_OF_A_RUN: u32 = 20;
 /// Weight of an interruption; late signals of emulated devices weigh 1.
 pub(super) const WHOLE: u32 = 10;
@@ -124,7 +124,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Weight of an interruption. A late controller of an emulated rig counts a tenth.
+    /// Weight of an interruption. A late controller of an emulated rig counts one tenth.
     pub(super) fn weight(&self, cause: &StopCause) -> u32 {
         match self.is_emulated && cause.is_late() {
             true => 1,
@@ -165,7 +165,7 @@ impl<'a> Run<'a> {
         });
         let is_finished = |press: &&PlannedPress| log.is_finished(press.id);
         if self.session.is_some() && spec.mode == Mode::Acquire && presses.iter().all(is_finished) {
-            // Without presses left, the robot is not enabled.
+            // If no presses are left, the robot is not enabled.
             return Ok(report);
         }
         self.enable()?;
@@ -221,8 +221,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Makes one press. After stale signals or a release it repeats the press from its start, if the tip was raised above the gel. The same
-    /// follows a fault that the operator acknowledged.
+    /// Makes one press. After stale signals or a release, repeats the press from its start, if the tip was raised above the gel. Does the same after
+    /// a fault that the operator acknowledged.
     fn acquire_patiently(
         &mut self,
         planned: &PlannedPress,
@@ -246,7 +246,7 @@ impl<'a> Run<'a> {
                 return Err(error);
             }
             times += 1;
-            // A release has no limit: each time somebody holds the switch again.
+            // Releases are unlimited, because the operator holds the switch again each time.
             if !is_release {
                 let weight = self.weight(&error.cause);
                 silences += weight;
@@ -263,7 +263,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Visits one place in the air; repeats it after a released switch.
+    /// Visits one place in the air; repeats the visit after a released switch.
     fn rehearse_patiently(
         &mut self,
         planned: &PlannedPress,

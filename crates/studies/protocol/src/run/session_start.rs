@@ -1,5 +1,5 @@
-//! Start of a session on the rig of a rig file: the operator enables the robot, the tip passes through the air and touches gently. The run
-//! presses only if the measurements agree with the rig file and earlier sessions.
+//! Start of a session on the rig of a rig file. The operator enables the robot; the tip passes through the air and touches gently. Presses begin only
+//! if the measurements agree with the rig file and earlier sessions.
 
 pub(super) mod picture;
 mod signs;
@@ -19,13 +19,13 @@ use super::tip::Step;
 use crate::limits::RigLimits;
 use crate::plan::PlannedPress;
 
-/// Duration of the timing of readings.
+/// Duration of measuring the delay of readings.
 const TIMED: Duration = Duration::from_secs(2);
 /// Greatest overshoot of a late guard, as a part of the allowed depth.
 const OVERSHOOT_PART: f64 = 0.3;
-/// Speed of the first passage through the air, in mm/s.
+/// Speed of the first pass through the air, in mm/s.
 const AIR_MM_S: f64 = 10.0;
-/// Interruptions by stale signals that end the start.
+/// Number of interruptions by stale signals that end the start.
 const TRIES: u32 = 3;
 
 /// Reaction of the guard on this machine.
@@ -73,7 +73,7 @@ impl Run<'_> {
                 Err(cause) => cause,
             };
             let weight = self.weight(&cause);
-            // Only with emulated devices is a guard that was slow once measured again.
+            // Only emulated devices get a second measurement of a slow guard.
             let is_silence = cause.is_silence() || weight < WHOLE;
             let is_release = cause.is_release();
             silences += if is_silence { weight } else { 0 };
@@ -111,13 +111,13 @@ impl Run<'_> {
         Ok(record)
     }
 
-    /// Measures the delay of readings on this machine, and rejects a machine with too great an overshoot.
+    /// Measures the delay of readings on this machine. Rejects a machine with too great an overshoot.
     fn time_readings(&mut self) -> Step<Reaction> {
         let supervisor = self.tip.supervisor.clone();
         supervisor.lock().time_readings();
         let until_s = self.tip.clock.now_s() + TIMED.as_secs_f64();
         while self.tip.clock.now_s() < until_s {
-            // Guard threads read meanwhile; this reading checks that they still do.
+            // Guard threads read meanwhile; this reading checks that they still run.
             self.tip.look()?;
             if self.tip.cancel.is_cancelled() {
                 return Err(StopCause::Cancelled);
@@ -132,7 +132,7 @@ impl Run<'_> {
         allowed(reaction_s, limits, self.plan.contact.speed_mm_s.value)
     }
 
-    /// Moves slowly over three of the places, so that the operator sees the workspace of the robot.
+    /// Moves slowly over three of the places, to show the operator the workspace of the robot.
     fn pass_through_the_air(&mut self, places: &[[Nanometre; 2]]) -> Step<()> {
         let usual = self.tip.pace;
         self.tip.pace.travel = slowly(usual.travel);
@@ -146,7 +146,7 @@ impl Run<'_> {
     }
 }
 
-/// Caps a speed so that a person at the stop can follow.
+/// Caps a speed so that the operator can follow with a hand at the emergency stop.
 fn slowly(travel: Speed) -> Speed {
     match Speed::try_new(AIR_MM_S) {
         Ok(slow) if slow.mm_per_s() < travel.mm_per_s() => slow,
@@ -154,7 +154,7 @@ fn slowly(travel: Speed) -> Speed {
     }
 }
 
-/// Accepts a guard that halts `reaction_s` after a limit is passed, if its overshoot is small enough.
+/// Accepts a guard that halts `reaction_s` after an exceeded limit, if its overshoot is small enough.
 fn allowed(reaction_s: f64, limits: &RigLimits, speed_mm_s: f64) -> Step<Reaction> {
     let overshoot_mm = speed_mm_s * reaction_s + limits.braking_mm();
     let greatest_mm = OVERSHOOT_PART * limits.depth_max.0;
@@ -173,7 +173,7 @@ fn allowed(reaction_s: f64, limits: &RigLimits, speed_mm_s: f64) -> Step<Reactio
     })
 }
 
-/// Up to three distant places: the first along x, the last, and the one farthest from both.
+/// Up to three distant places: the least and greatest along x, and the one farthest from both.
 fn farthest(places: &[[Nanometre; 2]]) -> Vec<[Nanometre; 2]> {
     let (Some(first), Some(last)) = (places.iter().min(), places.iter().max()) else {
         return Vec::new();

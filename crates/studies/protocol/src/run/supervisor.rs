@@ -1,7 +1,7 @@
-//! Checks every reading of force and every pose, and halts the robot if one exceeds a limit or cannot be trusted. It moves nothing; several
-//! threads may show readings.
+//! Checks every force reading and every pose, and halts the robot if one exceeds a limit or cannot be trusted. Moves nothing. Several threads may
+//! pass readings.
 //!
-//! The supervisor is no safety function: the emergency stop, the collision sensitivity of the robot and the guards are the site's duty.
+//! The supervisor is not a safety function. The site is responsible for the emergency stop, the collision sensitivity of the robot and the guards.
 
 mod enabling;
 mod observation;
@@ -24,17 +24,17 @@ use crate::limits::{FROZEN_READINGS, RigLimits};
 use reaction::Lateness;
 use repeats::Repeats;
 
-/// Distance from target or path at which the tip has diverged, in mm.
+/// Distance from target or path at which the tip counts as diverged, in mm.
 const DIVERGED_MM: f64 = 0.5;
-/// The same in standard deviations of the reported pose, if that is more.
+/// The same in standard deviations of the reported pose, if that is greater.
 const DIVERGED_NOISES: f64 = 5.0;
-/// Greatest rate of force of a gel that is pressed at 5 mm/s or less, in N/s.
+/// Greatest rate of force of a gel pressed at 5 mm/s or slower, in N/s.
 const RATE_MAX_N_S: f64 = 200.0;
-/// Least time between two readings for a rate that noise does not dominate, in s.
+/// Least time between two readings for a rate above the noise, in s.
 const RATE_SPAN_S: f64 = 0.005;
-/// Allowed rise of the force above its start in a retreat, in N: the noise of a transducer.
+/// Allowed rise of the force above its start in a retreat, in N, for the noise of a transducer.
 const RETREAT_MARGIN_N: f64 = 0.05;
-/// Greatest change of pose that counts as rest without noise, in mm.
+/// Greatest change of pose that counts as rest, without noise, in mm.
 const MOVED_MM: f64 = 1e-6;
 
 /// A supervisor shared by several threads.
@@ -47,12 +47,12 @@ impl SharedSupervisor {
         SharedSupervisor(Arc::new(Mutex::new(supervisor)))
     }
 
-    /// Locks the supervisor for one reading or one change of stage. Ignores poisoning: no state changes in a step that can panic.
+    /// Locks the supervisor for one reading or one change of stage. Ignores poisoning, because no state change can panic midway.
     pub fn lock(&self) -> MutexGuard<'_, Supervisor> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Locks the supervisor; `None` while another thread holds it. A thread in simulated time cannot wait.
+    /// Locks the supervisor; `None` while another thread holds the lock. A thread in simulated time cannot wait.
     pub fn try_lock(&self) -> Option<MutexGuard<'_, Supervisor>> {
         match self.0.try_lock() {
             Ok(held) => Some(held),
@@ -62,7 +62,7 @@ impl SharedSupervisor {
     }
 }
 
-/// Halts a robot on a bad reading, and keeps the trip until [`release`](Supervisor::release).
+/// Halts a robot on a bad reading. The trip stays until [`release`](Supervisor::release).
 pub struct Supervisor {
     limits: RigLimits,
     halt: Arc<dyn Halt>,
@@ -73,16 +73,16 @@ pub struct Supervisor {
     way: Option<[Pose; 2]>,
     /// Fault that the robot reported to a guard thread.
     fault: Option<Fault>,
-    /// Last pose seen in motion.
+    /// Last pose during a motion.
     seen: Option<Pose>,
     /// Last force and its time in s, for the rate.
     last: Option<(Wrench, f64)>,
-    /// Time of the last force or, before one, of the start of the stage, in s.
+    /// Time of the last force, in s; before the first, the start time of the stage.
     heard_s: f64,
     repeats: Repeats,
     tripped: Option<Trip>,
     enabling: Enabling,
-    /// Delays of readings, while they are measured.
+    /// Measured delays of readings, while they are measured.
     lateness: Option<Lateness>,
 }
 
@@ -92,7 +92,7 @@ impl Supervisor {
         Supervisor {
             limits,
             halt,
-            // Until the first stage is set, the zero is unknown.
+            // Before the first stage is set, the zero is unknown.
             stage: MotionStage::Retreat {
                 force_n: f64::INFINITY,
             },
@@ -109,13 +109,13 @@ impl Supervisor {
         }
     }
 
-    /// Begins to watch `stage` at `now_s`; staleness counts from now. A trip remains: the robot is halted until a release.
+    /// Begins to supervise `stage` at `now_s`; staleness counts from now. A trip stays: the robot is halted until a release.
     pub fn watch(&mut self, stage: MotionStage, now_s: f64) {
         self.stage = stage;
         self.heard_s = now_s;
-        // In the air the zero of the transducer may have changed, so earlier readings give no rate. The count of repeats continues across
-        // stages, or a signal that froze in the air would get the full allowance in each stage. Only a zero set by the transducer itself,
-        // once a run, resets it.
+        // In the air, the zero of the transducer may have changed, so earlier readings give no rate. The count of repeats continues across stages.
+        // Otherwise a signal that froze in the air would get the full allowance in each stage. Only a zero set by the transducer itself, once a run,
+        // resets it.
         match stage {
             MotionStage::Travel { .. } => self.last = None,
             MotionStage::Zeroing => {
@@ -126,7 +126,7 @@ impl Supervisor {
         }
     }
 
-    /// Clears the trip and watches `stage`, after the halt of the robot was ended.
+    /// Clears the trip and supervises `stage`, after the halt of the robot was ended.
     pub fn release(&mut self, stage: MotionStage, now_s: f64) {
         self.tripped = None;
         self.watch(stage, now_s);
@@ -137,12 +137,12 @@ impl Supervisor {
         self.way = None;
     }
 
-    /// True from a sent motion until the tip rests: then missing readings are a danger.
+    /// True from a sent motion until the tip rests. Missing readings are dangerous then.
     pub fn is_under_way(&self) -> bool {
         self.way.is_some()
     }
 
-    /// Halts because a guard thread saw a fault of the robot.
+    /// Halts because a guard thread detected a fault of the robot.
     pub fn fail(&mut self, fault: Fault) {
         self.fault = Some(fault);
         self.halt();
@@ -153,12 +153,12 @@ impl Supervisor {
         self.fault
     }
 
-    /// Clears a fault that a person acknowledged at the robot.
+    /// Clears a fault that the operator acknowledged at the robot.
     pub fn acknowledge(&mut self) {
         self.fault = None;
     }
 
-    /// Halts because a reading was clipped, so the true force is unknown.
+    /// Halts because a reading is saturated, so the true force is unknown.
     pub fn saturated(&mut self) -> Trip {
         let force_n = f64::INFINITY;
         self.trip(Trip::Saturated { force_n })
@@ -166,11 +166,11 @@ impl Supervisor {
 
     /// Halts for a reason other than a reading, such as a cancellation.
     pub fn halt(&mut self) {
-        // A second halt is harmless, and no error of a lost link could be reported otherwise.
+        // A second halt is harmless. An error of a lost link cannot be reported otherwise.
         let _ = self.halt.halt();
     }
 
-    /// Sets the zero that is subtracted from every later force before comparison with a limit of the gel.
+    /// Sets the zero, which is subtracted from every later force before the comparison with limits of the gel.
     pub fn call_zero(&mut self, zero: Wrench) {
         self.zero = zero;
     }
@@ -180,7 +180,7 @@ impl Supervisor {
         self.zero
     }
 
-    /// Subtracts the zero from a reading: the load on the gel.
+    /// Subtracts the zero from a reading, which gives the load on the gel.
     pub fn zeroed(&self, said: &Wrench) -> Wrench {
         let axes = [0, 1, 2];
         Wrench {
@@ -190,7 +190,7 @@ impl Supervisor {
         }
     }
 
-    /// True if two readings of a resting tip differ as those of a live transducer do.
+    /// True if two readings of a resting tip differ, as with a live transducer.
     pub(super) fn is_live(&self, one: &Look, other: &Look) -> bool {
         match (one.number, other.number) {
             (Some(one), Some(other)) if one == other => false,
@@ -205,8 +205,8 @@ impl Supervisor {
         self.lateness = Some(Lateness::default());
     }
 
-    /// Time from a passed limit to a sent halt, in s: the 99.9th percentile of the readings since
-    /// [`time_readings`](Supervisor::time_readings). `None` for fewer than two readings.
+    /// Time from an exceeded limit to a sent halt, in s: the 99.9th percentile of the readings since [`time_readings`](Supervisor::time_readings).
+    /// `None` for fewer than two readings.
     pub(super) fn reaction_s(&mut self) -> Option<f64> {
         self.lateness.take()?.reaction_s()
     }
@@ -216,20 +216,20 @@ impl Supervisor {
         self.limits.hold(depth_mm, wrench)
     }
 
-    /// Reason of the halt; `None` if it did not halt.
+    /// Reason of the halt; `None` without a halt.
     pub fn tripped(&self) -> Option<Trip> {
         self.tripped
     }
 
-    /// True if the last force differs from the one before the last motion, which rules out a frozen signal.
+    /// True if the last force differs from the one before the last motion, so that the signal is not frozen.
     pub fn is_fresh(&self) -> bool {
         self.repeats.count() == 0
     }
 
-    /// Checks an observation; a bad one halts the robot before this returns.
+    /// Checks an observation. A bad one halts the robot before this returns.
     ///
     /// # Errors
-    /// The [`Trip`], which remains until the next [`release`](Supervisor::release).
+    /// The [`Trip`], which stays until the next [`release`](Supervisor::release).
     pub fn observe(&mut self, observation: &Observation, now_s: f64) -> Result<(), Trip> {
         let trip = self.tripped.or_else(|| match observation {
             Observation::Force(wrench, stamp) => self.force(wrench, stamp, None, now_s),
@@ -310,7 +310,7 @@ impl Supervisor {
         }
         let [x, y, z] = self.zeroed(wrench).force.map(|force| force.0);
         let (normal_max, shear_max) = (self.limits.normal_max.0, self.limits.shear_max.0);
-        // Computes the root only near the limit: √2/2 of it is within.
+        // Computes the root only near the limit; below half of it, the magnitude is at most √2/2 of it.
         let shear = if x.abs().max(y.abs()) > 0.5 * shear_max {
             x.hypot(y)
         } else {
@@ -342,7 +342,7 @@ impl Supervisor {
         })
     }
 
-    /// Checks a pose in motion. A pose that has not changed does not count as a motion between readings.
+    /// Checks a pose during a motion. An unchanged pose does not count as a motion between readings.
     fn under_way(&mut self, pose: &Pose, stamp: &Stamp, now_s: f64) -> Option<Trip> {
         let seen = *self.seen.get_or_insert(*pose);
         if distance(pose, &seen) > MOVED_MM.max(self.limits.signals.slack_mm()) {
@@ -370,7 +370,7 @@ impl Supervisor {
         };
         let depth_mm = pose.position.z.0 - height_mm;
         let limit_mm = self.limits.depth_max.0;
-        // The allowed overshoot includes the noise of the robot at the limit itself.
+        // The allowed overshoot includes the noise of the robot at the limit.
         let is_trespass = depth_mm > limit_mm + self.limits.overshoot.healthy_mm;
         is_trespass.then_some(Trip::Depth { depth_mm, limit_mm })
     }

@@ -1,7 +1,7 @@
-//! Taps: the tip touches the gel at one place repeatedly, alternating fast and slow, while listeners record every device.
+//! Taps: the tip touches the gel at one place repeatedly, alternating between fast and slow, while listeners record every device.
 //!
-//! Position, force and picture change at the same moment; the delay of a device is its latency. The force reaches half of its rise at an
-//! offset from the reference height of the pose. The time over this offset shrinks with speed; a latency does not.
+//! Position, force and frame change at the same moment, so the delay of a device is its latency. The force reaches half of its rise at an offset from
+//! the reference height of the pose. The time over this offset decreases with speed; a latency does not.
 
 mod edges;
 mod heard;
@@ -26,34 +26,34 @@ use crate::plan::Plan;
 
 /// Speed of slow taps, as a part of the speed of contact.
 const SLOW_PART: f64 = 1.0 / 3.0;
-/// Height above the gel at which a tap begins, in mm: it leaves time for a few frames in the air.
+/// Height above the gel at which a tap begins, in mm. It leaves time for a few frames in the air.
 const LEAD_MM: f64 = 0.5;
-/// Depth and force at the end of a tap, as parts of their limits; the force is predicted from the first touch.
+/// Depth and force at the end of a tap, as parts of their limits. The force is predicted from the first touch.
 const PART: f64 = 0.4;
-/// Time of recording before the motion, and after it: even the latest device has reacted then.
+/// Time of recording before and after the motion, enough for the latest device.
 const BEFORE: Duration = Duration::from_millis(150);
 const AFTER: Duration = Duration::from_millis(600);
-/// Interruptions of a tap by stale signals in a row that end the run.
+/// Number of consecutive interruptions of a tap by stale signals that end the run.
 const TRIES: u32 = 3;
 
-/// Listener to the devices of a rig during taps, in threads of its own.
+/// Listener to the devices of a rig during taps, on its own threads.
 pub trait TapListener {
     /// Starts recording, with the tip at rest above the gel.
     fn begins(&mut self);
     /// Stops recording and returns it, after a tap or its interruption.
     fn ends(&mut self) -> TapHeard;
-    /// Confirms the last tap, which is not repeated.
+    /// Confirms the last tap. It is not repeated.
     fn counts(&mut self);
 }
 
-/// Taps the gel at its middle and measures the latency of each device behind the pose of the robot.
+/// Taps the gel at its middle and measures the latency of each device relative to the pose of the robot.
 ///
-/// Starts like a session (see [`run_guarded`](super::run_guarded)): the operator enables the robot, readings are timed, and a gentle touch
-/// must agree with the rig file. Threads show every reading of force and every pose to `supervisor`. The presses of `plan` are not made,
-/// and no pictures are taken here, since the listener holds the sensor.
+/// Starts like a session (see [`run_guarded`](super::run_guarded)): the operator enables the robot, readings are timed, and a gentle touch must agree
+/// with the rig file. Threads pass every force reading and every pose to `supervisor`. The presses of `plan` are not made. No frames are captured
+/// here, because the listener holds the sensor.
 ///
 /// # Errors
-/// [`RunError`] as of [`run_guarded`](super::run_guarded).
+/// [`RunError`], as [`run_guarded`](super::run_guarded).
 pub fn tap<'a>(
     plan: &'a Plan,
     robot: &'a mut dyn Robot,
@@ -185,7 +185,7 @@ struct Way {
     from_mm: f64,
     contact_mm: f64,
     bottom_mm: f64,
-    /// Reference height; its passage is the time of a tap.
+    /// Reference height; the tip passes it at the time of the tap.
     reference_mm: f64,
 }
 
@@ -194,10 +194,10 @@ impl Way {
         let limits = plan.limits.as_ref();
         let [depth_max_mm, normal_max_n] =
             limits.map_or([0.0; 2], |limits| [limits.depth_max.0, limits.normal_max.0]);
-        // The force of a ball on a gel grows with depth^(3/2) (Hertz 1881), that of a flat tip more slowly.
+        // The force of a ball on a gel grows with depth^(3/2) (Hertz 1881); the force of a flat tip grows more slowly.
         let rise = (PART * normal_max_n / touch.force_n).powf(2.0 / 3.0);
         let by_force_mm = touch.depth_mm * rise;
-        // The depth of the gentle touch is allowed again.
+        // At least the depth of the gentle touch is allowed.
         let depth_mm = by_force_mm
             .min(PART * depth_max_mm)
             .max(touch.depth_mm.min(depth_max_mm));

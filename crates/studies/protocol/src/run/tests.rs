@@ -1,4 +1,4 @@
-//! Light and transducer over a run.
+//! Tests of light and transducer during a run.
 
 use std::sync::{Arc, Mutex};
 
@@ -12,7 +12,7 @@ use super::*;
 use crate::content_id::ContentId;
 use crate::press::Motion;
 
-/// What was asked of the devices, in order.
+/// Calls of the devices, in order.
 type Asked = Arc<Mutex<Vec<String>>>;
 
 fn note(asked: &Asked, what: &str) {
@@ -64,7 +64,7 @@ impl PressLog for Nowhere {
     }
 }
 
-/// A plan of three presses of one sphere at one place, at rest, under lights; nothing is photographed.
+/// A plan of three presses of one sphere at one place, at rest, under lights, without frames.
 fn at_rest(lights: [&str; 3]) -> Plan {
     let mut plan = plan();
     plan.presses.truncate(3);
@@ -133,7 +133,7 @@ fn a_press_before_which_a_thread_halted_for_silence_is_made_again_and_the_run_go
         lighting: Some(&mut lamps),
         specimens: None,
     };
-    // Before the second press the thread that looks on hears nothing for 60 ms.
+    // Before the second press, the guard thread receives no readings for 60 ms.
     let mut halted = 0;
     let controls = Controls {
         clock: &mut clock,

@@ -1,10 +1,10 @@
-//! Clock and cancellation of a run, both given by the caller; this crate reads no clock of its own.
+//! Clock and cancellation of a run, given by the caller. This crate reads no clock itself.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Clock of a run, in s: the clock of the stamps of the devices. It never goes back.
+/// Clock of a run, in s: the clock that stamps the devices. It never goes back.
 ///
 /// (Core's [`Clock`](taceva_core::Clock) names only the kind of clock of a recording.)
 pub trait Timekeeper {
@@ -15,7 +15,7 @@ pub trait Timekeeper {
     fn rest(&mut self, rest: Duration);
 }
 
-/// A cancellation, from any thread; a run stops before its next motion.
+/// A cancellation that any thread can request; a run stops before its next motion.
 #[derive(Clone, Debug, Default)]
 pub struct Cancel(Arc<AtomicBool>);
 
@@ -25,7 +25,7 @@ impl Cancel {
         Cancel::default()
     }
 
-    /// Cancels for good.
+    /// Cancels permanently.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Release);
     }

@@ -1,26 +1,26 @@
-//! Distances between places, and their equality under the noise of a reported pose.
+//! Distances between places, and equality of places under the noise of a reported pose.
 
 use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 
-/// Tolerance of the rotation of a robot with a noisy pose, in degrees: arms repeat to hundredths.
+/// Tolerance of the rotation of a robot with a noisy pose, in degrees; arms repeat to hundredths.
 const TURN_SLACK_DEG: f64 = 0.1;
 
-/// Greatest sideways part of a straight way.
+/// Greatest sideways part of a straight motion.
 const ASIDE_PART: f64 = 0.01;
 
-/// Distance between two tips, in mm.
+/// Distance between two tip positions, in mm.
 pub(crate) fn distance(one: &Pose, other: &Pose) -> f64 {
     let (one, other) = (&one.position, &other.position);
     let [x, y] = [one.x.0 - other.x.0, one.y.0 - other.y.0];
     let z = one.z.0 - other.z.0;
-    // Most ways are straight down: this avoids the roots.
+    // Most motions are straight down, so this avoids the square roots.
     if x == 0.0 && y == 0.0 {
         return z.abs();
     }
     x.hypot(y).hypot(z)
 }
 
-/// Distance of a tip from the straight way between two others, ends included, in mm.
+/// Distance of a tip from the straight line between two others, ends included, in mm.
 pub(super) fn distance_from_way(tip: &Pose, from: &Pose, to: &Pose) -> f64 {
     let coordinates = |pose: &Pose| {
         let Point { x, y, z } = pose.position;
@@ -41,7 +41,7 @@ pub(super) fn distance_from_way(tip: &Pose, from: &Pose, to: &Pose) -> f64 {
     distance(tip, &part_way(from, to, part))
 }
 
-/// Assumed pose of a tip: along each axis `sent` if `seen` is within `slack_mm` of it, else `seen`.
+/// Assumed pose of a tip. Along each axis, `sent` if `seen` is within `slack_mm` of it, else `seen`.
 pub(super) fn settled(seen: &Pose, sent: &Pose, slack_mm: f64) -> Pose {
     let settle = |seen: Millimetre, sent: Millimetre| {
         let is_there = (seen.0 - sent.0).abs() < slack_mm;
@@ -73,7 +73,7 @@ pub(super) fn is_straight_up(from: &Pose, to: &Pose) -> bool {
     start.x == end.x && start.y == end.y && end.z <= start.z
 }
 
-/// True if a motion goes into the gel and sideways by at most a hundredth of the way, as links round poses.
+/// True if a motion goes into the gel and sideways by at most a hundredth of its length, because links round poses.
 pub(super) fn is_straight_down(from: &Pose, to: &Pose) -> bool {
     let (start, end) = (&from.position, &to.position);
     let aside_mm = (end.x.0 - start.x.0).hypot(end.y.0 - start.y.0);
@@ -119,7 +119,7 @@ mod tests {
             let found = distance_from_way(&pose(tip), &from, &to);
             assert!((found - expected).abs() < 1e-12, "{tip:?}: {found}");
         }
-        // A way of length 0 is a place.
+        // A line of length 0 is a point.
         let found = distance_from_way(&pose([1.0, 2.0, 1.0]), &to, &to);
         assert!((found - 1.0).abs() < 1e-12, "{found}");
     }

@@ -1,17 +1,17 @@
-//! The zero of the force: set by the transducer, or, on a real rig, computed as the mean of readings in the air.
+//! Zero of the force: set by the transducer or, on a real rig, computed as the mean of readings in the air.
 
 use taceva_core::{Newton, NewtonMillimetre, Wrench};
 
 use super::supervisor::MotionStage;
 use super::tip::{ANY_FORCE, DEADLINE, Step, Tip};
 
-/// Duration of the mean, in s; a command that zeroes an amplifier takes up to seconds at every press.
+/// Duration of the mean, in s. A zero command of an amplifier can take seconds at every press.
 const LISTEN_S: f64 = 0.25;
 /// Least number of readings of a mean, for slow transducers.
 const LEAST_READINGS: u32 = 4;
 
 impl Tip<'_> {
-    /// Zeroes the force; the tip is in the air.
+    /// Zeroes the force while the tip is in the air.
     pub(super) fn call_zero(&mut self) -> Step<()> {
         if self.pace.host_zero {
             return self.call_zero_by_host();
@@ -72,7 +72,7 @@ mod tests {
 
     #[test]
     fn the_host_calls_the_mean_of_a_quarter_of_a_second_zero() {
-        // A load of 0.5 N rests on the transducer, with an error that alternates by 1 mN.
+        // A load of 0.5 N rests on the transducer, with an alternating error of 1 mN.
         let rig = Rig::new(-3.0, |question, _| {
             Some(0.5 + 0.001 * f64::from(question % 2) + f64::from(question) * 1e-9)
         });

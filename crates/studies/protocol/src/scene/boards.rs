@@ -1,4 +1,4 @@
-//! Catalogue of the boards.
+//! Catalogue of the grating boards.
 
 use taceva_core::Nanometre;
 

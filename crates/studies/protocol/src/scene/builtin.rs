@@ -6,9 +6,9 @@ use crate::text::SceneError;
 /// A scene compiled into the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BuiltinScene {
-    /// Four simulated sensors, all metrics, small counts and a light model.
+    /// Four simulated sensors, all metrics, small counts and a fast model.
     Quick,
-    /// Four simulated sensors, all metrics, the counts of the paper.
+    /// Four simulated sensors, all metrics, and the counts of the paper.
     Paper,
 }
 
@@ -31,7 +31,7 @@ impl BuiltinScene {
             .find(|scene| scene.name() == name)
     }
 
-    /// TOML text, to read, copy and change.
+    /// TOML text, to read, copy and edit.
     pub const fn text(self) -> &'static str {
         match self {
             BuiltinScene::Quick => include_str!("../scenes/quick.toml"),
@@ -42,7 +42,7 @@ impl BuiltinScene {
     /// Parses the scene.
     ///
     /// # Errors
-    /// As [`Scene::parse`]; a test parses every one.
+    /// As [`Scene::parse`]; a test parses every built-in scene.
     pub fn scene(self) -> Result<Scene, SceneError> {
         Scene::parse(self.name(), self.text())
     }

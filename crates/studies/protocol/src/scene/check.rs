@@ -77,7 +77,7 @@ impl Check<'_> {
         self.named_by == NamedBy::Rig
     }
 
-    /// Checks a name, which must be printable and can become part of a file name.
+    /// Checks a name. It must be printable and usable in a file name.
     fn name(&self, what: &str, name: &Setting<String>) -> Checked {
         let is_plain = |text: &str| {
             let is_short = (1..=80).contains(&text.len());
@@ -201,7 +201,7 @@ impl Check<'_> {
 
     fn range(&self, key: &'static str, number: &Setting<f64>, greatest: f64) -> Checked {
         let found = number.value;
-        // NaN is in no range.
+        // NaN is outside every range.
         if found > 0.0 && found <= greatest {
             return Ok(());
         }

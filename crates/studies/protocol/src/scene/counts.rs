@@ -1,4 +1,4 @@
-//! Counts of a protocol, with those of the paper as defaults.
+//! Counts of a protocol; the defaults are those of the paper.
 
 use std::collections::BTreeMap;
 
@@ -31,32 +31,32 @@ macro_rules! table {
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table of protocols")]
 pub struct Protocol {
-    /// Settings for finding and holding contact.
+    /// Settings for finding and keeping contact.
     pub contact: Contact,
     /// Presses for fitting and testing a model.
     pub calibration: Calibration,
-    /// Held-out presses, which show where errors are large.
+    /// Held-out presses, which show the places with large errors.
     pub spatial: Spatial,
     /// Presses on gratings.
     pub gratings: Gratings,
-    /// Presses in other scenes of light.
+    /// Presses in other light scenes.
     pub lighting: LightSweep,
     /// Repeated presses.
     pub repeatability: Repeatability,
-    /// Presses into the gel and out again.
+    /// Presses for loading and unloading.
     pub hysteresis: Hysteresis,
-    /// Places at which the height of the surface is felt, on every unit.
+    /// Places at which the surface height is measured, on every unit.
     pub surface: SurfaceMap,
-    /// Pictures without contact.
+    /// Frames without contact.
     pub idle: Idle,
 }
 
 table! {
-    /// Settings for finding and holding contact.
+    /// Settings for finding and keeping contact.
     Contact {
-        /// Radius of the spherical indenter, in mm; the paper's text says 2, a caption 10.
+        /// Radius of the spherical indenter, in mm. The text of the paper states 2, a caption 10.
         indenter_radius_mm: f64 = 2.0,
-        /// Step of the search between two readings of force, in mm.
+        /// Search step between two force readings, in mm.
         step_mm: f64 = 0.1,
         /// Normal force that counts as contact, in N.
         #[serde(rename = "threshold_N")]
@@ -77,11 +77,11 @@ table! {
 }
 
 table! {
-    /// Presses for fitting and testing a model: at each point several depths, each straight and then sheared.
+    /// Presses for fitting and testing a model: several depths at each point, each straight and then sheared.
     Calibration {
         /// Number of points.
         points: u32 = 800,
-        /// Depths at each point.
+        /// Number of depths at each point.
         indentations: u32 = 4,
         /// Least depth, in mm.
         depth_min_mm: f64 = 0.1,
@@ -91,9 +91,9 @@ table! {
 }
 
 table! {
-    /// Held-out presses, which show where errors are large.
+    /// Held-out presses, which show the places with large errors.
     Spatial {
-        /// Number of points, each pressed once at a depth of its own.
+        /// Number of points, each pressed once at its own depth.
         points: u32 = 1_600,
         /// Least depth, in mm.
         depth_min_mm: f64 = 0.1,
@@ -111,11 +111,11 @@ table! {
         to_mm: f64 = 1.75,
         /// Step between spacings, in mm.
         step_mm: f64 = 0.05,
-        /// The reliefs.
+        /// Reliefs of the boards.
         kinds: Vec<GratingKind> = GratingKind::ALL.to_vec(),
-        /// Presses on each board, each at its own angle.
+        /// Number of presses on each board, each at its own angle.
         presses: u32 = 100,
-        /// Depth of each press, as a fraction of the greatest.
+        /// Depth of each press, as a fraction of the greatest depth.
         depth_fraction: f64 = 0.5,
         /// Classifier of the spacing.
         classified_by: GratingClassifier = GratingClassifier::Spectrum,
@@ -125,7 +125,7 @@ table! {
 }
 
 table! {
-    /// The first held-out presses, repeated in each scene of light.
+    /// First held-out presses, repeated in each light scene.
     LightSweep {
         /// Number of points.
         points: u32 = 100,
@@ -137,7 +137,7 @@ table! {
     Repeatability {
         /// Number of points.
         points: u32 = 100,
-        /// Presses at each point.
+        /// Number of presses at each point.
         trials: u32 = 10,
         /// Step between depths, in mm.
         depth_step_mm: f64 = 0.1,
@@ -147,7 +147,7 @@ table! {
 }
 
 table! {
-    /// Presses into the gel and out again.
+    /// Presses for loading and unloading.
     Hysteresis {
         /// Number of points.
         points: u32 = 100,
@@ -157,7 +157,7 @@ table! {
 }
 
 table! {
-    /// Places at which the height of the surface is felt, on every unit.
+    /// Places at which the surface height is measured, on every unit.
     SurfaceMap {
         /// Number of points.
         points: u32 = 400,
@@ -165,9 +165,9 @@ table! {
 }
 
 table! {
-    /// Pictures without contact.
+    /// Frames without contact.
     Idle {
-        /// Number of pictures.
+        /// Number of frames.
         frames: u32 = 100,
     }
 }

@@ -1,4 +1,4 @@
-//! Devices of a scene, and stated facts of a sensor.
+//! Devices of a scene, and facts of a sensor that the scene states.
 
 use std::collections::BTreeMap;
 
@@ -15,13 +15,13 @@ pub struct DeviceSpec {
     pub driver: Setting<String>,
 }
 
-/// The light around a sensor.
+/// Light around a sensor.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `driver` or `scenes`")]
 pub struct LightingSpec {
-    /// Selector. Without one the light of the sensor is set; if it has none, a person sets the light.
+    /// Selector. Without one, the sensor sets the light; if it cannot, the operator does.
     pub driver: Option<Setting<String>>,
-    /// Scenes of light to visit, that of calibration first. All scenes of the driver if absent; required for light that a person sets.
+    /// Light scenes to visit, the one of calibration first. By default all scenes of the driver; required if the operator sets the light.
     pub scenes: Option<Setting<Vec<String>>>,
 }
 
@@ -33,7 +33,7 @@ pub struct SensorSpec {
     pub driver: Option<Setting<String>>,
     /// Folder of a recording instead of a driver, relative to the scene.
     pub dataset: Option<Setting<String>>,
-    /// Names of the units to measure; a single unit `1` if absent.
+    /// Names of the units to measure; by default a single unit `1`.
     pub units: Option<Setting<Vec<String>>>,
     /// True if ambient light cannot reach the camera.
     pub opaque: Option<Setting<bool>>,
@@ -70,20 +70,20 @@ pub enum Shape {
     Rect,
 }
 
-/// Model from pictures to positions and forces: an estimator to fit, or a finished model.
+/// Model from frames to positions and forces: an estimator to fit, or a fitted model.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `name` or `file`")]
 pub struct ModelSpec {
-    /// Name of an estimator: `ridge`, `pls`, `forest` and so on.
+    /// Name of an estimator, such as `ridge`, `pls` or `forest`.
     pub name: Option<Setting<String>>,
-    /// Path of a finished model instead of a name, relative to the scene.
+    /// Path of a fitted model instead of a name, relative to the scene.
     pub file: Option<Setting<String>>,
     /// Settings of the estimator, by name.
     #[serde(default)]
     pub set: BTreeMap<String, toml::Value>,
 }
 
-/// Key of a selector: the part before its arguments.
+/// Key of a selector: the text before its arguments.
 pub(crate) fn key_of(selector: &str) -> &str {
     selector.split_once(':').map_or(selector, |(key, _)| key)
 }

@@ -14,7 +14,7 @@ use crate::text::Setting;
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(remote = "Self", deny_unknown_fields, default)]
 pub struct MetricsSpec {
-    /// Names of metrics or groups; all that apply if absent. A metric named by itself must apply to some sensor of the scene.
+    /// Names of metrics or groups; by default all that apply. A metric named individually must apply to some sensor of the scene.
     pub want: Option<Vec<Setting<String>>>,
     /// Settings of the metrics.
     pub settings: MetricSettings,
@@ -41,7 +41,7 @@ impl<'de> Deserialize<'de> for MetricsSpec {
     }
 }
 
-/// Settings of the metrics; absent ones take the default of the metric.
+/// Settings of the metrics; an absent one takes the default of its metric.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table of settings")]
 pub struct MetricSettings {
@@ -59,7 +59,7 @@ pub struct MetricSettings {
 }
 
 impl MetricSettings {
-    /// Settings, with the defaults of the metrics where the scene gives none.
+    /// Settings, completed by the defaults of the metrics.
     pub fn settings(&self) -> Settings {
         let default = Settings::default();
         let tolerance = self
@@ -88,9 +88,9 @@ impl MetricSettings {
     expecting = "a table with `formats` and `like`"
 )]
 pub struct ReportSpec {
-    /// Any of [`FORMATS`](ReportSpec::FORMATS); text and JSON when empty.
+    /// Any of [`FORMATS`](ReportSpec::FORMATS); text and JSON if empty.
     pub formats: Vec<Setting<String>>,
-    /// One of [`LIKE`](ReportSpec::LIKE): published study in whose form further tables are written. `None` writes none.
+    /// One of [`LIKE`](ReportSpec::LIKE): published study whose table layout is also written. `None` writes no such tables.
     pub like: Option<Setting<String>>,
 }
 
@@ -98,6 +98,6 @@ impl ReportSpec {
     /// All formats.
     pub const FORMATS: [&'static str; 6] = ["text", "json", "csv", "md", "tex", "html"];
 
-    /// Studies whose form is supported.
+    /// Studies whose table layout is supported.
     pub const LIKE: [&'static str; 1] = ["taceva"];
 }

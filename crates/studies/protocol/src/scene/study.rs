@@ -1,4 +1,4 @@
-//! One sensor of a scene, with the rig it is measured on.
+//! One sensor of a scene, with its rig.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::text::Text;
 /// A sensor with its rig, limits and model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
-    /// Name in the report; that of the scene if the scene has one sensor.
+    /// Name in the report; by default the name of the scene, if it has one sensor.
     pub name: String,
     /// The sensor.
     pub sensor: SensorSpec,
@@ -25,18 +25,18 @@ pub struct Study {
     pub force: Option<DeviceSpec>,
     /// The light around the sensor.
     pub lighting: Option<LightingSpec>,
-    /// Limits, with those of the scene as defaults.
+    /// Limits; the defaults are those of the scene.
     pub limits: LimitSpec,
     /// Model; `None` predicts nothing.
     pub model: Option<ModelSpec>,
-    /// Size to which frames are reduced before they are stored; `None` keeps them whole.
+    /// Frame size in storage; `None` keeps frames whole.
     pub frames: Option<Setting<FrameSize>>,
     /// Rig file that names the devices, if any.
     pub rig: Option<Arc<RigFile>>,
 }
 
 impl Study {
-    /// Text that names sensor, robot and force transducer: the rig file if there is one, else `scene`.
+    /// Text that names sensor, robot and force transducer: the rig file if any, else `scene`.
     pub(crate) fn device_text<'a>(&'a self, scene: &'a Scene) -> &'a Text {
         match &self.rig {
             Some(rig) => &rig.text,

@@ -7,12 +7,12 @@ use taceva_core::FrameInfo;
 use crate::frame_size::FrameSize;
 use crate::reason::PlanReason;
 
-/// Error of a rejected scene.
+/// Error in a rejected scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneError {
     /// Name of the text, such as its file.
     pub source_name: String,
-    /// Line, from 1, if one line is at fault.
+    /// Line, from 1, if a single line is at fault.
     pub line: Option<u64>,
     /// Problem.
     pub problem: Box<SceneProblem>,
@@ -34,7 +34,7 @@ impl std::error::Error for SceneError {}
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneProblem {
-    /// Not TOML, or a value of the wrong type.
+    /// Invalid TOML, or a value of the wrong type.
     #[error("{0}")]
     Syntax(String),
     /// The text is too large.
@@ -50,7 +50,7 @@ pub enum SceneProblem {
     UnknownKey {
         /// Key as written.
         key: String,
-        /// The nearest known key.
+        /// Most similar known key.
         nearest: Option<String>,
         /// All known keys.
         known: String,
@@ -64,22 +64,22 @@ pub enum SceneProblem {
     /// The rig file has an unknown version.
     #[error("rig version {0} is not supported, expected 1")]
     RigVersion(u32),
-    /// An unknown name from a closed list.
+    /// A name is not in a fixed list.
     #[error("`{name}`: unknown {what}{}; known: {known}{}", did_you_mean(.nearest), found_where(.what, .name))]
     UnknownName {
-        /// Kind of thing: `driver of a sensor`, `metric`, `report format`.
+        /// Kind of item: `driver of a sensor`, `metric`, `report format`.
         what: &'static str,
         /// Name as written.
         name: String,
-        /// The nearest known name.
+        /// Most similar known name.
         nearest: Option<String>,
         /// All known names.
         known: String,
     },
-    /// A name is given twice.
+    /// A name occurs twice.
     #[error("`{name}` is the name of two {what}", name = taceva_core::shown(name))]
     Twice {
-        /// Kind of thing, such as a unit.
+        /// Kind of item, such as a unit.
         what: &'static str,
         /// The name.
         name: String,
@@ -91,9 +91,9 @@ pub enum SceneProblem {
         key: &'static str,
         /// Value as written.
         found: u64,
-        /// The least accepted.
+        /// Least accepted value.
         least: u64,
-        /// The greatest accepted.
+        /// Greatest accepted value.
         greatest: u64,
     },
     /// A number is out of range.
@@ -105,7 +105,7 @@ pub enum SceneProblem {
         found: f64,
         /// Exclusive lower bound.
         above: f64,
-        /// The greatest accepted.
+        /// Greatest accepted value.
         greatest: f64,
     },
     /// The size of frames is invalid.
@@ -117,7 +117,7 @@ pub enum SceneProblem {
         /// Value as written.
         found: String,
     },
-    /// Frames would have to be enlarged.
+    /// The requested frame size exceeds that of the sensor.
     #[error(
         "`frames` is `{found}`, but the frames of study `{study}` are {frame}: expected at most `{}x{}`, since frames can only be reduced",
         frame.width,
@@ -131,7 +131,7 @@ pub enum SceneProblem {
         /// Frames of its sensor.
         frame: FrameInfo,
     },
-    /// Frames have fewer pixels than the grid of a model.
+    /// Stored frames would have fewer pixels than the grid of a model.
     #[error(
         "`frames` is `{found}`, but {who} divides each frame into {least_width}×{least_height} cells: expected at least `{least_width}x{least_height}`"
     )]
@@ -140,9 +140,9 @@ pub enum SceneProblem {
         found: FrameSize,
         /// Name of the model.
         who: String,
-        /// Cells of its grid along x.
+        /// Number of grid cells along x.
         least_width: u32,
-        /// Cells of its grid along y.
+        /// Number of grid cells along y.
         least_height: u32,
     },
     /// A limit exceeds that of the device or of the scene.
@@ -195,7 +195,7 @@ pub enum SceneProblem {
         /// The real device.
         real: String,
     },
-    /// A robot moves in its base frame, whose place relative to the sensor is not given.
+    /// A robot moves in its base frame, whose place relative to the sensor is unknown.
     #[error(
         "the robot `{robot}` moves in its base frame, whose pose relative to the gel is unknown: write a rig file with `origin_mm` and `axes` under [robot] and name it by `rig = \"lab.toml\"` or --rig (docs/rig.md)"
     )]
@@ -214,14 +214,14 @@ pub enum SceneProblem {
     /// The axes of a rig file contradict the measured forces.
     #[error("`axes` of [force]: {felt}{}", mended(.expected, *.may_be_robot))]
     AxesContradicted {
-        /// Directions of motion and of the measured force.
+        /// Directions of the motions and of the measured forces.
         felt: String,
-        /// Axes that would agree; `None` if no rotation by right angles does.
+        /// Axes that would agree; `None` if no rotation by right angles agrees.
         expected: Option<String>,
         /// True if the robot itself may have moved in another direction.
         may_be_robot: bool,
     },
-    /// A robot rests too late after a limit is passed.
+    /// A robot comes to rest too late after an exceeded limit.
     #[error(
         "`{robot}` needs {stop_ms} ms to stop, so it rests {needed_ms:.0} ms after a limit is exceeded: expected at most {greatest_ms:.0} ms"
     )]
@@ -235,7 +235,7 @@ pub enum SceneProblem {
         /// Greatest allowed time, in ms.
         greatest_ms: f64,
     },
-    /// The tip travels too far in contact while its force grows stale.
+    /// The tip travels too far in contact before its force counts as stale.
     #[error(
         "`speed_mm_s` is {found}, but {who} times out only after {stale_ms:.0} ms without a reading: expected at most {greatest:.3}"
     )]
@@ -249,7 +249,7 @@ pub enum SceneProblem {
         /// Greatest allowed speed, in mm/s.
         greatest: f64,
     },
-    /// A frozen signal of the force transducer could not be detected.
+    /// A frozen signal of the force transducer cannot be detected.
     #[error(
         "{who} has steps of {resolution_n} N, noise of {noise_n} N and readings without numbers, so a frozen signal cannot be detected: expected numbered readings, or steps below the noise"
     )]
@@ -307,7 +307,7 @@ fn did_you_mean(nearest: &Option<String>) -> String {
     })
 }
 
-/// Hint for a driver of a plugin, `ID/KEY` with dots in its id; empty for other names.
+/// Hint for a driver of a plugin, `ID/KEY` with dots in the id; empty for other names.
 fn found_where(what: &str, name: &str) -> &'static str {
     let is_of_plugin = name.split_once('/').is_some_and(|(id, _)| id.contains('.'));
     if what.starts_with("driver of") && is_of_plugin {

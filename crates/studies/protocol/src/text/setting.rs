@@ -1,8 +1,8 @@
-//! A value of a scene with its position in the text, so that an error after parsing names the line.
+//! A value of a scene with its position in the text, so that later errors can name the line.
 
 use serde::{Deserialize, Deserializer};
 
-/// A value with its byte offset in the scene; a default has none.
+/// A value with its byte offset in the scene; a default has no offset.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Setting<T> {
     /// The value.
@@ -30,7 +30,7 @@ impl<T> Setting<T> {
     }
 }
 
-/// Two settings are equal if their values are: moving a line changes no meaning.
+/// Compares only the values, because the position does not matter.
 impl<T: PartialEq> PartialEq for Setting<T> {
     fn eq(&self, other: &Setting<T>) -> bool {
         self.value == other.value

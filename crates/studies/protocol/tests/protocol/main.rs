@@ -1,4 +1,4 @@
-//! Scenes as people write them, and the plans that they become.
+//! Tests of scenes and their plans.
 
 mod pruned;
 mod scenes;

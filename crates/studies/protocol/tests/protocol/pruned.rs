@@ -1,4 +1,4 @@
-//! A plan of fewer metrics leaves out presses, fields and channels, and changes no bit of the metrics that it keeps.
+//! Tests that a plan of fewer metrics skips presses, fields and channels, and changes no bit of the kept metrics.
 
 use taceva_core::random::finalise;
 use taceva_core::{
@@ -60,7 +60,7 @@ fn rig() -> RigInfo {
     }
 }
 
-/// The plan of the metrics called `want`; of all without any.
+/// Plan of the metrics `want`; of all metrics if empty.
 fn planned(want: &[&str]) -> Plan {
     let metrics = match want {
         [] => String::new(),
@@ -71,7 +71,7 @@ fn planned(want: &[&str]) -> Plan {
     plan(&scene, |_| source.clone()).expect("a plan").remove(0)
 }
 
-/// A simulated error from −1 to 1, a function of the press, the sample and what it is for.
+/// A simulated error from −1 to 1 that depends on the press, the sample and the purpose.
 fn error(planned: &PlannedPress, number: u32, purpose: u64) -> f64 {
     let id = planned.id.to_string();
     let press = u64::from_str_radix(&id[..16], 16).expect("hexadecimal");
@@ -79,7 +79,7 @@ fn error(planned: &PlannedPress, number: u32, purpose: u64) -> f64 {
     f64::from(u32::try_from(bits >> 32).expect("32 bits")) / f64::from(1_u32 << 31) - 1.0
 }
 
-/// What a press might have given, with every field and the channels of `plan`: simulated, by no physics but a spring.
+/// Samples of a press with every field and the channels of `plan`, simulated by a spring.
 fn samples(plan: &Plan, planned: &PlannedPress) -> Vec<Sample> {
     let press = &planned.press;
     let count = u32::try_from(press.samples()).expect("few");
@@ -139,7 +139,7 @@ fn samples(plan: &Plan, planned: &PlannedPress) -> Vec<Sample> {
     (0..count).map(sample).collect()
 }
 
-/// The scores of `plan` on its own presses, each metric on its part of the protocol, with no field but those of the plan.
+/// Scores of `plan` on its own presses, each metric on its part of the protocol and with only the fields of the plan.
 fn evaluate(plan: &Plan) -> Evaluation {
     let parts = plan.phases.iter().map(|phase| {
         let of_phase = plan.metrics.iter().filter(|metric| metric.phase == *phase);
@@ -201,7 +201,7 @@ fn evaluate_of_pruned_equals_evaluate_of_everything() {
         }
         for (metric, channel, score) in of_pruned.scores() {
             let whole = of_everything.score(metric.id, channel);
-            // Every digit is printed, and the sign of zero.
+            // Prints every digit, and the sign of zero.
             assert_eq!(
                 format!("{:?}", Some(apart_from_standing(score))),
                 format!("{:?}", whole.map(apart_from_standing)),
@@ -219,9 +219,9 @@ fn evaluate_of_pruned_equals_evaluate_of_everything() {
 
 #[test]
 fn scores_of_the_simulated_samples_are_numbers() {
-    // A comparison of what is undefined on both sides would find nothing.
+    // Comparing scores that are undefined on both sides would show nothing.
     let evaluation = evaluate(&planned(&[]));
-    // The samples have no pictures, few of the presses are light, and a height alone is felt where surfaces are compared.
+    // The samples have no frames, few presses are light, and surfaces are compared by a height alone.
     let without = |metric: &str, channel: &str| {
         ["intrinsic", "detection_limit"].contains(&metric) || channel == "surface_z"
     };
@@ -234,7 +234,7 @@ fn scores_of_the_simulated_samples_are_numbers() {
     assert!(undefined.is_empty(), "{undefined:#?}");
 }
 
-/// The score itself: which part it takes in verdicts follows from skill, which a study asks for beside what is wanted.
+/// The score without its standing in verdicts, which depends on the skill that a study adds.
 fn apart_from_standing(score: &Score) -> Score {
     let mut score = score.clone();
     score.standing = Standing::default();

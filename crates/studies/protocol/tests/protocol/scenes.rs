@@ -1,4 +1,4 @@
-//! Scenes as people write them, and every way to write one wrong.
+//! Tests of valid scenes, and of every kind of invalid scene.
 
 mod on_a_rig;
 mod planning;
@@ -24,7 +24,7 @@ fn message(text: &str) -> String {
     Scene::parse("s.toml", text).expect_err("wrong").to_string()
 }
 
-/// The good scene with `line` added as line 9.
+/// The valid scene with `line` added as line 9.
 fn with(line: &str) -> String {
     message(&format!("{GOOD}{line}\n"))
 }
@@ -65,7 +65,7 @@ fn rig() -> RigInfo {
     }
 }
 
-/// What the planner says of the good scene with `lines` added.
+/// Result of planning the valid scene with `lines` added.
 fn planned(lines: &str, rig: RigInfo) -> String {
     let scene = Scene::parse("s.toml", &format!("{GOOD}{lines}\n")).expect("reads");
     let source = SourceInfo::Rig(Box::new(rig));

@@ -1,17 +1,17 @@
-//! The Pareto front of models: processor time of the fit against error.
+//! Pareto front of models: processor time of the fit against error.
 //!
-//! A faster model beats a slower one on a channel, unless the slower one is shown to be more accurate. For that, the 95 % interval of the
-//! difference of their mean absolute errors, paired by contact point, must be below 0.
+//! A faster model beats a slower one on a channel, unless the slower one is shown to be more accurate. That is shown if the 95 % interval of the
+//! difference of their mean absolute errors, paired by contact point, is below 0.
 
 use taceva_metrics::ClusterSums;
 
 use super::models::ModelTrial;
 use super::paired::difference;
 
-/// A model of a race, and the sums of its absolute errors by contact point: by channel, in the order of its errors.
+/// A model of a race, and the sums of its absolute errors by contact point, one entry for each channel.
 pub(super) type Raced = (ModelTrial, Vec<Option<ClusterSums>>);
 
-/// Writes into each error the models of the race that beat it; none if the system does not report processor time.
+/// Writes into each error the models that beat it; none if the system does not report processor time.
 pub(super) fn mark(race: &mut [Raced]) {
     let marks: Vec<Vec<Vec<String>>> = race
         .iter()
@@ -27,7 +27,7 @@ pub(super) fn mark(race: &mut [Raced]) {
     }
 }
 
-/// The models that beat `own` on the channel `at`.
+/// Models that beat `own` on the channel at `at`.
 fn beaten_by(race: &[Raced], (own, sums): &Raced, at: usize) -> Vec<String> {
     let error = &own.errors[at];
     let beats = |(other, other_sums): &&Raced| {
@@ -87,7 +87,7 @@ mod tests {
         let mut race = [
             raced("fast", 1.0, |point| 1.0 + spread(point)),
             raced("near", 2.0, |point| 0.5 + spread(point)),
-            // Equal in the mean, better at some points and worse at others.
+            // Equal in the mean; better at some points and worse at others.
             raced("late", 3.0, |point| {
                 0.5 + spread(point) + 0.1 * f64::from(point % 2) - 0.06
             }),

@@ -1,4 +1,4 @@
-//! Summation kernels raced on the same columns: time for each pair of values against correct digits.
+//! Summation kernels raced on the same columns: time per pair of values against correct digits.
 
 use serde::Serialize;
 use taceva_core::Progress;
@@ -10,15 +10,15 @@ use taceva_metrics::{Isa, Paired};
 use super::{BENCH_SCHEMA, Machine, Spread, Stopwatch};
 use taceva_evaluate::EvaluateError;
 
-/// Channels of the timed columns: all six of a contact.
+/// Channels of the timed columns: the six contact channels.
 const CHANNELS: usize = 6;
-/// Typical values of a lab: millimetres, with errors of a third of one.
+/// Typical values of a lab: positions in mm with errors of about 0.3 mm.
 const LAB: Kind = Kind::Lab {
     low: -12.5,
     high: 12.5,
     noise: 0.3,
 };
-/// Number of shuffles that an order-free result must survive.
+/// Number of shuffles that must not change an order-free result.
 const SHUFFLES: u64 = 3;
 
 /// Request of a race.
@@ -28,7 +28,7 @@ pub struct KernelRequest {
     pub rows: usize,
     /// Number of timed runs of each candidate.
     pub rounds: usize,
-    /// The seed of the columns and shuffles.
+    /// Seed of the columns and shuffles.
     pub seed: u64,
 }
 
@@ -43,7 +43,7 @@ impl Default for KernelRequest {
     }
 }
 
-/// Run time against error of every summation kernel. Its JSON follows [`BENCH_SCHEMA`].
+/// Run time against error of every summation kernel, with the schema [`BENCH_SCHEMA`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct KernelBench {
     /// [`BENCH_SCHEMA`].
@@ -62,7 +62,7 @@ pub struct KernelBench {
     pub rows: Vec<KernelRow>,
 }
 
-/// Time of summing both columns once: the lower limit of any kernel.
+/// Time to sum both columns once: the lower limit of any kernel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Floor {
     /// `stream sum`.
@@ -72,7 +72,7 @@ pub struct Floor {
     /// Nanoseconds for each pair of values, processor time of the thread.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thread_ns_per_pair: Option<Spread>,
-    /// Best throughput, GB/s.
+    /// Best throughput, in GB/s.
     pub gb_per_s: f64,
 }
 
@@ -81,7 +81,7 @@ pub struct Floor {
 pub struct KernelRow {
     /// Name.
     pub name: String,
-    /// The instruction set it was compiled for, if any.
+    /// Instruction set that it was compiled for, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub isa: Option<String>,
     /// Scores computed: `mae r2 smape`, or `mae`.
@@ -91,11 +91,11 @@ pub struct KernelRow {
     /// Nanoseconds for each pair of values, processor time of the thread.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thread_ns_per_pair: Option<Spread>,
-    /// The best time relative to the best of the floor.
+    /// Best time relative to the best time of the floor.
     pub times_floor: f64,
-    /// The fewest correct digits of any score on any input.
+    /// Least number of correct digits over all scores and inputs.
     pub digits_min: f64,
-    /// For each input, the fewest correct digits of its scores.
+    /// Least number of correct digits of its scores, for each input.
     pub digits: Vec<InputDigits>,
     /// True if the result has the same bits in any order of rows.
     pub order_free: bool,
@@ -108,7 +108,7 @@ pub struct KernelRow {
 pub struct InputDigits {
     /// The input.
     pub input: &'static str,
-    /// The fewest correct digits of its scores.
+    /// Least number of correct digits of its scores.
     pub digits: f64,
 }
 
@@ -131,7 +131,7 @@ impl Candidate {
         }
     }
 
-    /// The fewest correct digits among the scores that have a value.
+    /// Least number of correct digits among the scores that have a value.
     fn digits(self, pairs: Paired<&[f64]>, truth: &Scores) -> f64 {
         let found = self.run(pairs);
         let scores = [
@@ -148,11 +148,10 @@ impl Candidate {
     }
 }
 
-/// Races every summation kernel.
+/// Races all summation kernels.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] without rows or rounds, or for a requested instruction set that is not available; [`EvaluateError::Dataset`]
-/// if `progress` cancels.
+/// [`EvaluateError::Request`] without rows or rounds, or for an unavailable instruction set; [`EvaluateError::Dataset`] if `progress` cancels.
 pub fn kernels(
     request: &KernelRequest,
     progress: &dyn Progress,
@@ -233,7 +232,7 @@ fn candidates() -> Vec<Candidate> {
     full.chain(mae).collect()
 }
 
-/// Six channels of typical values of a lab.
+/// Six channels with typical values of a lab.
 fn columns(request: &KernelRequest) -> Vec<Paired<Vec<f64>>> {
     (0..CHANNELS as u64)
         .map(|channel| {
@@ -311,7 +310,7 @@ fn survives_shuffling(candidate: Candidate, seed: u64) -> bool {
     })
 }
 
-/// The instruction set that a kernel was compiled for.
+/// Instruction set that a kernel was compiled for.
 fn isa(kernel: Kernel) -> Option<String> {
     match kernel {
         Kernel::Exact(isa) => Some(isa.name().to_owned()),
@@ -327,7 +326,7 @@ fn as_slices(columns: &Paired<Vec<f64>>) -> Paired<&[f64]> {
     columns.as_slices()
 }
 
-/// Marks the candidates that no other one for the same scores beats in time at equal or more digits.
+/// Marks candidates on the Pareto front. No other candidate for the same scores is faster with at least as many digits.
 fn mark_pareto(rows: &mut [KernelRow]) {
     let beaten: Vec<bool> = rows
         .iter()

@@ -1,19 +1,19 @@
-//! The machine of a benchmark, without which its numbers cannot be compared.
+//! Machine of a benchmark, needed to compare its numbers.
 
 use serde::Serialize;
 
-/// The machine a benchmark ran on.
+/// Machine that ran a benchmark.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Machine {
-    /// The name of the processor, or `unknown`.
+    /// Name of the processor, or `unknown`.
     pub cpu: String,
-    /// Cores that this process may use.
+    /// Number of cores that this process may use.
     pub cores: usize,
-    /// Threads that the benchmark used.
+    /// Number of threads of the benchmark.
     pub threads: usize,
     /// Instruction sets with their own code path, the widest first.
     pub isa: Vec<String>,
-    /// Mean number of runnable processes in the last minute, per core; `None` if the system does not report it.
+    /// Mean number of runnable processes per core in the last minute; `None` if the system does not report it.
     pub load: Option<f64>,
 }
 
@@ -31,7 +31,7 @@ impl Machine {
     }
 }
 
-/// The processor name from Linux.
+/// Name of the processor, from Linux.
 fn cpu_name() -> Option<String> {
     let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = text.lines().find(|line| line.starts_with("model name"))?;

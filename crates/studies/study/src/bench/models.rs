@@ -1,4 +1,4 @@
-//! Models raced on one recording: time of fitting, predicting and one prediction, against error.
+//! Models raced on one recording: time of fitting, predicting and a single prediction, against error.
 
 use std::num::NonZeroUsize;
 use std::time::Instant;
@@ -19,38 +19,38 @@ use taceva_evaluate::{DataPart, Divided};
 use taceva_evaluate::{FitRequest, fit};
 use taceva_evaluate::{Predicted, Target, model_extractor, predict_target};
 
-/// The metric that models are compared by.
+/// Metric of the comparison.
 const METRIC: &str = "mae";
 /// Number of frames that are predicted one by one.
 const SINGLES: usize = 50;
 
-/// One model: its cost and its error.
+/// Cost and error of one model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelTrial {
     /// Name in the registry.
     pub model: String,
-    /// Settings as `key=value`; for `auto` also the model that it chose.
+    /// Settings as `key=value`; for `auto`, also the chosen model.
     pub settings: Vec<String>,
-    /// Time of the fit including features, s.
+    /// Time of the fit including features, in s.
     pub fit_s: f64,
-    /// Processor time of the fit including features, s: the least of all rounds. `None` if the system does not report it.
+    /// Processor time of the fit including features, in s: the least of all rounds. `None` if the system does not report it.
     pub fit_cpu_s: Option<f64>,
-    /// Time to predict the whole test part including features, s.
+    /// Time to predict the whole test part including features, in s.
     pub predict_s: f64,
-    /// Time from one decoded frame to its prediction, s: the median over frames predicted one by one.
+    /// Time from one decoded frame to its prediction, in s: the median over frames predicted one by one.
     pub latency_s: f64,
-    /// The error of each channel on the test part; empty if the model could not be fitted.
+    /// Error of each channel on the test part; empty if the model could not be fitted.
     pub errors: Vec<TrialError>,
     /// Reason why the model could not be fitted or scored.
     pub failed: Option<String>,
 }
 
-/// The mean absolute error of one channel.
+/// Mean absolute error of one channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrialError {
     /// The channel.
     pub channel: String,
-    /// The unit of error and interval.
+    /// Unit of the error and its interval.
     pub unit: Unit,
     /// The mean absolute error.
     pub mae: f64,
@@ -58,13 +58,13 @@ pub struct TrialError {
     pub ci95: Option<[f64; 2]>,
     /// Number of samples.
     pub n: u64,
-    /// Models of the race that take less processor time to fit, unless this one is shown to be more accurate: the 95 % interval of the
-    /// difference of errors, paired by contact point, is then below 0. Empty for a model on the Pareto front.
+    /// Models of the race that beat this one: they fit in less processor time, and this one is not shown to be more accurate. Accuracy is shown if
+    /// the 95 % interval of the difference of errors, paired by contact point, is below 0. Empty on the Pareto front.
     pub beaten_by: Vec<String>,
 }
 
 impl ModelTrial {
-    /// The name with its settings.
+    /// Name with its settings.
     pub(super) fn words(&self) -> String {
         let words = [std::slice::from_ref(&self.model), &self.settings].concat();
         words.join(" ")
@@ -76,29 +76,29 @@ impl ModelTrial {
 pub struct ModelRace<'a> {
     /// One fit for each model, all on one split and one seed.
     pub requests: &'a [FitRequest],
-    /// Number of times that each is fitted, in turns.
+    /// Number of fits of each model, in turns.
     pub rounds: NonZeroUsize,
 }
 
-/// Division of the recording, and the result of each model.
+/// Division of the recording, and the results of all models.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelTrials {
-    /// The division: `by-point 70/20/10, seed 0`.
+    /// Division, such as `by-point 70/20/10, seed 0`.
     pub split: String,
-    /// Samples of the training part.
+    /// Number of samples in the training part.
     pub train: usize,
-    /// Samples of the scored part.
+    /// Number of samples in the scored part.
     pub test: usize,
     /// One row for each model, in the requested order.
     pub rows: Vec<ModelTrial>,
 }
 
-/// Fits and scores every model of `race` in turn on the same split of `dataset`; calls `rows` after each.
+/// Fits and scores every model of `race` in turn on the same split of `dataset`; calls `rows` after each model.
 ///
 /// A model that cannot be fitted on this recording becomes a row with the reason.
 ///
 /// # Errors
-/// [`EvaluateError`] if a request is not valid, requests differ in split or seed, the dataset cannot be read, or `work` cancels.
+/// [`EvaluateError`] if a request is invalid, requests differ in split or seed, the dataset cannot be read, or `work` cancels.
 pub fn models(
     dataset: &Dataset,
     race: ModelRace<'_>,
@@ -117,11 +117,11 @@ pub fn models(
         ));
     }
     for request in requests {
-        // Checked first: an unknown setting must not cost the fits before it.
+        // Checked first, so that an unknown setting does not cost the earlier fits.
         request.check()?;
     }
     let divided = Divided::new(dataset, first.split.as_deref(), first.seed)?;
-    // Without a cache, which would favour later models.
+    // No cache, because it would favour later models.
     let work = Work {
         cache: None,
         ..work
@@ -174,7 +174,7 @@ fn trial(
     Ok((row, sums))
 }
 
-/// The reason why a model could not be fitted or scored, if that ends only its own row.
+/// Reason why a model could not be fitted or scored, if the error ends only its own row.
 pub(super) fn unfitted(
     outcome: Result<(), EvaluateError>,
 ) -> Result<Option<String>, EvaluateError> {
@@ -213,7 +213,7 @@ fn measure(
     Ok(sums.collect())
 }
 
-/// The result of `run`, and its processor time, s.
+/// Result of `run`, and its processor time in s.
 fn cpu_s<T>(run: impl FnOnce() -> T) -> (T, Option<f64>) {
     let start = process_time();
     let outcome = run();
@@ -224,7 +224,7 @@ fn cpu_s<T>(run: impl FnOnce() -> T) -> (T, Option<f64>) {
     )
 }
 
-/// A model that was fitted on the training part and scored on the test part.
+/// A model fitted on the training part and scored on the test part.
 pub(super) struct Raced {
     pub(super) model: Model,
     pub(super) target: Target,
@@ -290,7 +290,7 @@ impl Raced {
     }
 }
 
-/// The median time from a decoded frame, or from signals, to the prediction.
+/// Median time from a decoded frame or signals to the prediction.
 fn latency(
     dataset: &Dataset,
     model: &Model,

@@ -1,10 +1,10 @@
-//! Times of several candidates, taken in turns, so that disturbances of the machine affect all of them.
+//! Times of several candidates, measured in turns, so that disturbances affect all of them.
 
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-/// The best and the median of some times.
+/// Best and median of several times.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// The shortest time, with the least disturbance.
@@ -14,7 +14,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// The spread of `values`; `None` if they are empty.
+    /// Spread of `values`; `None` if they are empty.
     pub fn of(values: &[f64]) -> Option<Spread> {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
@@ -34,7 +34,7 @@ impl Spread {
     }
 }
 
-/// Times of each candidate, round by round, s.
+/// Times of each candidate for each round, in s.
 #[derive(Clone, Debug)]
 pub struct Stopwatch {
     wall: Vec<Vec<f64>>,
@@ -44,7 +44,7 @@ pub struct Stopwatch {
 impl Stopwatch {
     /// Runs all candidates once untimed, then `rounds` times in turns.
     ///
-    /// `run` receives the index of a candidate. After each candidate `go_on` decides whether to continue; earlier measurements stay.
+    /// `run` receives the index of a candidate. `go_on` decides after each candidate whether to continue; earlier measurements stay.
     pub fn race(
         candidates: usize,
         rounds: usize,
@@ -70,12 +70,12 @@ impl Stopwatch {
         watch
     }
 
-    /// Wall time, s; `None` for a candidate that was never timed.
+    /// Wall time in s; `None` for a candidate that was never timed.
     pub fn wall(&self, candidate: usize) -> Option<Spread> {
         Spread::of(&self.wall[candidate])
     }
 
-    /// Processor time of the calling thread, s; `None` if the system does not report it.
+    /// Processor time of the calling thread in s; `None` if the system does not report it.
     pub fn thread(&self, candidate: usize) -> Option<Spread> {
         Spread::of(&self.thread[candidate])
     }

@@ -1,4 +1,4 @@
-//! The folder of a run: the scene as read, its plans, one recording for each study, and the reports.
+//! Folder of a run: the scene as read, its plans, one recording for each study, and the reports.
 
 mod state;
 
@@ -15,14 +15,14 @@ use taceva_evaluate::{PLANS, RECORDINGS};
 use super::layout::{FIGURES, REPORTS, SCENE, STAGES};
 use crate::error::StudyError;
 
-/// Treatment of an existing folder.
+/// Policy for an existing folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
-    /// Reject it.
+    /// Rejects it.
     Refuse,
-    /// Resume the run in it if its plans are the same.
+    /// Resumes the run in it if its plans are the same.
     Resume,
-    /// Remove the run in it; reject a folder of anything else.
+    /// Removes the run in it; rejects a folder that is not a run.
     Replace,
 }
 
@@ -33,7 +33,7 @@ pub struct RunFolder {
 }
 
 impl RunFolder {
-    /// Name of the scene of the run in the folder at `path`; `None` if it holds no scene that can be read.
+    /// Name of the scene of the run in the folder at `path`; `None` if it has no readable scene.
     ///
     /// ```
     /// assert_eq!(taceva_study::RunFolder::scene_name("no-run".as_ref()), None);
@@ -96,40 +96,40 @@ impl RunFolder {
         &self.path
     }
 
-    /// The folder of its reports.
+    /// Folder of its reports.
     pub fn reports(&self) -> PathBuf {
         self.path.join(REPORTS)
     }
 
-    /// The folder of its figures.
+    /// Folder of its figures.
     pub fn figures(&self) -> PathBuf {
         self.path.join(FIGURES)
     }
 
-    /// The file that lists the stages, and those found in the cache.
+    /// File that lists the stages and whether each was reused from the cache.
     pub fn stages(&self) -> PathBuf {
         self.path.join(STAGES)
     }
 
-    /// The folder of the recording of study `number`, counted from 0.
+    /// Folder of the recording of study `number`, counted from 0.
     pub fn recording(&self, number: usize, study: &str) -> PathBuf {
         let name = format!("{}-{}", number + 1, slug(study));
         self.path.join(RECORDINGS).join(name)
     }
 
-    /// The file of the report of study `number`, counted from 0, with this extension.
+    /// Report file of study `number`, counted from 0, with this extension.
     pub fn report(&self, number: usize, study: &str, extension: &str) -> PathBuf {
         let name = format!("{}-{}.{extension}", number + 1, slug(study));
         self.reports().join(name)
     }
 
-    /// The checkpoint of a long training of study `number`, counted from 0.
+    /// Checkpoint of a long training of study `number`, counted from 0.
     pub(crate) fn checkpoint(&self, number: usize, study: &str) -> PathBuf {
         let name = format!("{}-{}.checkpoint", number + 1, slug(study));
         self.path.join(name)
     }
 
-    /// Removes the files that only a resumed run needs, after its reports are written.
+    /// Removes the files that only a resumed run needs. Call it after the reports are written.
     ///
     /// # Errors
     /// [`StudyError::RunFolder`] with the path that cannot be removed.
@@ -145,7 +145,7 @@ impl RunFolder {
         Ok(())
     }
 
-    /// Removes the folder of a run that recorded nothing, so that the command can be repeated once its error is fixed. True if it was
+    /// Removes the folder of a run that recorded nothing, so that the command can be repeated after its error is fixed. Returns true if it was
     /// removed.
     pub fn remove_if_untouched(&self) -> bool {
         let is_untouched = [RECORDINGS, REPORTS, FIGURES]
@@ -154,7 +154,7 @@ impl RunFolder {
         is_untouched && fs::remove_dir_all(&self.path).is_ok()
     }
 
-    /// The first free path `<parent>/<scene>-<number>`, counted from 1; or the last used one for `Resume` and `Replace`.
+    /// First free path `<parent>/<scene>-<number>`, counted from 1; for `Resume` and `Replace`, the last used one.
     pub fn numbered(parent: &Path, scene: &str, existing: Existing) -> PathBuf {
         let path = |number: u64| parent.join(format!("{}-{number}", slug(scene)));
         let free = (1..).find(|number| !path(*number).exists()).unwrap_or(1);
@@ -182,7 +182,7 @@ fn is_empty(path: &Path) -> io::Result<bool> {
     Ok(fs::read_dir(path)?.next().is_none())
 }
 
-/// Creates the folder of a run under a temporary name and renames it, so that it is absent or complete.
+/// Creates the folder of a run under a temporary name and renames it, so that it is never incomplete.
 fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
     fs::create_dir_all(parent_of(path))?;
     let staged = Staged::beside(path)?;
@@ -194,10 +194,10 @@ fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
         file.write_all(text.as_bytes())?;
         file.sync_all()?;
     }
-    // A name that outlives a power cut must not stand for a folder without names.
+    // After a power cut, a folder must not exist without its files.
     sync_folder(staged.path())?;
     if path.exists() {
-        // Fails unless the folder is empty, and then so does the rename.
+        // Fails unless the folder is empty, as the rename would.
         fs::remove_dir(path)?;
     }
     staged.put_in_place()
@@ -213,7 +213,7 @@ mod tests {
     const SCENE_TEXT: &str = "scene_version = 1\nname = \"My gel, twice\"\n\
                               sensor = { dataset = \"recording\" }\n";
 
-    /// A scene of a recording of one sample, in a folder of its own.
+    /// A scene of a recording with one sample, in its own folder.
     fn scene(folder: &Path, seed: u64) -> PlannedScene {
         let recording = folder.join("recording");
         if !recording.exists() {

@@ -2,9 +2,9 @@
 
 /// The scene as written.
 pub(super) const SCENE: &str = "scene.toml";
-/// The reports of studies.
+/// Folder of the reports.
 pub(super) const REPORTS: &str = "reports";
-/// The figures.
+/// Folder of the figures.
 pub(super) const FIGURES: &str = "figures";
-/// The list of stages, with those found in the cache.
+/// List of the stages and whether each was reused from the cache.
 pub(super) const STAGES: &str = "stages.json";

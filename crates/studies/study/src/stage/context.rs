@@ -13,6 +13,6 @@ pub(crate) struct RunContext<'a> {
     pub(crate) work: Work<'a>,
     pub(crate) cache: StudyCache<'a>,
     pub(crate) models: &'a Models,
-    /// Path of the checkpoint of a long training.
+    /// Checkpoint file of a long training.
     pub(crate) checkpoint: &'a Path,
 }

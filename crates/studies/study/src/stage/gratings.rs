@@ -1,4 +1,4 @@
-//! Predicted spacing of each press on a grating, by a model that has not seen that press.
+//! Spacing of each press on a grating, predicted by a model that has not seen that press.
 
 mod model;
 mod network;
@@ -16,24 +16,24 @@ use taceva_evaluate::EvaluateError;
 use taceva_evaluate::{CachedStage, Key};
 use taceva_evaluate::{Need, usable};
 
-/// Number of folds of the presses of a board; each is predicted by a classifier fitted on the others.
+/// Number of folds of the presses on a board. A classifier fitted on the other folds predicts each fold.
 const FOLDS: usize = 3;
 const NM_A_MM: f64 = 1e6;
 
 /// Predicted spacing of each row.
 type SpacingOfRow = BTreeMap<usize, Nanometre>;
 
-/// The spacing that was predicted for each press on a grating.
+/// Predicted spacing of each press on a grating.
 pub(super) struct PredictedSpacings {
     /// The requested rows of the dataset, ascending.
     pub(super) rows: Vec<usize>,
-    /// The predicted spacing of each row, whole nm; absent without a picture.
+    /// Predicted spacing of each row, in whole nm; absent without a frame.
     pub(super) spacings: Column,
     pub(super) frames_decoded: u64,
 }
 
 impl PredictedSpacings {
-    /// Predicts the spacings of `rows`, lines and dots apart.
+    /// Predicts the spacings of `rows`, separately for lines and dots.
     pub(super) fn of(
         dataset: &Dataset,
         rows: Vec<usize>,
@@ -88,7 +88,7 @@ impl PredictedSpacings {
 }
 
 impl PredictedSpacings {
-    /// The predicted spacing of each of `rows`, mm; absent without a prediction.
+    /// Predicted spacing of each of `rows`, in mm; absent without a prediction.
     pub(super) fn in_millimetres(&self, rows: &[usize]) -> Column {
         let mut column = Column::default();
         for row in rows {
@@ -100,7 +100,7 @@ impl PredictedSpacings {
     }
 }
 
-/// The presses with a picture, each with its spacing, by the relief of their board.
+/// Presses with a frame, each with its spacing, by the relief of their board.
 fn boards(dataset: &Dataset, rows: &[usize]) -> BTreeMap<GratingKind, Vec<(usize, Nanometre)>> {
     let table = dataset.table();
     let need = Need {
@@ -116,7 +116,7 @@ fn boards(dataset: &Dataset, rows: &[usize]) -> BTreeMap<GratingKind, Vec<(usize
     presses
 }
 
-/// The fold of each press: those of one board are assigned in turn.
+/// Fold of each press. Presses on one board are assigned in turn.
 fn folds(presses: &[(usize, Nanometre)]) -> Vec<usize> {
     let mut numbers: BTreeMap<Nanometre, usize> = BTreeMap::new();
     let folds = presses.iter().map(|(_, spacing)| {

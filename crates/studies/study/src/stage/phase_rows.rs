@@ -13,11 +13,11 @@ use taceva_evaluate::FitRequest;
 use taceva_evaluate::Note;
 use taceva_evaluate::{DataPart, Divided};
 
-/// The rows of a recording by the phase of the protocol that they were pressed for.
+/// Rows of a recording by the protocol phase of their press.
 pub(super) struct PhaseRows<'a> {
     plan: &'a Plan,
     dataset: &'a Dataset,
-    /// `None` if the plan has no presses. Every row then belongs to every part.
+    /// `None` if the plan has no presses; every row then belongs to every part.
     rows: Option<BTreeMap<PhaseKind, Vec<usize>>>,
 }
 
@@ -32,7 +32,7 @@ impl<'a> PhaseRows<'a> {
         }
     }
 
-    /// The rows of a part of the protocol, ascending.
+    /// Rows of a part of the protocol, ascending.
     pub(super) fn rows(&self, kind: PhaseKind) -> Vec<usize> {
         match &self.rows {
             Some(rows) => rows.get(&kind).cloned().unwrap_or_default(),
@@ -40,7 +40,7 @@ impl<'a> PhaseRows<'a> {
         }
     }
 
-    /// The rows of every part of the protocol by its name; `None` for a recording without a plan.
+    /// Rows of every part of the protocol by its name; `None` for a recording without a plan.
     pub(super) fn protocol(&self) -> Option<BTreeMap<&'static str, Vec<usize>>> {
         let rows = self.rows.as_ref()?.iter();
         Some(
@@ -66,7 +66,7 @@ impl<'a> PhaseRows<'a> {
         metrics.any(|(_, metric)| metric.needs.fields.contains(Field::PredictedSpacing))
     }
 
-    /// The parts of the protocol whose predictions are needed: those of metrics, and the calibration, which decides the skill of the model.
+    /// Parts of the protocol whose predictions are needed: those of metrics, and the calibration, which gives the skill of the model.
     pub(super) fn predicted_phases(&self) -> BTreeSet<PhaseKind> {
         let metrics = self.metrics();
         let predicted = metrics.filter(|(_, metric)| metric.reads_predictions());
@@ -77,7 +77,7 @@ impl<'a> PhaseRows<'a> {
         phases
     }
 
-    /// The channels whose predictions are needed, in the order of the plan: those of samples with a picture.
+    /// Channels whose predictions are needed, in the order of the plan: the channels of samples with a frame.
     pub(super) fn predicted_channels(&self) -> Vec<String> {
         let table = self.dataset.table();
         let is_seen = |channel: &str| {
@@ -107,7 +107,7 @@ impl<'a> PhaseRows<'a> {
             .collect()
     }
 
-    /// Divides the presses for the fit, with contact points kept whole; all others are in no part.
+    /// Divides the presses for the fit, with contact points kept whole; all other presses are in no part.
     pub(super) fn divided(&self, request: &FitRequest) -> Result<Divided, EvaluateError> {
         let dataset = self.dataset;
         if self.rows.is_none() {
@@ -117,8 +117,8 @@ impl<'a> PhaseRows<'a> {
         Divided::within(dataset, &rows, Some("by-point"), request.seed)
     }
 
-    /// The only unit that was measured outside the map of surfaces, with a note on the metrics of several units. `None` if the study has no
-    /// other unit or no such metric, or if several units were measured.
+    /// The only unit measured outside the map of surfaces, with a note on the metrics that compare units. `None` if the study has no other unit or no
+    /// such metric, or if several units were measured.
     pub(super) fn measured_unit(&self) -> Option<(String, Note)> {
         let units = self.dataset.table().as_text(Field::UnitId.name())?;
         let mut of: Vec<String> = units.iter().flatten().cloned().collect();
@@ -149,7 +149,7 @@ impl<'a> PhaseRows<'a> {
         })
     }
 
-    /// A note if presses ended early.
+    /// Note on presses that ended early, if any.
     pub(super) fn shortfall(&self) -> Option<Note> {
         self.rows.as_ref()?;
         let presses = self.plan.presses.iter();
@@ -170,7 +170,7 @@ pub(super) fn seen(divided: &Divided) -> Vec<usize> {
     rows
 }
 
-/// The rows of each part of the protocol; samples are named `<press>/<number>`.
+/// Rows of each part of the protocol; samples are named `<press>/<number>`.
 fn by_phase(plan: &Plan, dataset: &Dataset) -> BTreeMap<PhaseKind, Vec<usize>> {
     let presses = plan.presses.iter();
     let phases: BTreeMap<String, &[PhaseKind]> = presses

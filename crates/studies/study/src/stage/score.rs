@@ -1,4 +1,4 @@
-//! Scores: each metric on the presses and the channels that the plan assigns to it.
+//! Scores of each metric on its planned presses and channels.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -24,20 +24,20 @@ pub(super) struct Scores<'a> {
     pub(super) study: &'a PlannedStudy,
     pub(super) dataset: &'a Dataset,
     pub(super) phase_rows: &'a PhaseRows<'a>,
-    /// The predictions, with their rows of the dataset, ascending.
+    /// Predictions, with their rows of the dataset, ascending.
     pub(super) predicted: Option<&'a (Predicted, Vec<usize>)>,
-    /// The predicted spacings of presses on gratings.
+    /// Predicted spacings of presses on gratings.
     pub(super) predicted_spacings: Option<&'a PredictedSpacings>,
     pub(super) jobs: NonZeroUsize,
 }
 
-/// Metrics that are computed on the same rows and channels.
+/// Metrics computed on the same rows and channels.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct ScoreGroup {
     phase: PhaseKind,
     channels: Vec<String>,
     predictions: Option<Within>,
-    /// True if times are taken from the phase alone, and all else from every row.
+    /// True if times are taken from the phase alone, and everything else from every row.
     of_sensor: bool,
 }
 
@@ -51,7 +51,7 @@ enum Within {
 }
 
 impl Within {
-    /// The range that `metric` reads; `None` if it reads no predictions.
+    /// Range that `metric` reads; `None` if it reads no predictions.
     fn of(metric: &Metric) -> Option<Within> {
         metric.reads_predictions().then(|| {
             if metric.reads_unbounded_predictions() {
@@ -63,11 +63,11 @@ impl Within {
     }
 }
 
-/// The metric of the frame rate and the field of view. Frames come at full rate only at rest, without contact, so that contact points are
-/// taken from all other parts of the protocol.
+/// Metric of the frame rate and the field of view. Frames have the full rate only at rest without contact, so contact points are taken from all other
+/// parts of the protocol.
 const OF_SENSOR: &str = "intrinsic";
 
-/// The scores, and notes on omissions that a skip cannot express.
+/// Scores, and notes on omissions that a skip cannot express.
 pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<Note>), EvaluateError> {
     let mut groups: BTreeMap<ScoreGroup, Vec<&'static Metric>> = BTreeMap::new();
     for (planned, metric) in scores.phase_rows.metrics() {
@@ -143,8 +143,8 @@ impl Scores<'_> {
         Ok(evaluation.with_bounded_shares(&shares))
     }
 
-    /// The group that shows the skill of the model: the unseen presses of the calibration or, without any, the part of the protocol with
-    /// the most predictions.
+    /// Group that shows the skill of the model: the unseen presses of the calibration. If there are none, the part of the protocol with the most
+    /// predictions.
     fn skill_group(&self) -> Option<ScoreGroup> {
         let (_, predicted) = self.predicted?;
         let count = |phase: PhaseKind| {
@@ -167,13 +167,13 @@ impl Scores<'_> {
         })
     }
 
-    /// The constants that skill is measured against, by channel, as far as the model states them.
+    /// Constant predictions for the skill by channel, as far as the model states them.
     fn constants(&self) -> BTreeMap<String, f64> {
         let predicted = self.predicted.map(|(predicted, _)| predicted);
         predicted.map_or_else(BTreeMap::new, |predicted| predicted.constants().clone())
     }
 
-    /// The channels of the recording that the metrics of `group` read.
+    /// Channels of the recording that the metrics of `group` read.
     fn channels(&self, group: &ScoreGroup) -> Result<Channels, EvaluateError> {
         let known = self.dataset.table().channels();
         let chosen = group.channels.iter().filter_map(|name| known.by_name(name));
@@ -181,7 +181,7 @@ impl Scores<'_> {
         Channels::new(chosen).map_err(|error| EvaluateError::Request(error.to_string()))
     }
 
-    /// The rows of `group` and their predictions; if a metric reads predictions, rows without one are skipped.
+    /// Rows of `group` and their predictions. If a metric reads predictions, rows without one are skipped.
     fn rows(&self, group: &ScoreGroup, channels: &Channels) -> Taken {
         let rows = match group.of_sensor {
             true => self.dataset.all_rows(),
@@ -220,7 +220,7 @@ impl Scores<'_> {
     }
 }
 
-/// The rows that metrics read.
+/// Rows that metrics read.
 struct Taken {
     rows: Vec<usize>,
     /// Their predictions, channel by channel.
@@ -229,10 +229,10 @@ struct Taken {
     shares: BTreeMap<String, f64>,
 }
 
-/// Rows with their predicted spacings, if there are any.
+/// Rows with their predicted spacings, if any.
 struct Samples<'a> {
     columns: Columns<'a>,
-    /// The rows whose times are used, ascending; `None` for all rows.
+    /// Rows whose times are used, ascending; `None` for all rows.
     timed: Option<Vec<usize>>,
     spacings: Option<&'a Column>,
 }
@@ -259,7 +259,7 @@ impl Rows for Samples<'_> {
     }
 }
 
-/// Omissions of the plan: reasons that any stream may have, and as notes those that only a plan can have.
+/// Omissions of the plan: as skips if any stream may have the reason, else as notes.
 fn left_out(study: &PlannedStudy) -> (Vec<Skipped>, Vec<Note>) {
     let (mut skipped, mut notes) = (Vec::new(), Vec::new());
     for skip in &study.plan.skipped {

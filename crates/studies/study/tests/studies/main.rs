@@ -1,3 +1,3 @@
-//! Whole studies.
+//! Tests of whole studies.
 
 mod waiting;

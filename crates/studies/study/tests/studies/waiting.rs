@@ -1,4 +1,4 @@
-//! Studies on devices that work in the time of the machine.
+//! Studies on devices that run in real time.
 
 mod air;
 mod camera;
@@ -39,12 +39,12 @@ contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 5.0, travel_mm_s =
 calibration = { points = 3, indentations = 2, shear_mm = 0.0 }
 "#;
 
-/// The recording of the scene on `world`, made in `folder`.
+/// Records the scene on `world` in `folder`.
 fn record(world: &World, folder: &Path, progress: &dyn Progress) -> Result<Dataset, StudyError> {
     record_by_hand(world, folder, progress, (SCENE, None))
 }
 
-/// The recording of a scene that may need hands, and of who is there.
+/// Records a scene that may need an operator, with an optional operator.
 fn record_by_hand(
     world: &World,
     folder: &Path,
@@ -54,7 +54,7 @@ fn record_by_hand(
     record_on(world, folder, progress, (scene, None, operator))
 }
 
-/// The same on the rig of a rig file, where there is one.
+/// Records the scene on the rig of an optional rig file.
 fn record_on(
     world: &World,
     folder: &Path,
@@ -78,7 +78,7 @@ fn record_on(
     })
 }
 
-/// What `act` makes of a scene that is planned on `world`.
+/// Result of `act` on a scene that is planned on `world`.
 fn with_workshop<T>(
     world: &World,
     progress: &dyn Progress,
@@ -127,7 +127,7 @@ fn a_study_on_real_devices_runs_in_the_time_of_the_machine_and_finds_its_zero_by
             depth.get(row).expect("a depth"),
             force.get(row).expect("a force"),
         );
-        // Contact is felt a step late, at most; the load of 0.3 N that rests on the transducer is no force.
+        // Contact is detected at most one step late. The resting load of 0.3 N does not count as force.
         let pressed_mm = force_n / 0.5;
         assert!(
             (depth_mm - 0.01..depth_mm + 0.16).contains(&pressed_mm),
@@ -135,7 +135,7 @@ fn a_study_on_real_devices_runs_in_the_time_of_the_machine_and_finds_its_zero_by
         );
     }
     let state = world.state();
-    // Each of 6 presses goes down, in and out in some.
+    // Each of 6 presses consists of several motions.
     assert!(
         state.motions > 30 && state.deepest_mm < 1.2,
         "{} motions, {} mm",

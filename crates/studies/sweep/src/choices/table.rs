@@ -1,4 +1,4 @@
-//! The table of the choices for each channel.
+//! Table of the choices for each channel.
 
 use taceva_metrics::Repeats;
 use taceva_report::{Cell, Column, FormattedValue, Table};
@@ -6,7 +6,7 @@ use taceva_report::{Cell, Column, FormattedValue, Table};
 use super::{Choice, ends, number};
 use crate::analysis::Group;
 
-/// The configurations with results but without a validation error, each once.
+/// Configurations with results but without a validation error, each once.
 fn without_validation(groups: &[Group<'_>]) -> Vec<String> {
     let mut silent: Vec<String> = Vec::new();
     for group in groups {
@@ -19,7 +19,7 @@ fn without_validation(groups: &[Group<'_>]) -> Vec<String> {
     silent
 }
 
-/// Quantity that a channel measures, in words.
+/// Description of the quantity of a channel.
 fn question(channel: &str) -> &'static str {
     match channel {
         "Pz" => "depth",
@@ -30,7 +30,7 @@ fn question(channel: &str) -> &'static str {
     }
 }
 
-/// One row for each choice: the configuration, the validation error that chose it, and its score on the test part.
+/// One row for each choice: the configuration, its validation error, and its score on the test part.
 pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
     let columns = [
         "recording",

@@ -1,4 +1,4 @@
-//! The counts of a sweep as a sealed file, which saves making the output twice.
+//! Counts of a sweep as a sealed file, so that the same output is not written twice.
 
 use std::fs;
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ use crate::error::SweepError;
 use crate::folder::SweepFolder;
 use crate::seal;
 
-/// The schema of the file.
+/// Schema of the file.
 const SCHEMA: &str = "taceva.sweep-collected/1.0";
 /// Output files that must exist beside it.
 const BESIDE: [&str; 5] = [
@@ -22,7 +22,7 @@ const BESIDE: [&str; 5] = [
     "times.html",
 ];
 
-/// The file as it is written.
+/// Content of the file.
 #[derive(Serialize, Deserialize)]
 struct Kept {
     schema: String,
@@ -30,7 +30,7 @@ struct Kept {
     collected: Collected,
 }
 
-/// Head of the file, read first because its schema decides the form of the rest.
+/// Head of the file, read first because its schema determines the rest.
 #[derive(Deserialize)]
 struct Head {
     #[serde(default)]
@@ -51,10 +51,10 @@ impl Collected {
         folder.write(&path, text.as_bytes())
     }
 
-    /// Reads the counts of output in `folder` that was made from the inputs `made_of`; `None` if the inputs differ or a file is missing.
+    /// Reads the counts of output in `folder` from the inputs `made_of`; `None` if the inputs differ or a file is missing.
     ///
     /// # Errors
-    /// [`SweepError::Kept`] if the file was changed after it was written, because its counts and verdicts would be printed.
+    /// [`SweepError::Kept`] if the file was edited, because its counts and verdicts would be printed.
     pub(crate) fn read(
         folder: &SweepFolder,
         made_of: &str,
@@ -69,7 +69,7 @@ impl Collected {
         };
         let head: Head = serde_json::from_str(&text).map_err(|error| wrong(error.to_string()))?;
         if head.schema != SCHEMA {
-            // Written by another version.
+            // Written by another version of this program.
             return Ok(None);
         }
         let Kept { collected, .. } = seal::value(&text).map_err(wrong)?;

@@ -1,8 +1,8 @@
-//! Operators between the terms of a condition: ` and `, which binds closer, and ` or `.
+//! Operators between the terms of a condition: ` and `, which has precedence, and ` or `.
 
 use super::term::Term;
 
-/// The terms of each alternative.
+/// Terms of each alternative.
 pub(super) fn alternatives(text: &str) -> Result<Vec<Vec<Term>>, String> {
     let mut alternatives = vec![Vec::new()];
     for (joint, term) in pieces(text) {
@@ -23,7 +23,7 @@ enum Joint {
     Or,
 }
 
-/// The texts of terms, each with the operator before it; words in quotes are no operators.
+/// Texts of terms, each with the operator before it. Quoted operators are part of a value.
 fn pieces(text: &str) -> Vec<(Joint, &str)> {
     let mut pieces = Vec::new();
     let (mut joint, mut start, mut quote) = (Joint::And, 0, None);
@@ -38,7 +38,7 @@ fn pieces(text: &str) -> Vec<(Joint, &str)> {
                 if let Some((word, next)) = found {
                     pieces.push((joint, &text[start..at]));
                     joint = next;
-                    // The space after the word may also begin the next one.
+                    // The space after the operator may also begin the next operator.
                     start = at + word.len();
                 }
             }

@@ -2,9 +2,9 @@
 
 use crate::task::Task;
 
-/// The accepted forms, for messages.
+/// Accepted forms, for messages.
 const UNDERSTOOD: &str = "expected NAME = VALUE or NAME != VALUE, joined by ` and ` or ` or ` (no parentheses), or the key of a task";
-/// Signs that no bare value contains: a term with one of them is a mistake.
+/// Characters that no unquoted value contains; a term with one of them is a mistake.
 const SIGNS: [char; 9] = ['=', '!', '<', '>', '&', '|', '(', ')', '"'];
 
 /// One term: `size != 64x64`.
@@ -54,7 +54,7 @@ impl Term {
     }
 }
 
-/// A value, bare or in quotes; `None` if it is neither.
+/// A value, bare or quoted; `None` if it is neither.
 fn value(text: &str) -> Option<&str> {
     for quote in ['"', '\''] {
         if let Some(inside) = text.strip_prefix(quote) {

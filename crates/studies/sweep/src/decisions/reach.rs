@@ -1,15 +1,15 @@
-//! Power of a family of tests: the number of sign patterns to try, and families that can show nothing.
+//! Power of a family of tests: number of sign flips, and detection of families that cannot show a difference.
 
 use taceva_metrics::{Difference, DifferenceTest, SignFlip};
 
-/// The level of the family.
+/// Significance level of the family.
 const LEVEL: f64 = 0.05;
-/// Flips for each test: the least p value is then half of the first step of Holm's procedure, `LEVEL` over the number of tests.
+/// Flips for each test. The least p value is then half of the first step of Holm's procedure, which is `LEVEL` divided by the number of tests.
 const FLIPS_A_TEST: usize = 40;
-/// Maximum flips of all tests together, which are stored until the family is decided: 16 bytes each.
+/// Limit on the flips of all tests together. Each takes 16 bytes until the family is decided.
 const MOST_FLIPS: usize = 1 << 24;
 
-/// Number of sign patterns for each of `tests` tests: enough for the first step of Holm's procedure, unless `MOST_FLIPS` limits it.
+/// Number of sign flips for each of `tests` tests: enough for the first step of Holm's procedure, up to the limit `MOST_FLIPS`.
 pub(super) fn flips_of(tests: usize) -> u32 {
     let wanted = tests
         .saturating_mul(FLIPS_A_TEST)
@@ -18,8 +18,8 @@ pub(super) fn flips_of(tests: usize) -> u32 {
     u32::try_from(wanted.min(most)).unwrap_or(u32::MAX)
 }
 
-/// Message for a family in which no test can have a p value small enough for the first step of Holm's procedure; else `None`. Only sign
-/// flips have a least p value.
+/// Message for a family in which no test can have a p value below the first step of Holm's procedure; else `None`. Only tests by sign flips have a
+/// least p value.
 pub(super) fn out_of_reach(family: &[Difference]) -> Option<String> {
     let step = LEVEL / family.len() as f64;
     let least = family.iter().map(|difference| match difference.test {
@@ -79,7 +79,7 @@ mod tests {
 
     #[test]
     fn a_family_in_which_nothing_can_be_shown_says_so() {
-        // 2^8 patterns of signs: no p is below 2/256, and Holm's first step of ten tests requires 0.005.
+        // With 2^8 sign patterns, the least p is 2/256. Holm's first step of ten tests requires 0.005.
         let family = family(10, 8);
         assert!(family.iter().all(|difference| !difference.is_shown));
         let words = out_of_reach(&family).expect("out of reach");

@@ -1,14 +1,14 @@
-//! Variation between seeds of the difference of two configurations.
+//! Variation of the difference of two configurations between seeds.
 
 use taceva_metrics::TrainingSpread;
 
 use crate::analysis::Group;
 
-/// Standard error of the mean difference of the errors of `channel` over the seeds that both groups have; `None` for fewer than two seeds, or
-/// if all differences are equal.
+/// Standard error of the mean difference of the errors of `channel` over the seeds of both groups. `None` for fewer than two seeds, or if all
+/// differences are equal.
 ///
-/// Both sides of a seed share its division, so that differences are formed seed by seed. A seed also exchanges the tested contact points,
-/// whose variation the clusters show as well: together both overstate it rather than understate it.
+/// Both sides of a seed share its division, so differences are computed seed by seed. A seed also changes the tested contact points, whose variation
+/// the clusters include as well. Together they rather overestimate the variation.
 pub(super) fn between_seeds(
     chosen: &Group<'_>,
     other: &Group<'_>,
@@ -70,12 +70,12 @@ mod tests {
     fn differences_are_formed_seed_by_seed_and_vary_as_their_mean_does() {
         let one = [0.5, 0.25, 0.75].map(result);
         let other = [1.0, 0.5, 0.75].map(result);
-        // By seed −0.5, −0.25 and 0: deviation 0.25, of the mean 0.25 / √3.
+        // By seed −0.5, −0.25 and 0: standard deviation 0.25, of the mean 0.25 / √3.
         let spread = between_seeds(&group(&[1, 2, 3], &one), &group(&[1, 2, 3], &other), "Fz");
         let spread = spread.expect("three seeds");
         assert!((spread.standard_error - 0.25 / 3_f64.sqrt()).abs() < 1e-15);
         assert!((spread.freedom - 2.0).abs() < 1e-15);
-        // In another order of the seeds too; a seed without its counterpart does not count.
+        // The order of seeds does not matter; a seed without its counterpart is ignored.
         let turned = [0.75, 1.0, 0.5].map(result);
         let again = between_seeds(&group(&[1, 2, 3], &one), &group(&[3, 1, 2], &turned), "Fz");
         assert_eq!(again, Some(spread));
@@ -83,7 +83,7 @@ mod tests {
         assert!((two.expect("two seeds").freedom - 1.0).abs() < 1e-15);
         let none = between_seeds(&group(&[1, 2, 3], &one), &group(&[1, 5, 4], &other), "Fz");
         assert_eq!(none, None);
-        // A model that draws nothing, and is scored on one division.
+        // A model without random draws, scored on one division.
         let same = [0.5, 0.5, 0.5].map(result);
         let same = group(&[1, 2, 3], &same);
         assert_eq!(between_seeds(&same, &same, "Fz"), None);

@@ -9,17 +9,17 @@ use crate::task_list::TaskList;
 pub(super) struct Dimension {
     what: What,
     pub(super) values: Vec<String>,
-    /// Settings that apply to every model in turn: `[vary]`.
+    /// Settings that apply to every model: `[vary]`.
     shared: BTreeSet<String>,
 }
 
 enum What {
     Split,
-    /// Models, each with the settings that only it has.
+    /// Models with settings that only they have.
     Model,
-    /// A setting that applies to every model in turn.
+    /// A setting that applies to every model.
     Shared(String),
-    /// A setting of one model, which the file lists more than once.
+    /// A setting of one model that the file lists more than once.
     Own {
         model: String,
         key: String,
@@ -81,7 +81,7 @@ impl Dimension {
         }
     }
 
-    /// Everything else of a task: tasks that agree in it form a pair.
+    /// All other properties of a task; tasks with equal text form a pair.
     pub(super) fn beside(&self, task: &Task) -> String {
         let split = match self.what {
             What::Split => None,
@@ -106,7 +106,7 @@ impl Dimension {
         )
     }
 
-    /// The settings of a model of its own, except `but`.
+    /// Settings that only the model of the task has, except `but`.
     fn own_settings(&self, task: &Task, but: Option<&str>) -> String {
         let own = task
             .settings

@@ -17,7 +17,7 @@ pub struct ModelEntry {
 }
 
 impl ModelEntry {
-    /// A name, or `{ name = …, set = { … } }`.
+    /// Parses a name, or `{ name = …, set = { … } }`.
     pub(super) fn of(value: &toml::Value, place: FilePlace<'_>) -> Result<ModelEntry, SweepError> {
         const KEYS: [&str; 2] = ["name", "set"];
         let table = match value {
@@ -46,7 +46,7 @@ impl ModelEntry {
         Ok(ModelEntry::asked(name, set))
     }
 
-    /// The model called `name`. A preset becomes its model with its settings, so that keys and tables state what was fitted.
+    /// Model called `name`. A preset is replaced by its model and settings, so that keys and tables state what was fitted.
     fn asked(name: &str, mut set: BTreeMap<String, String>) -> ModelEntry {
         let Some(preset) = Preset::named(name) else {
             return ModelEntry {
@@ -65,7 +65,7 @@ impl ModelEntry {
     }
 }
 
-/// The settings of a model of its own.
+/// Parses the own settings of a model.
 fn settings(
     name: &str,
     written: Option<&toml::Value>,
@@ -128,7 +128,7 @@ mod tests {
                 "size=up-to-80x60"
             ]
         );
-        // A name that is no preset stays, and is rejected later by name.
+        // A name that is not a preset stays, and is rejected later.
         assert_eq!(ModelEntry::asked("fats", BTreeMap::new()).name, "fats");
     }
 }

@@ -12,7 +12,7 @@ pub(super) struct FilePlace<'a> {
 }
 
 impl FilePlace<'_> {
-    /// The error for a value below `key`, with its line.
+    /// Error for a value below `key`, with its line.
     pub(super) fn wrong(&self, key: &str, problem: String) -> SweepError {
         SweepError::Meaning {
             path: self.path.to_owned(),
@@ -21,7 +21,7 @@ impl FilePlace<'_> {
         }
     }
 
-    /// The line that assigns `key`; else the first line that contains it as a word, such as a model in a list.
+    /// Line that assigns `key`, else the first line that contains it as a word, such as a model in a list.
     pub(super) fn line_of(&self, key: &str) -> Option<usize> {
         let mut lines = self.text.lines();
         let set = lines.position(|line| {
@@ -47,7 +47,7 @@ impl FilePlace<'_> {
     }
 }
 
-/// True if `key` is a word of `line`, outside its comment.
+/// True if `key` is a word of `line` outside its comment.
 fn has_word(line: &str, key: &str) -> bool {
     let code = line.split('#').next().unwrap_or_default();
     let mut words = code.split(|letter: char| !(letter.is_alphanumeric() || "_-".contains(letter)));

@@ -15,14 +15,14 @@ use crate::error::SweepError;
 use crate::seeds::seeds;
 use crate::syntax::WrittenSweep;
 
-/// The version of the format that this program reads.
+/// Version of the format that this program reads.
 const VERSION: u32 = 1;
 
 impl SweepFile {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// [`SweepError`] for invalid content, with the line, and with the nearest key if a key is unknown.
+    /// [`SweepError`] for invalid content, with the line, and with the most similar key if a key is unknown.
     pub fn read(path: &Path) -> Result<SweepFile, SweepError> {
         let written: WrittenSweep = read_toml(path)?;
         let text = fs::read_to_string(path).map_err(SweepError::io("read", path))?;

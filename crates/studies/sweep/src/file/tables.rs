@@ -14,17 +14,17 @@ use crate::syntax::{WrittenScore, WrittenSweep};
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TablesEntry {
-    /// The table of the truth, as the file names it.
+    /// File name of the truth in the sweep file.
     pub name: String,
-    /// The table of the truth.
+    /// Path of the table of the truth.
     pub truth: PathBuf,
-    /// The table of the predictions.
+    /// Path of the table of the predictions.
     pub prediction: PathBuf,
     /// Number of shards.
     pub shards: u32,
-    /// Units of channels besides the six.
+    /// Units of channels other than the six.
     pub units: Vec<(String, Unit)>,
-    /// True if cells that are not finite numbers are counted instead of rejected.
+    /// True if non-finite cells are counted instead of rejected.
     pub allow_invalid: bool,
 }
 
@@ -68,7 +68,7 @@ impl TablesEntry {
     }
 }
 
-/// Rejects keys of a sweep of recordings beside tables.
+/// Rejects keys of a sweep over recordings in a sweep over tables.
 pub(super) fn check_alone(written: &WrittenSweep, place: FilePlace<'_>) -> Result<(), SweepError> {
     let others = [
         ("datasets", !written.datasets.is_empty()),
@@ -85,7 +85,7 @@ pub(super) fn check_alone(written: &WrittenSweep, place: FilePlace<'_>) -> Resul
         Some((key, _)) => Err(place.wrong(
             key,
             format!(
-                "`{key}` cannot be combined with `[score]`: a sweep is of recordings or of tables; write two files"
+                "`{key}` cannot be combined with `[score]`: a sweep evaluates either recordings or tables; write two files"
             ),
         )),
     }

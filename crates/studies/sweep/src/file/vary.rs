@@ -1,4 +1,4 @@
-//! Settings that vary.
+//! Varied settings.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use super::model_entry::word;
 use super::place::FilePlace;
 use crate::error::SweepError;
 
-/// The settings that vary, each with its values as users type them.
+/// Varied settings, each with its values in the form that users type.
 pub(super) fn vary(
     written: BTreeMap<String, Vec<toml::Value>>,
     models: &[ModelEntry],

@@ -8,12 +8,12 @@ use crate::error::SweepError;
 use crate::key::TaskKey;
 
 impl SweepFolder {
-    /// The keys of existing results, found by their file names alone.
+    /// Keys of existing results, from their file names.
     pub(crate) fn results(&self) -> Result<BTreeSet<String>, SweepError> {
         self.keys("results")
     }
 
-    /// The keys of tasks that failed.
+    /// Keys of failed tasks.
     pub(crate) fn failures(&self) -> Result<BTreeSet<String>, SweepError> {
         self.keys("failed")
     }

@@ -1,4 +1,4 @@
-//! Builds of the plugins behind models, which are part of the keys of tasks.
+//! Builds of the plugins behind models; they are part of the keys of tasks.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use taceva_models::{ChosenModel, Models};
 use crate::error::SweepError;
 use crate::file::SweepFile;
 
-/// The build of the plugin behind each plugin model. A model that does not exist has none; it is rejected with its settings.
+/// Build of the plugin behind each plugin model. An unknown model has none; the check of settings rejects it.
 pub(super) fn builds(
     file: &SweepFile,
     models: &Models,
@@ -22,7 +22,7 @@ pub(super) fn builds(
     Ok(builds)
 }
 
-/// The build of the plugin with the model `name`; `None` if it is built in or does not exist.
+/// Build of the plugin with the model `name`; `None` if the model is built in or unknown.
 ///
 /// # Errors
 /// [`SweepError`] if the plugin cannot be read.
@@ -41,7 +41,7 @@ mod tests {
 
     use super::*;
 
-    /// A plugin's model of which only the build is used.
+    /// A plugin model with only a build.
     struct Built(DriverKey, &'static str);
 
     impl EstimatorFactory for Built {

@@ -40,7 +40,7 @@ pub(super) fn size(file: &SweepFile, recordings: usize) -> Result<(), SweepError
             path: file.path.clone(),
             line: None,
             problem: format!(
-                "a grid of {count} tasks ({}), at most {MOST_TASKS} are allowed: vary less, or make several sweeps",
+                "a grid of {count} tasks ({}), at most {MOST_TASKS} are allowed: vary fewer settings, or write several sweeps",
                 parts.join(" × ")
             ),
         });
@@ -48,7 +48,7 @@ pub(super) fn size(file: &SweepFile, recordings: usize) -> Result<(), SweepError
     Ok(())
 }
 
-/// Rejects a model that is listed twice with the same settings, and conditions on words that no task has.
+/// Rejects a model that is listed twice with the same settings, and conditions on names that no task has.
 pub(super) fn words(file: &SweepFile) -> Result<(), SweepError> {
     for (at, one) in file.models.iter().enumerate() {
         let is_alike = |other: &ModelEntry| other.name == one.name && other.set == one.set;
@@ -73,7 +73,7 @@ pub(super) fn words(file: &SweepFile) -> Result<(), SweepError> {
     Ok(())
 }
 
-/// Rejects a model or a setting that does not exist, before any work; checks each configuration once.
+/// Rejects an unknown model or setting before any work; checks each configuration once.
 pub(super) fn settings(file: &SweepFile, grid: &Grid, models: &Models) -> Result<(), SweepError> {
     let mut checked = BTreeSet::new();
     for task in &grid.tasks {

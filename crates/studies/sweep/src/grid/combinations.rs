@@ -14,7 +14,7 @@ use crate::task::Task;
 pub(super) struct Common<'a> {
     pub(super) file: &'a SweepFile,
     pub(super) sensor: Option<Digest>,
-    /// The build of the plugin behind each plugin model.
+    /// Build of the plugin behind each plugin model.
     pub(super) builds: BTreeMap<String, String>,
 }
 
@@ -43,7 +43,7 @@ impl Common<'_> {
                 }
             }
         }
-        // A model whose own setting overrides a varying one occurs once for each value; duplicates are dropped.
+        // A model's own setting overrides a varied one, which gives equal tasks; duplicates are dropped.
         let mut known = BTreeSet::new();
         grid.tasks.retain(|task| known.insert(task.key.clone()));
         grid
@@ -84,7 +84,7 @@ impl Common<'_> {
     }
 }
 
-/// Every combination of the settings that vary.
+/// Every combination of the varied settings.
 fn varied(file: &SweepFile) -> Vec<BTreeMap<String, String>> {
     let mut all = vec![BTreeMap::new()];
     for (key, values) in &file.vary {

@@ -1,4 +1,4 @@
-//! The recordings of a sweep: found by name, identified by content.
+//! Recordings of a sweep: found by name, identified by content.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use crate::glob;
 use crate::recording::opened;
 use crate::scene_recording::SceneRecording;
 
-/// A recording by its name, not opened yet.
+/// A named recording before it is opened.
 pub(super) struct Named {
     name: String,
     path: PathBuf,
@@ -20,7 +20,7 @@ pub(super) struct Named {
     planned: Option<Digest>,
 }
 
-/// A recording of tasks.
+/// An opened recording of tasks.
 pub(super) struct Recording {
     pub(super) name: String,
     pub(super) path: PathBuf,
@@ -28,7 +28,7 @@ pub(super) struct Recording {
 }
 
 impl Named {
-    /// The key of the sweep file that names it.
+    /// Key of the sweep file that names it.
     fn key(&self) -> &'static str {
         match self.planned {
             None => "datasets",
@@ -36,7 +36,7 @@ impl Named {
         }
     }
 
-    /// The digest of the recording at `path`, or its placeholder.
+    /// Digest of the recording at `path`, or its placeholder.
     fn digest(&self, path: &Path, view: Option<&str>) -> Result<Digest, SweepError> {
         match (opened(path, view), self.planned) {
             (Err(SweepError::Dataset(DatasetError::NoDataset { .. })), Some(planned)) => {
@@ -47,7 +47,7 @@ impl Named {
     }
 }
 
-/// The recordings that the file names, with patterns resolved, and those of its scenes.
+/// Recordings that the file names, with patterns resolved, and recordings of its scenes.
 pub(super) fn named(file: &SweepFile, scenes: &[SceneRecording]) -> Result<Vec<Named>, SweepError> {
     let mut names: Vec<String> = Vec::new();
     for text in &file.datasets {
@@ -94,11 +94,11 @@ pub(super) fn named(file: &SweepFile, scenes: &[SceneRecording]) -> Result<Vec<N
     Ok(folders.chain(of_scenes).collect())
 }
 
-/// Opens each once, for its digest; reads no frame. Rejects two names of one recording, which would share one result.
+/// Opens each recording once for its digest, without reading frames. Rejects two names of one recording, which would share a result.
 pub(super) fn open(file: &SweepFile, all: &[Named]) -> Result<Vec<Recording>, SweepError> {
     let mut recordings: Vec<Recording> = Vec::with_capacity(all.len());
     for one in all {
-        // Absolute, since a job of a scheduler has another working folder.
+        // Absolute, because jobs of a scheduler have another working folder.
         let path = std::path::absolute(&one.path).map_err(SweepError::io("find", &one.path))?;
         let digest = one.digest(&path, file.view.as_deref())?;
         let alike = recordings.iter().find(|other| other.digest == digest);

@@ -1,4 +1,4 @@
-//! Shards of two tables, as tasks.
+//! Shards of two tables as tasks.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -15,7 +15,7 @@ use crate::file::{SweepFile, TablesEntry};
 use crate::key::{ShardParts, TaskKey};
 use crate::task::{SHARD, Task};
 
-/// Two tables as they were when the sweep was planned, with everything needed to score a shard of them.
+/// Two tables at the time of planning, with everything needed to score a shard of them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlannedTables {
@@ -23,12 +23,12 @@ pub(crate) struct PlannedTables {
     prediction: PathBuf,
     units: Vec<(String, Unit)>,
     allow_invalid: bool,
-    /// Locations of their rows, and their digests.
+    /// Positions of their rows, and their digests.
     tables: ScoreTables,
 }
 
 impl PlannedTables {
-    /// The tables, scanned again if a file has changed.
+    /// The tables; scans them again if a file has changed.
     ///
     /// # Errors
     /// [`SweepError::Study`] if the content of a file has changed.
@@ -36,12 +36,12 @@ impl PlannedTables {
         Ok(self.tables.clone().again()?)
     }
 
-    /// The digests of the truth and of the predictions.
+    /// Digests of the truth and of the predictions.
     pub(crate) fn digests(&self) -> [Digest; 2] {
         self.tables.digests()
     }
 
-    /// The request of the scores.
+    /// Request of the scores.
     pub(crate) fn request(
         &self,
         metrics: &[String],
@@ -63,9 +63,9 @@ impl PlannedTables {
     }
 }
 
-/// One task for each shard. Scans both tables once, so that no task has to.
+/// One task for each shard. Scans both tables once for all tasks.
 pub(super) fn grid(file: &SweepFile, entry: &TablesEntry) -> Result<Grid, SweepError> {
-    // Absolute, since a job of a scheduler has another working folder.
+    // Absolute, because jobs of a scheduler have another working folder.
     let absolute = |path: &Path| std::path::absolute(path).map_err(SweepError::io("find", path));
     let [truth, prediction] = [absolute(&entry.truth)?, absolute(&entry.prediction)?];
     let mut planned = ScoreRequest {
@@ -78,7 +78,7 @@ pub(super) fn grid(file: &SweepFile, entry: &TablesEntry) -> Result<Grid, SweepE
         sensor: file.sensor.clone(),
         metrics: file.metrics.clone(),
         allow_invalid: entry.allow_invalid,
-        // Two threads, one for each table.
+        // One thread for each table.
         jobs: NonZeroUsize::MIN.saturating_add(1),
     };
     let tables = ScoreTables::scan(&planned)?;

@@ -1,16 +1,16 @@
-//! The key of the result of a shard of two tables.
+//! Key of the result of a shard of two tables.
 
 use taceva_core::Unit;
 use taceva_dataset::Digest;
 
 use super::{KeyBytes, TaskKey, text_of};
 
-/// Inputs that decide the result of a shard of two tables.
+/// Inputs that determine the result of a shard of two tables.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShardParts<'a> {
-    /// The digests of the truth and of the predictions.
+    /// Digests of the truth and of the predictions.
     pub(crate) tables: [Digest; 2],
-    /// Number of the shard and of all shards: `2/7`.
+    /// Shard number and number of shards: `2/7`.
     pub(crate) shard: &'a str,
     pub(crate) units: &'a [(String, Unit)],
     pub(crate) allow_invalid: bool,

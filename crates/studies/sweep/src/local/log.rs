@@ -1,4 +1,4 @@
-//! The log of a task: its stages and its end.
+//! Log of a task: its stages and its outcome.
 
 use std::fs::File;
 use std::io::Write as _;
@@ -10,7 +10,7 @@ use super::lock;
 use crate::folder::SweepFolder;
 use crate::task::Task;
 
-/// The log of a task: its stages and its end.
+/// Log of a task: its stages and its outcome.
 pub(super) struct TaskLog<'a> {
     file: Mutex<Option<File>>,
     whole: &'a dyn Progress,
@@ -19,7 +19,7 @@ pub(super) struct TaskLog<'a> {
 impl<'a> TaskLog<'a> {
     pub(super) fn new(folder: &SweepFolder, task: &Task, whole: &'a dyn Progress) -> TaskLog<'a> {
         let path = folder.log(&task.key);
-        // A link may lead to a file of somebody else: the task then has no log.
+        // A link may lead to a file of another user, so the task then has no log.
         let is_link = std::fs::symlink_metadata(&path).is_ok_and(|found| found.is_symlink());
         let open = || File::options().create(true).append(true).open(&path).ok();
         let log = TaskLog {

@@ -19,13 +19,13 @@ use crate::times::Timer;
 const LOOK_EVERY: Duration = Duration::from_millis(200);
 
 impl Runner<'_> {
-    /// One worker: takes the next task that no other has claimed, until there is none.
+    /// Runs the next task that no other worker has claimed, until there is none.
     pub(super) fn work(&self, shared: &Shared, sensor: Option<&SensorFile>, threads: NonZeroUsize) {
         let mut others: Vec<(usize, Watch)> = Vec::new();
         while !self.progress.is_cancelled() {
             let next = lock(&shared.left).pop_front();
             let Some(at) = next else {
-                // Waits for tasks that others have claimed, here or on another machine: they may end without a result.
+                // Waits for tasks that other workers have claimed, here or on another machine, because they may end without a result.
                 let Some((at, mut watch)) = others.pop() else {
                     return;
                 };
@@ -81,7 +81,7 @@ impl Runner<'_> {
     }
 
     fn attempt(&self, task: &Task, sensor: Option<&SensorFile>, threads: NonZeroUsize) -> Outcome {
-        // Another worker may have finished it between the scan of the folder and the claim.
+        // Another worker may have finished it after the folder was read and before the claim.
         if self.folder.result(&task.key).exists() {
             return Outcome::Scored;
         }
@@ -103,7 +103,7 @@ impl Runner<'_> {
             Ok(Ok(())) => {
                 log.say("scored");
                 timer.keep(self.folder, &task.key);
-                // Left by an earlier attempt.
+                // A failure record of an earlier attempt.
                 drop(Failure::forget(self.folder, &task.key));
                 return Outcome::Scored;
             }
@@ -112,7 +112,7 @@ impl Runner<'_> {
                 return Outcome::Stopped;
             }
             Ok(Err(error @ SweepError::Io { .. })) => {
-                // A full disk or a missing folder is no fault of the task: it is tried again next time.
+                // A full disk or a missing folder is not the fault of the task, so it is retried next time.
                 log.say(&format!("not run: {error}"));
                 return Outcome::Failed(error.to_string());
             }
@@ -127,7 +127,7 @@ impl Runner<'_> {
         };
         match failure.write(self.folder) {
             Ok(()) => Outcome::Failed(failure.reason),
-            // As on a full disk: the collector finds neither a result nor a reason.
+            // As with a full disk: the collector finds neither a result nor a reason.
             Err(error) => Outcome::Failed(format!("{}; {error}", failure.reason)),
         }
     }

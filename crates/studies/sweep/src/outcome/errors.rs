@@ -6,7 +6,7 @@ use taceva_results::{EvaluationReport, Samples};
 
 use crate::result::PointErrors;
 
-/// The absolute errors of each channel, summed by contact point, or by sample if no contact point is known.
+/// Absolute errors of each channel, summed by contact point, or by sample if no contact point is known.
 pub(super) fn errors(report: &EvaluationReport) -> PointErrors {
     let mut sums = PointErrors::new();
     let Some(samples) = &report.samples else {

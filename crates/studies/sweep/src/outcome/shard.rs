@@ -1,4 +1,4 @@
-//! Execution of one shard of two tables; its result is the state to merge with those of the others.
+//! Execution of one shard of two tables. Its result is a state that is merged with those of the other shards.
 
 use taceva_evaluate::{EvaluateError, Shard, Work};
 
@@ -10,7 +10,7 @@ use crate::task::{SHARD, Task};
 /// Scores the shard of `task`, and writes its state.
 ///
 /// # Errors
-/// [`SweepError`] if it cannot be carried out; nothing is written then.
+/// [`SweepError`] if it fails; nothing is written then.
 pub(super) fn carry_out(
     task: &Task,
     planned: &PlannedTables,

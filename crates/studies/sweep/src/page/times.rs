@@ -1,4 +1,4 @@
-//! The page of times.
+//! Page of run times.
 
 use taceva_report::{PagePart, PageSection, Race, RacePoint, TablesPage, race};
 
@@ -8,7 +8,7 @@ use crate::folder::SweepFolder;
 use crate::task_list::TaskList;
 use crate::times::TaskTime;
 
-/// The page of times, which differs between runs: run time against error, a figure for each recording and channel with R².
+/// Page of run times: time against error, with a figure for each recording and channel that has R². It differs between runs.
 pub(crate) fn times(folder: &SweepFolder, list: &TaskList, loaded: &[Loaded<'_>]) -> String {
     let mut parts = vec![PagePart::Words(
         "The time of a task depends on the machine, its load and the content of the cache. Filled: no other configuration is both faster \

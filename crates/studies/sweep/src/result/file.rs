@@ -18,7 +18,7 @@ impl TaskResult {
         })
     }
 
-    /// The result of `key` in `folder`; `None` if there is none.
+    /// Result of `key` in `folder`; `None` if there is none.
     pub(crate) fn read(
         folder: &SweepFolder,
         key: &TaskKey,
@@ -54,7 +54,7 @@ impl TaskResult {
         Ok(Some(result))
     }
 
-    /// The evaluation of this result, checked against its digest.
+    /// Evaluation of this result, checked against its digest.
     pub(crate) fn read_evaluation(&self, folder: &SweepFolder) -> Result<String, SweepError> {
         let path = folder.evaluation(&self.key);
         let text = fs::read_to_string(&path).map_err(SweepError::io("read", &path))?;

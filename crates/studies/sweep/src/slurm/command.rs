@@ -9,7 +9,7 @@ use crate::error::SweepError;
 /// Default `MaxArraySize` of Slurm.
 const ARRAY_MOST: u32 = 1001;
 
-/// Maximum jobs in one array at this site.
+/// Greatest number of jobs in one array at this site.
 pub(super) fn array_most() -> u32 {
     let asked = Command::new("scontrol").args(["show", "config"]).output();
     let text = asked.map(|output| String::from_utf8_lossy(&output.stdout).into_owned());
@@ -19,7 +19,7 @@ pub(super) fn array_most() -> u32 {
         let (name, value) = line.split_once('=')?;
         (name.trim() == "MaxArraySize").then(|| value.trim().parse::<u32>().ok())?
     });
-    // Indices go up to one less than that number.
+    // Indices go up to this number minus one.
     said.unwrap_or(ARRAY_MOST).saturating_sub(1).max(1)
 }
 

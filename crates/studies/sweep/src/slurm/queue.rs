@@ -8,20 +8,20 @@ use crate::error::SweepError;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct JobState {
-    /// Number: `17_3`.
+    /// Job number, such as `17_3`.
     pub id: String,
     /// `RUNNING`, `PENDING`, …
     pub state: String,
-    /// The host on which it runs, or the reason why it waits.
+    /// Host on which it runs, or the reason why it waits.
     pub place: String,
 }
 
-/// The jobs of `submitted` that the scheduler still lists.
+/// Jobs of `submitted` that the scheduler still lists.
 ///
 /// # Errors
 /// [`SweepError::Scheduler`] with the message of `squeue`.
 pub fn queue_of(submitted: &Submitted) -> Result<Vec<JobState>, SweepError> {
-    // All jobs of the user, not those by number: a number that the scheduler has forgotten is an error.
+    // Lists all jobs of the user, because asking for a forgotten job number is an error.
     let words = ["--noheader", "--array", "--me", "--format=%i|%T|%R"].map(str::to_owned);
     let text = run("squeue", &words)?;
     let own = submitted.numbers();

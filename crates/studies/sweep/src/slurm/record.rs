@@ -1,4 +1,4 @@
-//! The record of submitted jobs, as a sealed file, and their cancellation.
+//! Record of submitted jobs as a sealed file, and their cancellation.
 
 use std::path::PathBuf;
 
@@ -9,20 +9,20 @@ use crate::error::SweepError;
 use crate::folder::SweepFolder;
 use crate::seal;
 
-/// The schema of the record.
+/// Schema of the record.
 const SCHEMA: &str = "taceva.sweep-jobs/1.0";
 
 /// Submitted jobs.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Submitted {
-    /// The numbers of the arrays.
+    /// Numbers of the arrays.
     pub arrays: Vec<String>,
-    /// The number of the job that collects.
+    /// Number of the job that collects.
     pub collect: Option<String>,
 }
 
-/// The record as it is written.
+/// Content of the record file.
 #[derive(Serialize, Deserialize)]
 struct Record {
     schema: String,
@@ -47,7 +47,7 @@ impl Submitted {
     /// Reads the last submission; `None` if there was none.
     ///
     /// # Errors
-    /// [`SweepError`] if the record cannot be read, or was changed after it was written: it could cancel jobs of others.
+    /// [`SweepError`] if the record cannot be read, or was edited: it could cancel other jobs.
     pub fn read(folder: &SweepFolder) -> Result<Option<Submitted>, SweepError> {
         let path = path_in(folder);
         let Some(text) = seal::read(&path)? else {

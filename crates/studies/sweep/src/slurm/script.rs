@@ -1,4 +1,4 @@
-//! Scripts of jobs, to read, keep and submit by hand.
+//! Job scripts that can be read, kept and submitted by hand.
 
 use std::path::Path;
 
@@ -12,12 +12,12 @@ pub(super) struct Script<'a> {
     pub(super) tasks: &'a Path,
     pub(super) program: &'a str,
     pub(super) spec: &'a SlurmSpec,
-    /// Options of the program that the sweep was started with.
+    /// Command-line options of the sweep.
     pub(super) options: &'a str,
 }
 
 impl Script<'_> {
-    /// One job of an array: runs the tasks of one line of its file of blocks.
+    /// Script of an array: each job runs the tasks of one line of its block file.
     pub(super) fn array(&self, name: &str, jobs: usize, gres: Option<&str>) -> String {
         let most = self
             .spec
@@ -60,7 +60,7 @@ impl Script<'_> {
         text
     }
 
-    /// The job that makes the table once every other job has ended, with or without success.
+    /// Script of the job that collects the table after all other jobs have ended, with or without success.
     pub(super) fn collect(&self) -> String {
         let mut text = self.head("collect", "%j");
         text.push_str(&self.setup());

@@ -8,12 +8,12 @@ use crate::folder::SweepFolder;
 /// Submits the arrays, and the job that collects after all of them have ended.
 ///
 /// # Errors
-/// [`SweepError::Scheduler`] with the message of `sbatch`; jobs submitted before are then cancelled.
+/// [`SweepError::Scheduler`] with the message of `sbatch`; cancels the jobs submitted before.
 pub fn submit(folder: &SweepFolder, submission: &Submission) -> Result<Submitted, SweepError> {
     let mut submitted = Submitted::default();
     let done = submit_all(submission, &mut submitted);
     if let Err(error) = done {
-        // Half a sweep without its collecting job would only waste time.
+        // A partial sweep without its collecting job would only waste time.
         drop(run("scancel", &submitted.arrays));
         return Err(error);
     }
@@ -39,7 +39,7 @@ fn submit_all(submission: &Submission, submitted: &mut Submitted) -> Result<(), 
     }
     let mut words = vec!["--parsable".to_owned()];
     if !submitted.arrays.is_empty() {
-        // After any end, because the collecting job reports missing results.
+        // After any end, because the collecting job also reports missing results.
         words.push(format!(
             "--dependency=afterany:{}",
             submitted.arrays.join(":")

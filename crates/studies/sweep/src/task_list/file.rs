@@ -1,4 +1,4 @@
-//! The list of tasks as a sealed file.
+//! Task list as a sealed file.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,10 +11,10 @@ use crate::folder::SweepFolder;
 use crate::seal;
 
 impl TaskList {
-    /// Writes the list into `folder`, under a name that only equal lists share, and as the latest; returns its path.
+    /// Writes the list into `folder` under a name that only equal lists share, and also as the latest list; returns the path.
     ///
     /// # Errors
-    /// [`SweepError::Io`].
+    /// [`SweepError::Io`] if the list cannot be written.
     pub fn write(&self, folder: &SweepFolder) -> Result<PathBuf, SweepError> {
         let latest = latest(folder);
         let unwritable = |problem: String| SweepError::Kept {
@@ -38,10 +38,10 @@ impl TaskList {
         Ok(own)
     }
 
-    /// The list at `path`.
+    /// List at `path`.
     ///
     /// # Errors
-    /// [`SweepError::Kept`] if the file is no list, is of another version, or was changed after it was written.
+    /// [`SweepError::Kept`] if the file is not a list, is of another version, or was edited.
     pub fn read(path: &Path) -> Result<TaskList, SweepError> {
         let wrong = |problem: String| SweepError::Kept {
             path: path.to_owned(),
@@ -65,7 +65,7 @@ impl TaskList {
         seal::value(&text).map_err(again)
     }
 
-    /// The latest list that was written into `folder`.
+    /// Latest list that was written into `folder`.
     ///
     /// # Errors
     /// As [`read`](TaskList::read).
@@ -73,7 +73,7 @@ impl TaskList {
         TaskList::read(&latest(folder))
     }
 
-    /// The sensor facts, as they were when the sweep was planned.
+    /// Sensor facts, as at the time of planning.
     ///
     /// # Errors
     /// [`SweepError::Changed`] if the file has changed since; [`SweepError`] if it cannot be read.
@@ -95,7 +95,7 @@ impl TaskList {
     }
 }
 
-/// Head of the file, read first because its schema decides the form of the rest.
+/// Head of the file, read first because its schema determines the rest.
 #[derive(serde::Deserialize)]
 struct Head {
     schema: String,

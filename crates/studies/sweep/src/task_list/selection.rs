@@ -1,4 +1,4 @@
-//! Selection of tasks of a list, and progress of the sweep.
+//! Selection of tasks in a list, and progress of the sweep.
 
 use super::TaskList;
 use crate::condition::Condition;
@@ -9,19 +9,19 @@ use crate::folder::SweepFolder;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Counts {
-    /// Tasks with a result.
+    /// Number of tasks with a result.
     pub scored: usize,
-    /// Tasks that failed.
+    /// Number of failed tasks.
     pub failed: usize,
-    /// Tasks without either.
+    /// Number of tasks with neither.
     pub left: usize,
 }
 
 impl TaskList {
-    /// The positions of the tasks for which `only` holds; all of them if it is `None`.
+    /// Positions of the tasks that `only` selects; all tasks if it is `None`.
     ///
     /// # Errors
-    /// [`SweepError::Condition`] for a word that no task has, and if it holds for none.
+    /// [`SweepError::Condition`] for a name that no task has, and for a condition that selects no task.
     pub fn matching(&self, only: Option<&Condition>) -> Result<Vec<usize>, SweepError> {
         let Some(only) = only else {
             return Ok((0..self.tasks.len()).collect());
@@ -43,7 +43,7 @@ impl TaskList {
         }
     }
 
-    /// The tasks at `wanted` that are still to be run.
+    /// Tasks at `wanted` that are still to run.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be read.
@@ -61,7 +61,7 @@ impl TaskList {
         Ok(wanted.iter().copied().filter(is_left).collect())
     }
 
-    /// The progress of the sweep, from the names of its files.
+    /// Progress of the sweep, from file names in its folder.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be read.

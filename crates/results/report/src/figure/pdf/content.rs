@@ -10,7 +10,7 @@ use super::text::{self, Used};
 use crate::figure::canvas::{Ink, Mark, Points, Stroke};
 use crate::figure::palette::LIGHT;
 
-/// Length of the Bézier handles of a circle of four curves, as a share of the radius.
+/// Length of the Bézier handles for a circle of four curves, as a share of the radius.
 const HANDLE: f64 = 0.552_284_75;
 
 /// Draws marks in sequence.
@@ -21,17 +21,17 @@ pub(super) struct Painter {
     fonts: [Used; 3],
 }
 
-/// Drawn content, with its resources.
+/// Drawn content and its resources.
 pub(super) struct Drawn {
     pub(super) operators: Vec<u8>,
-    /// Opacities in hundredths, each a graphics state of the page.
+    /// Opacities in percent, each with its graphics state on the page.
     pub(super) opacities: BTreeSet<u8>,
     /// Fonts with at least one used glyph.
     pub(super) fonts: Vec<Used>,
 }
 
 impl Painter {
-    /// A page of `height`, with nothing on it, on which a unit is `scale` points long.
+    /// An empty page of `height`, with units of `scale` points.
     pub(super) fn new(height: f64, scale: f64) -> Painter {
         let mut content = Content::new();
         if (scale - 1.0).abs() > 1e-9 {
@@ -159,24 +159,24 @@ impl Painter {
         }
     }
 
-    /// Page position, whose y axis points upwards.
+    /// Position on the page, whose y axis points upwards.
     fn at(&self, [x, y]: [f64; 2]) -> [f32; 2] {
         [number(x), number(self.height - y)]
     }
 }
 
-/// Name of the graphics state with `hundredths` of opacity.
+/// Name of the graphics state for `hundredths` percent opacity.
 pub(super) fn state_name(hundredths: u8) -> String {
     format!("G{hundredths}")
 }
 
-/// A factor as a file holds it: to a millionth.
+/// A factor rounded to a millionth, as in the file.
 #[expect(clippy::cast_possible_truncation, reason = "a factor near one")]
 fn factor(value: f64) -> f32 {
     ((value * 1e6).round() / 1e6) as f32
 }
 
-/// Number in the file, rounded to a hundredth.
+/// A number rounded to a hundredth, as in the file.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "hundredths on a page of some hundreds"

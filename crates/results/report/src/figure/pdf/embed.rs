@@ -10,14 +10,14 @@ use super::text::Used;
 
 /// Number of PDF objects per font.
 const OBJECTS: i32 = 5;
-/// Glyphs are addressed by their numbers in the file, without a predefined character order.
+/// Identity character collection: glyphs are addressed by their numbers in the file.
 const ORDER: SystemInfo = SystemInfo {
     registry: Str(b"Adobe"),
     ordering: Str(b"Identity"),
     supplement: 0,
 };
 
-/// Object of the font at position `at`; the first font has `first`.
+/// Object of the font at position `at`; `first` is that of the first font.
 pub(super) fn font(first: Ref, at: i32) -> Ref {
     Ref::new(first.get() + at * OBJECTS)
 }

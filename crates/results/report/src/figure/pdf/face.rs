@@ -1,15 +1,15 @@
-//! Built-in fonts, with the search for a letter's glyph.
+//! Built-in fonts, and the search for the glyph of a letter.
 
 use std::sync::OnceLock;
 
 use ttf_parser::{Face as Parsed, GlyphId};
 
-/// Built-in font; `fonts/README.md` names its origin.
+/// Built-in font; see `fonts/README.md` for its origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Face {
     /// Arimo: Latin, Greek, Cyrillic, arrows, mathematics.
     Regular,
-    /// Arimo Bold: the same letters.
+    /// Arimo Bold, with the same letters.
     Bold,
     /// Droid Sans Fallback: Chinese and Japanese.
     EastAsian,
@@ -29,7 +29,7 @@ impl Face {
     /// All fonts.
     pub(super) const ALL: [Face; 3] = [Face::Regular, Face::Bold, Face::EastAsian];
 
-    /// Name of the font in a file.
+    /// Name of the font in the PDF file.
     pub(super) fn name(self) -> &'static str {
         match self {
             Face::Regular => "Arimo",
@@ -111,7 +111,7 @@ pub(super) fn find(letter: char, bold: bool) -> Found {
         return Found::Nothing;
     }
     let found = glyph(european, letter);
-    // For a space that Arimo lacks, this avoids decompressing the large font.
+    // Avoids decompressing the large font for a space that Arimo lacks.
     let found = found.or_else(|| letter.is_whitespace().then(|| glyph(european, ' '))?);
     let found = found.or_else(|| glyph(Face::EastAsian, letter));
     found.unwrap_or(Found::Nowhere)

@@ -6,12 +6,12 @@ use super::content::number;
 use super::face::{Face, Found, find};
 use super::text::{Used, code};
 
-/// Size of the digits, as a share of the label's size.
+/// Size of the digits, as a share of the label size.
 const DIGITS: f64 = 0.4;
-/// Padding around and inside the box, as a share of the label's size.
+/// Padding around and inside the box, as a share of the label size.
 const SPACE: f64 = 0.06;
 
-/// Code point in two rows of equally many digits.
+/// Code point in two rows with equal numbers of digits.
 fn rows(letter: char) -> [String; 2] {
     let digits = format!("{:04X}", u32::from(letter));
     let digits = if digits.len() % 2 == 0 {
@@ -23,15 +23,15 @@ fn rows(letter: char) -> [String; 2] {
     [upper.to_owned(), lower.to_owned()]
 }
 
-/// Width of the box with padding, as a share of the label's size.
+/// Width of the box with padding, as a share of the label size.
 pub(super) fn advance(letter: char) -> f64 {
-    // Digits of Arimo are 0.556 of its size wide, A to F at most 0.722.
+    // In Arimo, digits are 0.556 of the size wide, A to F at most 0.722.
     let [upper, _] = rows(letter);
     let digits = u32::try_from(upper.len()).unwrap_or(u32::MAX);
     f64::from(digits) * DIGITS * 0.722 + 4.0 * SPACE
 }
 
-/// Draws the box behind `pen`, on the baseline of a label of `size`. Copy and search still find the letter.
+/// Draws the box after `pen`, on the baseline of a label of `size`. Copy and search still find the letter.
 pub(super) fn draw(
     letter: char,
     pen: f64,

@@ -13,7 +13,7 @@ use crate::figure::canvas::{Anchor, Label};
 /// Glyphs of a font that a figure uses.
 pub(super) struct Used {
     pub(super) face: Face,
-    /// Numbers of glyphs in the file of a figure, in order of first use.
+    /// Glyph numbers in the file, in order of first use.
     pub(super) glyphs: GlyphRemapper,
     /// Letter of each glyph.
     pub(super) letters: BTreeMap<u16, char>,
@@ -36,7 +36,7 @@ enum Piece {
     Missing(char),
 }
 
-/// Draws `label` at `at` in the current colour state, and records the used glyphs.
+/// Draws `label` at `at` in the current colour state, and records its glyphs.
 pub(super) fn draw(label: &Label, at: [f64; 2], fonts: &mut [Used; 3], content: &mut Content) {
     let (pieces, length) = pieces(label, fonts);
     let back = match label.anchor {
@@ -121,7 +121,7 @@ mod tests {
     fn a_label_is_as_long_as_its_glyphs() {
         // S 667, R 722, parentheses 333 each: 2055 thousandths of 11.
         assert!((length("SR()") - 22.6).abs() < 0.05, "{}", length("SR()"));
-        // Ideographs are as wide as they are high.
+        // Ideographs are as wide as high.
         assert!((length("触觉") - 22.0).abs() < 0.2, "{}", length("触觉"));
         assert!(length("\u{200b}").abs() < 1e-9 && length("한") > 5.0);
     }
@@ -146,7 +146,7 @@ mod tests {
             Ok((Face::Regular, 2)),
         ];
         assert_eq!(runs, expected);
-        // A letter that comes twice is one glyph.
+        // A repeated letter needs one glyph.
         assert_eq!(fonts[0].letters.len(), 8);
     }
 }

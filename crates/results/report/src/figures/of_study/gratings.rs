@@ -1,4 +1,4 @@
-//! Figure 3c: the success rate of gratings over the tolerance and over the spacing.
+//! Figure 3c: success rate of gratings over the tolerance and over the spacing.
 
 use std::collections::BTreeMap;
 
@@ -8,13 +8,13 @@ use super::super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
 use crate::figure::{Figure, directed};
 use crate::results::Study;
 
-/// The tolerance of the study, and the greatest that is drawn, in nanometres.
+/// Tolerance of the study, and the greatest drawn tolerance, in nm.
 const TOLERANCE_NM: f64 = 50_000.0;
 const STEP_NM: f64 = 10_000.0;
 const STEPS: u32 = 25;
 const NM: f64 = 1e6;
 
-/// One press: the true spacing, and how far its prediction lies from it, in nanometres.
+/// One press: true spacing, and absolute error of its prediction, in nm.
 struct Press {
     spacing: f64,
     error: f64,
@@ -109,7 +109,7 @@ fn over_tolerance(presses: &[Press]) -> Vec<Level> {
 }
 
 fn over_spacing(presses: &[Press]) -> Vec<Level> {
-    // Spacings are positive, so their bits are in their order.
+    // Spacings are positive, so their bits sort like their values.
     let mut by_spacing: BTreeMap<u64, Vec<&Press>> = BTreeMap::new();
     for press in presses {
         let key = press.spacing.max(0.0).to_bits();

@@ -1,4 +1,4 @@
-//! Figure 6b: the error of each plane against the mean grey level of the frames, a dot a scene of light.
+//! Figure 6b: error of each plane against the mean grey level of the frames, with one dot for each light scene.
 
 use std::collections::BTreeMap;
 
@@ -46,7 +46,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     let words = Words {
         id: "figure-6b",
         title: "Figure 6b: error against mean grey level",
-        caption: "Mean absolute error in each lighting scene against the mean grey level of its frames, by plane; scenes in the order of their grey level. Predictions are brought back to the bounds of the model.".to_owned(),
+        caption: "Mean absolute error in each lighting scene against the mean grey level of its frames, by plane; scenes in the order of their grey level. Predictions are clipped to the bounds of the model.".to_owned(),
         description: format!(
             "Mean absolute error over mean grey level of {}.",
             crate::names::listed(&crate::names::names(studies))
@@ -55,7 +55,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     overlay(&sheets, studies, 2, words, room)
 }
 
-/// The scenes of light, from the darkest to the brightest.
+/// Light scenes, from the darkest to the brightest.
 fn levels(samples: &Samples, plane: &str) -> Vec<Level> {
     let channels = plane_axes(plane).map_or(vec![plane], |axes| axes.to_vec());
     let mut scenes: BTreeMap<&str, Sums> = BTreeMap::new();

@@ -1,4 +1,4 @@
-//! Figure 5: errors over normalised radius and depth, a panel a plane.
+//! Figure 5: errors over normalised radius and depth, with one panel for each plane.
 
 use taceva_core::Unit;
 use taceva_metrics::{Curve, plane_axes};
@@ -10,7 +10,7 @@ use crate::results::Study;
 use crate::variables::VARIABLES;
 use taceva_results::Value;
 
-/// The band to both sides of the rolling mean, in standard deviations of its bins.
+/// Half width of the band around the rolling mean, in standard deviations of its bins.
 const BAND: f64 = 0.1;
 
 pub(super) fn draw(studies: &[Study], over: &str, room: Option<f64>) -> Option<Figure> {
@@ -31,7 +31,7 @@ pub(super) fn draw(studies: &[Study], over: &str, room: Option<f64>) -> Option<F
             let mut levels = rolling(&curve);
             for level in &mut levels {
                 level.x /= greatest.max(f64::MIN_POSITIVE);
-                // The rolling mean carries one standard deviation to both sides.
+                // The rolling mean has a band of one standard deviation to both sides.
                 level.band = level.y.zip(level.band).map(|(mean, [low, high])| {
                     [mean - BAND * (mean - low), mean + BAND * (high - mean)]
                 });
@@ -67,7 +67,7 @@ pub(super) fn draw(studies: &[Study], over: &str, room: Option<f64>) -> Option<F
     overlay(&sheets, studies, 2, words, room)
 }
 
-/// The curve of a plane: that of its channel, or the mean of the curves of both its channels.
+/// Curve of a plane: that of its channel, or the mean of the curves of both channels.
 fn curve(study: &Study, plane: &str, over: &str) -> Option<(Curve, Unit)> {
     let of = |channel: &str| {
         let score = study.score("r_spatial", channel)?;

@@ -1,4 +1,4 @@
-//! Figure 7a: predictions of repeated presses, a panel a plane: both axes of a lateral plane, a normal axis over the depth.
+//! Figure 7a: predictions of repeated presses, with one panel for each plane. A lateral plane shows both axes, a normal axis is drawn over the depth.
 
 use taceva_core::Unit;
 
@@ -11,26 +11,26 @@ use taceva_results::{SampleChannel, Samples};
 
 use super::super::thin::thin;
 
-/// Most dots of a sensor in a panel.
+/// Greatest number of dots of a sensor in a panel.
 const MOST: usize = 400;
 
-/// The panel of a plane.
+/// Panel of a plane.
 struct Plane {
     name: &'static str,
     across: Across,
-    /// The channel whose prediction goes upwards.
+    /// Channel whose prediction is the vertical axis.
     up: &'static str,
 }
 
-/// The horizontal axis of a panel.
+/// Horizontal axis of a panel.
 enum Across {
-    /// The prediction of a channel.
+    /// Prediction of a channel.
     Predicted(&'static str),
-    /// The true depth.
+    /// True depth.
     Depth,
 }
 
-/// The planes in the order of the study.
+/// Planes in the order of the study.
 const PANELS: [Plane; 4] = [
     Plane {
         name: "Pxy",
@@ -54,7 +54,7 @@ const PANELS: [Plane; 4] = [
     },
 ];
 
-/// The predictions of a sensor in a panel.
+/// Predictions of a sensor in a panel.
 struct Cloud {
     /// Position of its study.
     study: usize,
@@ -66,7 +66,7 @@ struct Dot {
     at: [f64; 2],
     /// Truth minus prediction of the vertical axis; 0 if the truth is unknown.
     error: f64,
-    /// Contact point and step of depth.
+    /// Contact point and depth step.
     press: String,
 }
 
@@ -116,7 +116,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
 }
 
 impl Plane {
-    /// The predictions of each sensor that has any in this plane.
+    /// Predictions of each sensor that has any in this plane.
     fn clouds(&self, studies: &[Study]) -> Vec<Cloud> {
         let clouds = studies.iter().enumerate().filter_map(|(at, study)| {
             let dots = self.dots(study.samples.as_ref()?)?;
@@ -125,7 +125,7 @@ impl Plane {
         clouds.collect()
     }
 
-    /// The drawn predictions of repeated presses.
+    /// Drawn predictions of repeated presses.
     fn dots(&self, samples: &Samples) -> Option<Vec<Dot>> {
         if !samples.has("protocol") {
             return None;
@@ -152,7 +152,7 @@ impl Plane {
         Some(dots.map(|(_, dot)| dot).collect())
     }
 
-    /// The channel of the horizontal axis.
+    /// Channel of the horizontal axis.
     fn channel(&self) -> &'static str {
         match self.across {
             Across::Predicted(channel) => channel,
@@ -160,7 +160,7 @@ impl Plane {
         }
     }
 
-    /// The place of a sample on the horizontal axis.
+    /// Position of a sample on the horizontal axis.
     fn place(&self, across: SampleChannel<'_>, row: usize) -> Option<f64> {
         match self.across {
             Across::Predicted(_) => across.prediction(row),
@@ -208,7 +208,7 @@ impl Plane {
     }
 }
 
-/// The label of the axis of a predicted channel.
+/// Axis label of a predicted channel.
 fn label(channel: &str) -> String {
     let unit = match channel.starts_with('P') {
         true => Unit::Millimetre,

@@ -1,4 +1,4 @@
-//! Radars of values that are given, and not only of scores that support a claim.
+//! Radars of given values, including those that support no claim.
 
 use taceva_metrics::Better;
 
@@ -6,15 +6,15 @@ use super::super::radar::{Rim, WIDTH, outline, shares, web};
 use crate::figure::{Canvas, Figure};
 use crate::results::Study;
 
-/// An axis of values that are given, one for each study.
+/// Axis with one given value for each study.
 pub(super) struct Spoke {
-    /// Name; the first word stands on a line of its own.
+    /// Name; its first word has a line of its own.
     pub(super) name: String,
     pub(super) better: Better,
     pub(super) values: Vec<Option<f64>>,
 }
 
-/// A radar of spokes; nothing without any value.
+/// Radar of spokes; `None` without any value.
 pub(super) fn draw_spokes(
     studies: &[Study],
     spokes: &[Spoke],

@@ -1,4 +1,4 @@
-//! Figure 7b: repeatability over the depth in mm, a panel a sensor: positions by the axis at the left, forces by that at the right.
+//! Figure 7b: repeatability over the depth in mm, with one panel for each sensor. Positions use the left axis, forces the right one.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::results::Study;
 use crate::variables::VARIABLES;
 use taceva_results::{Samples, Value};
 
-/// The curve of a plane: depth, mm, and spread.
+/// Curve of a plane: depth in mm, and spread.
 type Curve = (usize, Vec<(f64, Option<f64>)>);
 
 pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
@@ -104,7 +104,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     })
 }
 
-/// The curves of every plane, over the mean true depth of each step.
+/// Curves of every plane, over the mean true depth of each step.
 fn curves(study: &Study) -> Vec<Curve> {
     let Some(depths) = study.samples.as_ref().map(depths) else {
         return Vec::new();
@@ -123,7 +123,7 @@ fn curves(study: &Study) -> Vec<Curve> {
     VARIABLES.iter().enumerate().filter_map(of_plane).collect()
 }
 
-/// The mean true depth of each step, mm, by the bits of its number.
+/// Mean true depth of each step, in mm, by the bits of the step number.
 fn depths(samples: &Samples) -> BTreeMap<u64, f64> {
     let mut sums: BTreeMap<u64, (f64, f64)> = BTreeMap::new();
     let Some(depth) = samples.channel("Pz").filter(|_| samples.has("protocol")) else {

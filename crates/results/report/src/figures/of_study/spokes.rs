@@ -1,4 +1,4 @@
-//! Figures 8a to 8c: radars with the quantities that the study prints, positions and forces averaged, and a mark where one is not above its
+//! Figures 8a to 8c: radars of the quantities that the study prints, averaged over positions and forces. A mark shows values that are not above their
 //! noise floor.
 
 use taceva_metrics::{Better, Standing};
@@ -8,7 +8,7 @@ use crate::figure::Figure;
 use crate::names::listed;
 use crate::results::Study;
 
-/// A quantity of the study: the mean over channels of a metric.
+/// A quantity of the study: the mean of a metric over channels.
 struct Quantity {
     name: &'static str,
     metric: &'static str,
@@ -104,7 +104,7 @@ fn draw(studies: &[Study], quantities: &[Quantity], title: &str) -> Option<Figur
 }
 
 impl Quantity {
-    /// The mean over the channels, where each has a value.
+    /// Mean over the channels, if each has a value.
     fn value(&self, study: &Study) -> Option<f64> {
         let values = self.channels.iter().map(|channel| {
             let score = study.score(self.metric, channel)?;

@@ -43,7 +43,7 @@ pub(super) fn statistics(studies: &[Study], table: &ScoreTable) -> String {
     out + &seeds(studies)
 }
 
-/// Interval method without its numbers of clusters and replicates and its seed: `jackknife by point_id, logarithmic`.
+/// Interval method without its seed and its numbers of clusters and replicates: `jackknife by point_id, logarithmic`.
 fn without_count(method: &str) -> String {
     let is_kept = |part: &&str| {
         let is_count = ["G=", "B=", "seed="]
@@ -89,7 +89,7 @@ fn explained(standing: Standing) -> Option<String> {
     Some(format!("“{mark}” ({reason})"))
 }
 
-/// Sentence on the seeds of models fitted with several.
+/// Sentence on the seeds of models that were fitted with several.
 fn seeds(studies: &[Study]) -> String {
     let over = studies.iter().filter_map(|study| study.over_seeds.as_ref());
     let mut all: Vec<Vec<String>> = over

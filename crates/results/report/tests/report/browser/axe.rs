@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use taceva_needs::Browser;
 
-/// Source of axe-core, from the file in `TACEVA_AXE` or from node. The error says why there is none.
+/// Source of axe-core, from the file in `TACEVA_AXE` or from node. The error states why there is none.
 pub(crate) fn source() -> Result<String, String> {
     let path = match std::env::var_os("TACEVA_AXE") {
         Some(path) => PathBuf::from(path),
@@ -31,7 +31,7 @@ fn found_by_node() -> Result<PathBuf, String> {
     }
 }
 
-/// Fails if axe-core finds a violation on the page that is open, in the light or in the dark; or if it would not find one.
+/// Fails if axe-core finds a violation on the open page in light or dark mode, or if it misses a planted one.
 pub(crate) fn assert_accessible(browser: &mut Browser, axe: &str, page: &str) {
     browser.evaluate(&format!("{axe};0"));
     for scheme in ["light", "dark"] {

@@ -1,4 +1,4 @@
-//! Every kind of page: a data sheet is one page of paper, and all are accessible.
+//! Tests of every kind of page: a data sheet fits one sheet of paper, and all are accessible.
 
 use taceva_needs::skip;
 use taceva_report::{
@@ -8,7 +8,7 @@ use taceva_report::{
 use super::{axe, open_page, page_of, print, two};
 use crate::support::{self, drawn};
 
-/// Limits of three metrics of every channel: what a unit of six channels is held to.
+/// Limits of three metrics for every channel, as for a unit of six channels.
 fn sheet(limits_of: &[&str]) -> String {
     let mut text = "limits_version = 1\nname = \"line 3\"\n".to_owned();
     for metric in limits_of {

@@ -1,4 +1,4 @@
-//! Pages on paper, on screens and on phones: nothing is cut or squeezed.
+//! Tests of pages on paper, on screens and on phones: nothing is cut or squeezed.
 
 use serde_json::json;
 
@@ -12,7 +12,7 @@ fn paper_cuts_no_table() {
     };
     let browser = &mut opened.browser;
     browser.call("Emulation.setEmulatedMedia", json!({"media": "print"}));
-    // The width of A4 less its margins, at 96 dots an inch.
+    // Width of A4 less its margins, at 96 dots per inch.
     browser.call(
         "Emulation.setDeviceMetricsOverride",
         json!({"width": 688, "height": 971, "deviceScaleFactor": 1, "mobile": false}),
@@ -25,7 +25,7 @@ fn paper_cuts_no_table() {
     browser.assert_quiet(super::is_report);
 }
 
-/// The height of a screen, in pixels.
+/// Height of a screen, in pixels.
 const SCREEN: f64 = 900.0;
 
 #[test]

@@ -1,9 +1,9 @@
-//! Metrics that a request names, and metrics of another version.
+//! Tests of requested metrics, and of metrics of another version.
 
 use super::{of_metric, score, study};
 use taceva_report::{CompareRequest, Comparison, Study, compare};
 
-/// Two sensors, of which the second has the smaller errors.
+/// Two sensors; the second has the smaller errors.
 fn two() -> [Study; 2] {
     [("Coarse", 0.75), ("Fine", 0.25)].map(|(sensor, value)| {
         let scores = [
@@ -31,7 +31,7 @@ fn every_metric_that_is_asked_for_is_answered_beside_the_questions_with_a_name()
     let overview = comparison.overview(None);
     let line = "\nrmse Fz ↓: Fine, 0.25 N, better than Coarse (p < 0.001)\n";
     assert!(overview.contains(line), "{overview}");
-    // Without a request the named questions stand alone.
+    // Without a request, only the named questions appear.
     let every = compare(&two(), &CompareRequest::default());
     assert_eq!(asked(&every), ["Normal force (mae Fz ↓)"]);
 }

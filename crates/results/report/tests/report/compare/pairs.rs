@@ -1,11 +1,11 @@
-//! Errors compared sample by sample, and the reasons for which they are not.
+//! Tests of errors compared sample by sample, and of the reasons why they are not.
 
 use super::{of_metric, score, study};
 use serde_json::json;
 use taceva_report::Study;
 use taceva_results::Samples;
 
-/// A study with a table of samples, of which the first truth is `first` and every error about `error`.
+/// A study with a table of samples; `first` is the first truth, and every error is about `error`.
 pub(super) fn sampled(sensor: &str, first: f64, error: f64) -> Study {
     let mut table = String::from("id,point_id,Fz,Fz_predicted\n");
     let (mut sum, rows) = (0.0, 48);
@@ -37,7 +37,7 @@ fn errors_are_compared_sample_by_sample_if_both_tables_are_of_the_same_samples_a
         other_truth.contains("by the intervals of both"),
         "{other_truth}"
     );
-    // Two sensors that press one plan have ids and commanded places in common.
+    // Two sensors pressed by one plan share ids and commanded positions.
     let of = |name: &str, error, dataset: &str| {
         let mut study = sampled(name, 0.0, error);
         let entry = ("dataset".to_owned(), dataset.to_owned());
@@ -48,14 +48,14 @@ fn errors_are_compared_sample_by_sample_if_both_tables_are_of_the_same_samples_a
     assert_eq!(same_plan, other_truth);
     let same_dataset = test(of("a", 0.25, "sha256:1"), of("b", 0.5, "sha256:1"));
     assert_eq!(same_dataset, same);
-    // A table whose errors have another mean than the score belongs to something else.
+    // A table whose mean error differs from the score belongs to another result.
     let mut stranger = sampled("b", 0.0, 0.5);
     stranger.samples = sampled("b", 0.0, 0.75).samples;
     let strange = test(sampled("a", 0.0, 0.25), stranger);
     assert_eq!(strange, other_truth);
 }
 
-/// The test and the notes of two studies whose results name these tables of truth.
+/// Test and notes of two studies whose results name these tables of truth.
 fn of_tables(mut a: Study, mut b: Study, truths: [&str; 2]) -> (String, Vec<String>) {
     a.made.truth = Some(truths[0].to_owned());
     b.made.truth = Some(truths[1].to_owned());
@@ -78,7 +78,7 @@ fn two_results_of_one_table_of_truth_are_compared_in_pairs_and_those_of_two_tabl
         !notes.iter().any(|note| note.contains("pairs")),
         "{notes:?}"
     );
-    // Two sensors have commanded places in common, bit by bit, in two tables.
+    // Two sensors share commanded positions bit by bit, in two tables.
     let (a, b) = both();
     let (test, notes) = of_tables(a, b, [one, other]);
     assert!(test.contains("by the intervals of both"), "{test}");

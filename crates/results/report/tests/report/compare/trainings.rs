@@ -1,4 +1,4 @@
-//! Scores of models that were trained once, or several times.
+//! Tests of scores of models that were trained once or several times.
 
 use super::pairs::sampled;
 use super::variants::with_variant;
@@ -7,7 +7,7 @@ use taceva_core::Unit;
 use taceva_report::Study;
 use taceva_results::{OverSeeds, SeedScore};
 
-/// The scores of `metric` on Fz with three seeds: the first that of the report.
+/// Scores of `metric` on Fz for three seeds; the first is that of the report.
 fn over_seeds(metric: &str, values: [f64; 3]) -> OverSeeds {
     OverSeeds {
         seeds: vec![11, 12, 13],
@@ -61,7 +61,7 @@ fn a_difference_of_one_training_of_a_model_that_draws_says_so() {
     }
 }
 
-/// p value, width of the interval, and test of the first answer.
+/// p value, interval width and test of the first answer.
 fn tested(studies: &[Study], metric: &str) -> (f64, f64, String) {
     let comparison = of_metric(studies, metric);
     let difference = comparison.answers[0].difference.clone().expect("tested");
@@ -74,7 +74,7 @@ fn the_variance_between_trainings_widens_a_difference_of_different_samples() {
     let mut studies = errors(&[("one", 0.54), ("two", 0.5)]);
     let (p, width, _) = tested(&studies, "mae");
     assert!(p < 0.05, "{p}");
-    // Trainings that agree change nothing, to the bit.
+    // Equal trainings change no bit.
     studies[0].over_seeds = Some(over_seeds("mae", [0.54; 3]));
     let (same, of_same, _) = tested(&studies, "mae");
     assert_eq!(
@@ -85,7 +85,7 @@ fn the_variance_between_trainings_widens_a_difference_of_different_samples() {
     let (over, wider, test) = tested(&studies, "mae");
     assert!(over > 0.05 && wider > 2.0 * width, "{over} {wider}");
     assert_eq!(test, "by the intervals of both");
-    // Seeds of another metric say nothing about this one.
+    // Seeds of another metric are ignored.
     studies[0].over_seeds = Some(over_seeds("rmse", [0.54, 0.58, 0.5]));
     let (other, ..) = tested(&studies, "mae");
     assert_eq!(other.to_bits(), p.to_bits());

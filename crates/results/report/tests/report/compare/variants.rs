@@ -1,4 +1,4 @@
-//! Metrics of which another variant than the value is compared.
+//! Tests of metrics whose comparison uses a variant instead of the value.
 
 use super::{of_metric, score, study};
 use taceva_report::{CompareRequest, Study, compare};
@@ -18,7 +18,7 @@ pub(super) fn with_variant(
 
 #[test]
 fn equal_sensors_that_were_pressed_twice_and_ten_times_have_no_winner() {
-    // The mean of deviations of two repeats is low by a fifth; pooled they are equal.
+    // The mean of standard deviations of two repeats is low by a fifth; the pooled ones are equal.
     let studies = [
         with_variant("Twice", "repeatability", 0.0807, "pooled", 0.1004),
         with_variant("Ten", "repeatability", 0.0980, "pooled", 0.0996),
@@ -35,7 +35,7 @@ fn equal_sensors_that_were_pressed_twice_and_ten_times_have_no_winner() {
         decision.words,
         "no winner; the best value, Ten, 0.0996 N, is not shown to be better"
     );
-    // A result that does not hold the variant is compared by what it has.
+    // A result without the variant is compared by its value.
     let mut without = studies.clone();
     for score in without.iter_mut().flat_map(|study| &mut study.scores) {
         score.variants.clear();
@@ -76,7 +76,7 @@ fn a_softer_gel_differs_and_is_no_better() {
     assert_eq!(comparison.answers[0].better(), None);
     let words = comparison.answers[0].words(&comparison.names);
     assert!(words.starts_with("Soft and Firm differ by 1.0"), "{words}");
-    // Nobody asked for what is neither good nor bad by itself.
+    // Without a request, scores without a better direction are not compared.
     let comparison = compare(&studies, &CompareRequest::default());
     assert!(comparison.answers.is_empty(), "{:?}", comparison.answers);
 }

@@ -1,4 +1,4 @@
-//! Words on methods, which are true of every result, and the citation.
+//! Tests of the methods paragraph, which must be true of every result, and of the citation.
 
 use super::page;
 use crate::support::{self, drawn};

@@ -1,4 +1,4 @@
-//! A model that looks on is never waited for, and says what it left out.
+//! Tests: a predictor never blocks its caller, and counts dropped frames.
 
 use std::path::Path;
 use std::time::Instant;
@@ -58,7 +58,7 @@ fn model() -> LiveModel {
     LiveModel::new(model, Path::new("m.taceva")).expect("of frames")
 }
 
-/// Offers `count` frames `every` so often, of brightness 0, 1, 2 …, to a predictor whose listener takes `listens`.
+/// Offers `count` frames of brightness 0, 1, 2 … at the interval `every`; the callback takes `listens` for each prediction.
 fn offered(count: u8, every: Duration, listens: Duration) -> (Vec<Prediction>, PredictionCounts) {
     let model = model();
     let heard = Mutex::new(Vec::new());
@@ -73,7 +73,7 @@ fn offered(count: u8, every: Duration, listens: Duration) -> (Vec<Prediction>, P
         for level in 0..count {
             let began = Instant::now();
             predictor.offer(&frame(level), MonotonicClock.now_s(), DriverSource::Real);
-            // A copy of a small frame, and what a busy machine adds to it.
+            // Time to copy a small frame, with slack for a busy machine.
             assert!(
                 began.elapsed() < Duration::from_millis(80),
                 "{:?}",
@@ -132,7 +132,7 @@ fn what_is_not_real_waits_for_the_model_and_every_frame_is_predicted() {
         0,
         "its stamps are of another clock"
     );
-    // Training ended at a brightness of 127.
+    // The training data end at a brightness of 127.
     assert!(
         counts
             .outside

@@ -1,4 +1,4 @@
-//! A force transducer with its own reader thread, and the mailbox with its last reading.
+//! A force transducer with its own reader thread, and a mailbox for its last reading.
 
 use std::sync::mpsc::{Receiver, RecvError, Sender, TryRecvError, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -73,7 +73,7 @@ pub(super) struct Reader {
 }
 
 impl Mailbox {
-    /// Mailbox of `force`, and its reader.
+    /// Creates the mailbox of `force`, and its reader.
     pub(super) fn of(force: &mut dyn ForceTransducer, driver: DriverKey) -> (Mailbox, Reader) {
         let (requests, received) = channel();
         let slot = Arc::new(Slot::default());
@@ -94,7 +94,7 @@ impl Mailbox {
         let gone = || DriverError::new(ErrorKind::Disconnected, &self.driver, "reach its reader");
         let (outcome, done) = channel();
         self.requests.send((task, outcome)).map_err(|_| gone())?;
-        // The device keeps the deadline.
+        // The device enforces the deadline.
         done.recv().unwrap_or_else(|RecvError| Err(gone()))
     }
 }
@@ -108,7 +108,7 @@ impl ForceTransducer for Mailbox {
         self.ask(Task::Start(deadline))
     }
 
-    /// Newest reading, returned once.
+    /// Newest reading. Each reading is returned once.
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let taken = self.taken;
         let is_old = |latest: &mut Latest| latest.count == taken && latest.error.is_none();
@@ -156,8 +156,7 @@ impl Tare for Mailbox {
 }
 
 impl Reader {
-    /// Reads `force` from start to stop, shows every reading to `supervisor`, and executes tasks between readings. Ends when the mailbox is
-    /// dropped.
+    /// Reads `force` from start to stop, shows every reading to `supervisor`, and executes tasks between readings. Ends when the mailbox is dropped.
     pub(super) fn serve(
         self,
         force: &mut dyn ForceTransducer,
@@ -180,7 +179,7 @@ impl Reader {
                         Task::Stop => false,
                         Task::Zero(_) => is_started,
                     };
-                    // The sender waits for the outcome, or the run has ended.
+                    // A closed channel means that the run has ended.
                     let _ = outcome.send(carry_out(task, force));
                 }
                 Err(TryRecvError::Empty) => self.read(force, supervisor, viewer),
@@ -202,7 +201,7 @@ impl Reader {
                     Some(number) => Observation::Numbered(wrench, stamp, number),
                     None => Observation::Force(wrench, stamp),
                 };
-                // The run learns of a trip from the supervisor.
+                // The supervisor reports a trip to the run.
                 let mut held = supervisor.lock();
                 let _ = held.observe(&observation, MonotonicClock.now_s());
                 let presses = held.zeroed(&wrench);

@@ -1,4 +1,4 @@
-//! Model of a cross-validation, as a reader of its scores sees it.
+//! Description of the models of a cross-validation as one model.
 
 use taceva_dataset::{Dataset, Digest};
 use taceva_results::ModelProvenance;
@@ -7,7 +7,7 @@ use crate::assess::FitFacts;
 use crate::evaluate::scores::Behind;
 use crate::note::Note;
 
-/// Combines the models of all folds: their common settings, and the digest of their digests.
+/// Combines the models of all folds: their common settings, and a digest of their digests.
 pub(super) fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
     let mut digests = String::new();
     let mut settings = models[0].1.model.settings.clone();

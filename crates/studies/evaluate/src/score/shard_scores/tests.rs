@@ -7,7 +7,7 @@ fn text_longer_than_memory_may_hold_is_read_in_parts() {
     let folder = tempfile::tempdir().expect("a folder");
     let of_length = |name: &str, bytes: u64| {
         let path = folder.path().join(name);
-        // Nothing is written: the file is one hole.
+        // The file is sparse: no data is written.
         let file = fs::File::create(&path).expect("created");
         file.set_len(bytes).expect("a hole takes no room");
         path

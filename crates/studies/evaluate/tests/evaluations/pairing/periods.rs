@@ -1,4 +1,4 @@
-//! Tables with angles: values that differ by a period say the same.
+//! Tables with angles: values that differ by a period are equal.
 
 use super::Tables;
 use taceva_evaluate::Period;

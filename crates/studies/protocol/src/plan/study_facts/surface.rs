@@ -1,4 +1,4 @@
-//! Pressed surface: within that of the sensor, and within reach of the robot.
+//! Pressed surface: within the footprint of the sensor and the workspace of the robot.
 
 use taceva_core::{Footprint, Millimetre, Nanometre, Point, Pose, Rotation};
 
@@ -8,7 +8,7 @@ use crate::source::RigInfo;
 use crate::text::{SceneError, SceneProblem};
 
 impl Gather<'_> {
-    /// Footprint of the scene, which must lie within that of the sensor. Returns that of the sensor if the scene has none.
+    /// Footprint of the scene, which must lie within the sensor footprint. Without one, the sensor footprint.
     pub(super) fn footprint(
         &self,
         stated: Option<Footprint>,
@@ -43,7 +43,7 @@ impl Gather<'_> {
         Ok(Some(footprint))
     }
 
-    /// Rejects a robot that moves in its base frame without a rig file that relates it to the sensor's.
+    /// Rejects a robot that moves in its base frame if no rig file relates that frame to the sensor.
     pub(super) fn is_mapped(&self, rig: &RigInfo) -> Result<(), SceneError> {
         let robot = rig.robot.as_ref().filter(|robot| {
             let facts = robot.robot();
@@ -58,7 +58,7 @@ impl Gather<'_> {
         Err(self.refusal(at, SceneProblem::Unmapped { robot }))
     }
 
-    /// Rejects a surface that the robot does not reach from the height of travel down to the end of the search.
+    /// Rejects a surface that the robot cannot reach from the travel height down to the end of the search.
     pub(super) fn workspace(&self, rig: &RigInfo, footprint: &Footprint) -> Result<(), SceneError> {
         let robot = rig.robot.as_ref();
         let workspace = robot.and_then(|robot| robot.robot()?.workspace);

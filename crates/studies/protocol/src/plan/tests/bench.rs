@@ -1,4 +1,4 @@
-//! A rig, a scene and metrics to plan with.
+//! A rig, a scene and metrics for planner tests.
 
 use taceva_core::Field;
 use taceva_core::{
@@ -54,7 +54,7 @@ pub(crate) fn rig_of(sensor: SensorFacts, axes: Axes) -> RigInfo {
     }
 }
 
-/// The metrics of the paper as the planner sees them.
+/// Metrics of the paper in the planner's form.
 pub(crate) fn paper_metrics() -> Vec<MetricNeeds> {
     let truth = FieldSet::EMPTY.with(Field::Truth);
     let cells = FieldSet::EMPTY.with(Field::Prediction).with(Field::Point);

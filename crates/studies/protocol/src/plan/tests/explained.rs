@@ -1,4 +1,4 @@
-//! What a plan is for, what it refuses, and what it says of pictures that are not taken.
+//! Tests of explained plans, rejected plans and plans without frames.
 
 use taceva_core::{
     Axes, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, Field, FieldSet, Millimetre,
@@ -89,7 +89,7 @@ fn the_skill_that_nobody_asked_for_is_named_where_predictions_are_read_and_not_e
     }
 }
 
-/// A robot whose tip may be in `workspace`.
+/// A robot with the given `workspace`.
 fn reaching(workspace: Workspace) -> Option<Descriptor> {
     let key = DriverKey::fixed("test/robot");
     let facts = Facts::Robot(RobotFacts::default().with_workspace(workspace));

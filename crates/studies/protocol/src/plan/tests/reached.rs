@@ -1,4 +1,4 @@
-//! Every reason is reached by a scene, a rig or a recording that calls for it, and said of what it is about.
+//! Tests that a scene, a rig or a recording triggers every reason, with the right subject.
 
 use std::collections::BTreeSet;
 
@@ -19,7 +19,7 @@ fn with_sensor(sensor: SensorFacts) -> Plan {
     planned(SMALL, rig_of(sensor, Axes::FORCE))
 }
 
-/// A plan of the metrics `kept` alone.
+/// Plan of only the metrics `kept`.
 fn of(kept: &[&str]) -> Plan {
     planned_as(SMALL, SourceInfo::Rig(Box::new(whole())), &only(kept))
 }
@@ -39,7 +39,7 @@ fn of_recording(fields: FieldSet, channels: &[Channel], needs: &[MetricNeeds]) -
     planned_as(&text, SourceInfo::Recording(recording), needs)
 }
 
-/// The reason that `plan` gives for leaving out `subject`.
+/// Reason why `plan` skips `subject`.
 fn reason(plan: &Plan, subject: &Subject) -> Option<PlanReason> {
     let skip = plan.skipped.iter().find(|skip| skip.subject == *subject)?;
     Some(skip.reason.clone())
@@ -64,7 +64,7 @@ fn unmeasured(name: &str, cause: Cause) -> PlanReason {
     }
 }
 
-/// Plans, what each leaves out, and why.
+/// Plans, each with a skipped subject and its reason.
 fn scenes() -> Vec<(Plan, Subject, PlanReason)> {
     use PlanReason::{NoMarkers, NoMetricNeeds, Skip, VisitedBy};
     use SkipReason::{
@@ -213,7 +213,7 @@ fn each_scene_that_lacks_something_gets_the_reason() {
     }
 }
 
-/// A reason without what it is about.
+/// Kind of a reason, without its subject.
 fn kind(reason: &PlanReason) -> String {
     match reason {
         PlanReason::Skip(skip) => {
@@ -233,9 +233,9 @@ fn kind(reason: &PlanReason) -> String {
 fn no_reason_of_the_planner_is_without_a_scene_that_reaches_it() {
     let reached: BTreeSet<String> = scenes().iter().map(|(.., reason)| kind(reason)).collect();
     let mut all: BTreeSet<String> = PlanReason::all().iter().map(kind).collect();
-    // What a planner says of a metric that it left out without a word, which it never does.
+    // Reason of a metric that was skipped without a reason, which never happens.
     all.remove(&format!("{:?}", SkipReason::NothingReadsIt));
-    // What is said of parts of a recording when it is checked, never of a plan.
+    // Reason in the check of a recording, never in a plan.
     all.remove("NoSplit");
     assert_eq!(reached, all);
 }

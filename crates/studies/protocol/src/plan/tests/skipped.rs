@@ -1,4 +1,4 @@
-//! What a plan leaves out, and the reason it gives.
+//! Tests of the skipped parts of a plan and their reasons.
 
 use super::*;
 
@@ -117,7 +117,7 @@ fn a_one_axis_transducer_narrows_accuracy_to_what_it_measures() {
 #[test]
 fn equal_presses_are_visited_once() {
     let plan = planned(SMALL, rig_of(sensor(), Axes::FORCE));
-    // Three lights at three points, of which the first light is that of the held-out presses.
+    // Three lights at three points. The first light is that of the held-out presses.
     assert_eq!(plan.presses_of(PhaseKind::LightSweep).count(), 9);
     let both = |press: &&PlannedPress| press.phases == [PhaseKind::Spatial, PhaseKind::LightSweep];
     assert_eq!(plan.presses.iter().filter(both).count(), 3);

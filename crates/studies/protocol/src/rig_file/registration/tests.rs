@@ -28,7 +28,7 @@ fn an_arm_that_points_down_stands_over_the_gel_where_it_is_sent() {
     };
     let base = arm.to_base(&tip);
     assert_eq!(base.position, place(301.0, -2.0, 271.3));
-    // About the sensor's z is against the base's.
+    // A rotation about z of the sensor is opposite to one about z of the base.
     assert_eq!(base.rotation, turned(180.0, 0.0, -30.0));
     assert_eq!(arm.to_sensor(&base), tip);
 }
@@ -40,7 +40,7 @@ fn an_arm_that_carries_the_sensor_goes_the_other_way() {
         position: place(1.0, 2.0, 0.5),
         ..Pose::default()
     };
-    // The tip rests: the sensor goes by −1 along its x, by −2 along its y and towards the tip, which is up in the base.
+    // The tip rests. The sensor moves by −1 along its x, by −2 along its y and towards the tip, which is up in the base frame.
     let base = arm.to_base(&deep);
     assert_eq!(base.position, place(299.0, 2.0, 251.8));
     assert_eq!(arm.to_sensor(&base), deep);

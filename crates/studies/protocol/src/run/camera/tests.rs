@@ -1,11 +1,11 @@
-//! Which pictures are taken, and which are asked for again.
+//! Tests of accepted and retried frames.
 
 use taceva_core::{DriverError, FrameInfo, PixelFormat};
 
 use super::*;
 use crate::run::rig::{Rig, nothing, with_tip};
 
-/// Gives pictures that were taken at these times; the last one again and again.
+/// Returns frames with these capture times; repeats the last one.
 pub(in crate::run) struct Album(pub(in crate::run) Vec<f64>);
 
 impl Sensor for Album {
@@ -28,7 +28,7 @@ impl Sensor for Album {
     }
 }
 
-/// As an album, of pictures that came 10 ms after they were taken and were kept until somebody asked.
+/// Like an album, but frames arrive 10 ms after capture and wait until they are read.
 struct Stream(Album);
 
 impl Sensor for Stream {
@@ -44,7 +44,7 @@ impl Sensor for Stream {
     }
 }
 
-/// The picture of a tip that has rested since 4.5 s, at 5 s; how often another one was asked for, and when it was taken.
+/// Captures a frame at 5 s of a tip at rest since 4.5 s. Returns the number of retries and the capture time.
 fn taken(times: &[f64]) -> (u32, Result<f64, StopCause>) {
     taken_by(&mut Album(times.to_vec()))
 }
@@ -82,7 +82,7 @@ fn a_picture_that_waited_for_whoever_asks_is_none_that_was_asked_for_again() {
         (retried, time_s.ok())
     };
     assert_eq!(streamed(&[4.25, 4.75]), (0, Some(4.75)));
-    // What came after it was asked for, and was taken by another clock.
+    // Frames that arrive after the call but have stamps of another clock.
     assert_eq!(streamed(&[4.25, 5.25, 4.75]), (1, Some(4.75)));
     assert_eq!(streamed(&[4.0]), (0, None));
 }

@@ -1,4 +1,4 @@
-//! That the robot stands halted, out of the way, for as long as a changer moves, and what comes of one that fails.
+//! Tests that the robot stands halted, out of the way, while a changer moves, and of failing changers.
 
 use taceva_core::{DriverError, DriverKey, ErrorKind};
 
@@ -8,7 +8,7 @@ use crate::run::rig::{CONTACT_MM, Rig, plan};
 use crate::run::time::Cancel;
 use crate::run::{Controls, Devices, Mode, RunSpec, SpecimenChanger};
 
-/// Takes two seconds, and notes how high the tip stands before and after, and whether it is halted.
+/// A changer that takes two seconds. It stores the tip height before and after, and whether the robot is halted.
 struct Carousel {
     rig: Rig,
     holds: bool,
@@ -50,7 +50,7 @@ impl SpecimenChanger for Carousel {
 
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// Answers, and notes what it was asked.
+/// Answers and stores the questions.
 struct Person(Answer, Vec<Question>);
 
 impl Operator for Person {
@@ -60,7 +60,7 @@ impl Operator for Person {
     }
 }
 
-/// What a tip that stands half a millimetre in the gel leaves when the press of a plan needs another specimen.
+/// Outcome for a tip 0.5 mm deep in the gel when the press of a plan needs another specimen.
 struct Outcome {
     skipped: Result<bool, RunError>,
     carousel: Carousel,
@@ -155,7 +155,7 @@ fn a_changer_that_fails_ends_the_run_with_the_tip_halted_above_the_gel_where_nob
 fn a_changer_that_fails_is_out_of_use_and_somebody_mounts_by_hand() {
     let left = needed(true, true, Some(Answer::Done));
     assert!(!left.skipped.expect("by hand") && left.is_mounted);
-    // Then for the light.
+    // Then the light.
     let [Question::Instead { why, .. }, Question::Light(_)] = &left.asked[..] else {
         panic!("{:?}", left.asked);
     };

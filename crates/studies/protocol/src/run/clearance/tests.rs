@@ -1,4 +1,4 @@
-//! That the tip leaves the gel before hands come, and only where somebody lets it.
+//! Tests that the tip leaves the gel before hands come near, and only with permission.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use super::*;
 use crate::run::rig::{CONTACT_MM, Rig, plan};
 use crate::run::supervisor::{Enabling, Supervisor};
 
-/// Notes what it is asked, how high the tip stands meanwhile and whether it moved before.
+/// Stores the questions, the height of the tip, and whether it had moved.
 struct Person {
     rig: Rig,
     answer: Answer,
@@ -22,12 +22,12 @@ impl Operator for Person {
     }
 }
 
-/// Raises the tip of `rig`, which somebody who says `answer` may let move.
+/// Raises the tip of `rig`; the operator answers `answer`.
 fn raised(rig: &Rig, answer: Answer) -> (Result<bool, RunError>, Person) {
     raised_under(rig, answer, None)
 }
 
-/// The same on a rig whose enabling switch is `enabling`, where it has one.
+/// Raises the tip on a rig with the optional state `enabling` of its enabling switch.
 fn raised_under(
     rig: &Rig,
     answer: Answer,

@@ -1,4 +1,4 @@
-//! The way out motion by motion: how fast, how far, and what moves not at all.
+//! Tests of the retreat, motion by motion: speed, distance, and refused motions.
 
 use crate::run::rig::{
     CONTACT_MM, CONTACT_MM_S, Motion, Rig, SEGMENT_MM, TRAVEL_MM_S, nothing, with_tip,
@@ -39,7 +39,7 @@ fn a_tip_in_the_air_already_goes_up_at_once() {
 
 #[test]
 fn from_a_limit_of_depth_the_tip_draws_back_to_the_first_segment_at_which_it_may_rest() {
-    // Half a millimetre too deep; a quarter may be left.
+    // 0.5 mm too deep; 0.25 mm is allowed.
     let rig = Rig::new(CONTACT_MM + 1.5, nothing);
     with_tip(&rig, |tip| tip.draw_back(CONTACT_MM)).expect("nothing in the way");
     let ends: Vec<f64> = rig.motions().iter().map(|motion| motion.to_mm).collect();
@@ -85,7 +85,7 @@ fn after_a_fault_nothing_moves_while_the_transducer_is_silent() {
 
 #[test]
 fn after_a_fault_the_tip_leaves_the_gel_as_soon_as_the_force_is_alive_again() {
-    // Silence is believed after three questions, so that this is the third look.
+    // Silence counts after three readings, so this is the third look.
     let rig = Rig::new(1.0, |question, height_mm| {
         nothing(question, height_mm).filter(|_| question > 6)
     });

@@ -1,13 +1,13 @@
-//! Detects a touch in pictures by the change between frames, whatever the noise of the pixels.
+//! Detects a touch by the change between frames, relative to the pixel noise.
 
 use taceva_core::Frame;
 
-/// Parts along each side of a picture, whose mean brightness is compared. Large parts average the noise in the gentle touch of a ball.
-/// Small parts separate the light and dark sides of the grooves of a board.
+/// Number of parts along each side of a frame; the mean brightness of each part is compared. Large parts average out the noise in the gentle touch of
+/// a ball. Small parts separate the light and dark sides of the grooves of a board.
 const SIDES: [usize; 3] = [8, 32, 128];
 /// Least change of a part by a touch, in steps of 255, for each of [`SIDES`].
 const LEAST: [f64; SIDES.len()] = [0.25, 0.5, 2.0];
-/// Frames averaged to one picture, since a gentle touch changes little and small cameras are noisy.
+/// Number of averaged frames, because a gentle touch changes little and small cameras are noisy.
 pub(super) const FRAMES: u32 = 4;
 /// Least ratio of the change in contact to the change in the air.
 const CHANGES: f64 = 2.0;
@@ -30,7 +30,7 @@ impl Picture {
         }))
     }
 
-    /// Greatest change of a part between this picture and `other`, for each of [`SIDES`].
+    /// Greatest change of a part between this average and `other`, for each of [`SIDES`].
     pub(super) fn change(&self, other: &Picture) -> Change {
         let mut changes = [0.0; SIDES.len()];
         for (change, (one, other)) in changes.iter_mut().zip(self.0.iter().zip(&other.0)) {
@@ -44,7 +44,7 @@ impl Picture {
     }
 }
 
-/// Greatest change of a part between two pictures, in steps of an 8-bit pixel, for each of [`SIDES`].
+/// Greatest change of a part between two frames, in steps of an 8-bit pixel, for each of [`SIDES`].
 #[derive(Clone, Copy)]
 pub(super) struct Change([f64; SIDES.len()]);
 
@@ -63,7 +63,7 @@ impl Change {
     }
 }
 
-/// Least change in contact that shows a touch, for parts of the size at `place` of [`SIDES`].
+/// Least change in contact that shows a touch, for parts of the size at `place` in [`SIDES`].
 fn threshold(in_air: &Change, place: usize) -> f64 {
     (CHANGES * in_air.0[place]).max(LEAST[place])
 }
@@ -79,12 +79,12 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// True if the change in contact exceeds that in the air clearly.
+    /// True if the change in contact clearly exceeds that in the air.
     pub(super) fn shows(&self) -> bool {
         self.in_contact > (CHANGES * self.in_air).max(LEAST[self.place])
     }
 
-    /// Change that remains `after` the tip has left, if it exceeds the mean of contact and air. Gels recover slowly and never fully.
+    /// Change `after` the tip has left, if it exceeds the mean of contact and air. Gels recover slowly and never fully.
     pub(super) fn stays(&self, after: &Change) -> Option<f64> {
         let after = after.0[self.place];
         (2.0 * after > self.in_contact + self.in_air).then_some(after)
@@ -125,7 +125,7 @@ mod tests {
 
     use super::*;
 
-    /// A noisy picture of 40 by 32 pixels with a spot brighter by `spot` steps.
+    /// A noisy frame of 40 by 32 pixels with a spot that is brighter by `spot` steps.
     fn picture(seed: u32, spot: u8) -> Picture {
         drawn(seed, |x, y| {
             let is_spot = (18..23).contains(&x) && (14..18).contains(&y);
@@ -133,7 +133,7 @@ mod tests {
         })
     }
 
-    /// A noisy picture whose pixel at x and y is brighter by `brighter(x, y)` steps.
+    /// A noisy frame whose pixel at x and y is brighter by `brighter(x, y)` steps.
     fn drawn(seed: u32, brighter: impl Fn(u32, u32) -> u8) -> Picture {
         let info = FrameInfo {
             width: 40,

@@ -1,4 +1,4 @@
-//! Axes along which a gentle touch was felt, compared with the axes of the rig file.
+//! Measured axes of a gentle touch, compared with the axes of the rig file.
 
 use crate::rig_file::SignedAxes;
 use crate::text::SceneProblem;
@@ -10,12 +10,12 @@ const NAMES: [&str; 3] = ["x", "y", "z"];
 pub(super) struct Felt {
     /// Force of the press along +z.
     pub(super) press: [f64; 3],
-    /// Half the difference between the push to +x (+y) and its opposite. `None` if noise hides it or the transducer does not measure shear.
+    /// Half the difference between a push to +x (+y) and its opposite. `None` if noise hides it or the transducer does not measure shear.
     pub(super) pushes: [Option<[f64; 3]>; 2],
 }
 
 impl Felt {
-    /// Checks that each force was felt along its motion, by `axes`.
+    /// Checks that each force was measured along its motion, by `axes`.
     ///
     /// # Errors
     /// The measured directions, and the axes that would agree with them.
@@ -96,7 +96,7 @@ mod tests {
 
     const TRUE: [&str; 3] = ["x", "-y", "-z"];
 
-    /// Forces felt with `written` in the rig file and a transducer mounted as [`TRUE`].
+    /// Measured forces with `written` in the rig file and a transducer mounted as [`TRUE`].
     fn felt(written: SignedAxes, hidden: Option<usize>) -> Felt {
         let mounted = SignedAxes::read(TRUE).expect("axes");
         let felt = |force: [f64; 3]| written.to_sensor(mounted.to_device(force));

@@ -6,7 +6,7 @@ use bench::{Bench, MOUNTED, Memory, SURFACE_MM, Sees, Session, State, begun, rig
 use crate::rig_file::{RigFile, SignedAxes};
 use crate::run::{Answer, Left, Question, RunError, SessionRecord, StopCause, TouchFault};
 
-/// On a rig file with these axes of the transducer.
+/// Runs on a rig file with these axes of the transducer.
 fn with_axes(axes: [&str; 3]) -> (Result<(), RunError>, Memory) {
     let (bench, rig) = (Bench::new(axes), rig_file(axes));
     let session = Session {
@@ -19,7 +19,7 @@ fn with_axes(axes: [&str; 3]) -> (Result<(), RunError>, Memory) {
     (done, log)
 }
 
-/// On a bench of which `change` makes something wrong.
+/// Runs on a bench with the fault that `change` introduces.
 fn with_fault(change: impl FnOnce(&mut State)) -> (StopCause, Left, usize) {
     let (bench, rig) = (Bench::new(MOUNTED), rig_file(MOUNTED));
     change(&mut bench.state());
@@ -47,9 +47,9 @@ fn a_rig_that_is_as_its_file_says_is_touched_gently_and_then_pressed() {
         reaction_ms,
         overshoot_mm,
     } = &log.sessions[0];
-    // Felt where the force is 0.02 N, 0.04 mm below the surface, within what a straight line over one step of a bent one errs.
+    // The contact is found at 0.02 N, 0.04 mm below the surface. The tolerance is the interpolation error over one step.
     assert!((touch.height_mm - 0.17).abs() < 0.02, "{touch:?}");
-    // Three times that, or up to a quarter of a step more.
+    // Three times that force, or up to a quarter of a step more.
     assert!((0.06..0.08).contains(&touch.force_n), "{touch:?}");
     let pressed_mm = touch.height_mm + touch.depth_mm - SURFACE_MM;
     assert!(
@@ -58,7 +58,7 @@ fn a_rig_that_is_as_its_file_says_is_touched_gently_and_then_pressed() {
     );
     assert!((zero.force[2].0 - 0.2).abs() < 0.001, "{zero:?}");
     assert_eq!((*pushes_felt, *picture_changed), ([true; 2], true));
-    // Read every 2 ms and shown at once; a halt is sent in 1 ms.
+    // Read every 2 ms and passed on at once; a halt is sent in 1 ms.
     assert!((2.9..4.0).contains(reaction_ms), "{reaction_ms} ms");
     assert!(*overshoot_mm < 0.3, "{overshoot_mm} mm");
 }
@@ -121,7 +121,7 @@ fn a_camera_that_does_not_see_the_touch_is_refused_and_one_that_goes_on_seeing_i
 
 #[test]
 fn a_machine_that_reads_late_is_refused_with_what_helps() {
-    // 40 ms and a period of 42 at 4 mm/s are 0.33 mm, beyond 0.3 of 1 mm.
+    // 40 ms and a period of 42 ms at 4 mm/s are 0.33 mm, more than 0.3 of 1 mm.
     let (cause, left, presses) = with_fault(|state| state.latency_s = 0.04);
     let said = cause.to_string();
     let StopCause::SlowGuard {
@@ -199,7 +199,7 @@ fn a_robot_is_enabled_by_its_name_before_it_moves_and_not_at_all_where_nobody_sa
         panic!("{:?}", person.asked);
     };
     assert!(matches!(enable, Question::Enable(_)) && *moved == 0);
-    // Hands come near at the height of travel or above it.
+    // Hands come near only at or above the travel height.
     assert!(matches!(mount, Question::Mount(_)) && *height_mm <= -2.0);
 }
 
@@ -226,7 +226,7 @@ fn a_gel_that_is_not_touched_as_before_is_asked_about_and_one_that_is_goes_on() 
         person.asked
     );
     assert!((log.sessions[0].touch.depth_mm - touched[0].depth_mm).abs() < 1e-9);
-    // It was moved by a quarter of a millimetre, or it is another one.
+    // The gel was moved by 0.25 mm, or replaced.
     for change in [
         (|state: &mut State| state.surface_mm += 0.25) as fn(&mut State),
         |state| state.stiffness = 1.3,

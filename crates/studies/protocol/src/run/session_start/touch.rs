@@ -1,4 +1,4 @@
-//! A gentle touch at the middle of the gel: down to the first force, on to three times that, sideways a little, and out again.
+//! A gentle touch at the middle of the gel: down to the first force, on to three times that force, slightly sideways, and out again.
 
 use taceva_core::{Axis, Degree};
 
@@ -14,9 +14,9 @@ use crate::run::supervisor::MotionStage;
 use crate::run::tip::{Step, Tip};
 use crate::text::SceneProblem;
 
-/// Readings averaged to one force.
+/// Number of readings averaged to one force.
 const READINGS: u32 = 8;
-/// Least number of standard errors at which a push counts as felt.
+/// Least number of standard errors at which a push counts as measured.
 const ERRORS: f64 = 4.0;
 /// Force of the touch, in multiples of the contact threshold.
 const RISE: f64 = 3.0;
@@ -129,7 +129,7 @@ impl Run<'_> {
         height_mm + DEPTH_PART * depth_max
     }
 
-    /// Force of a push to +x and of one to +y, each as half the difference from its opposite; `None` if it is not felt.
+    /// Force of a push to +x and of one to +y, each as half the difference from its opposite; `None` if not measurable.
     fn push_aside(&mut self) -> Step<[Option<[f64; 3]>; 2]> {
         let measured = self.tip.force.axes();
         let measures_shear = measured.contains(Axis::Fx) && measured.contains(Axis::Fy);
@@ -158,7 +158,7 @@ impl Run<'_> {
         Ok(pushes)
     }
 
-    /// Presses on until the picture changes. Returns the change; `None` if no picture is taken.
+    /// Presses on until the frames change. Returns the change; `None` without frames.
     fn show_touch(&mut self, height_mm: f64, in_air: &[Option<Picture>; 2]) -> Step<Option<Seen>> {
         let [Some(one), Some(other)] = in_air else {
             return Ok(None);
@@ -196,7 +196,7 @@ impl Run<'_> {
             let (frame, _) = camera.frame(from_s, &self.tip, self.events)?;
             frames.push(frame);
             from_s = self.tip.clock.now_s();
-            // No force was read while the frame was taken.
+            // No force was read during the capture.
             self.tip.look()?;
         }
         Ok(Some(Picture::of(&frames)))
@@ -204,8 +204,8 @@ impl Run<'_> {
 }
 
 impl Tip<'_> {
-    /// Descends by steps until the force exceeds the threshold along any axis. Returns the height of contact, interpolated between the last
-    /// step below the threshold and the first above; `None` at the end of the search.
+    /// Descends by steps until the force exceeds the threshold along any axis. Returns the height of contact, interpolated between the last step
+    /// below the threshold and the first one above; `None` at the end of the search.
     fn feel_down(&mut self, threshold_n: f64) -> Step<Option<f64>> {
         self.watch(MotionStage::Search);
         let start_mm = self.target.position.z.0;
@@ -230,7 +230,7 @@ impl Tip<'_> {
                 before_n = force.mean_n;
                 continue;
             }
-            // Projected on the direction of the present force, so that noise across it does not count.
+            // Projected on the direction of the present force, so that noise perpendicular to it does not count.
             let before_n = dot(&before_n, &force.mean_n) / felt_n;
             let part = ((threshold_n - before_n) / (felt_n - before_n)).clamp(0.0, 1.0);
             let height_mm = z_mm - self.pace.step_mm * (1.0 - part);

@@ -1,4 +1,4 @@
-//! The enabling switch, which a person holds while the robot may move.
+//! Enabling switch, which the operator holds while the robot may move.
 
 use taceva_core::Pose;
 
@@ -39,7 +39,7 @@ impl Supervisor {
     /// Announces a straight motion before it is sent.
     ///
     /// # Errors
-    /// [`Supervisor::withheld`], or the trip since the last release: then the motion must not be sent.
+    /// [`Supervisor::withheld`], or the trip since the last release. The motion must not be sent then.
     pub fn sent(&mut self, from: Pose, to: Pose) -> Result<(), Trip> {
         if let Some(trip) = self.withheld().or(self.tripped) {
             return Err(self.trip(trip));

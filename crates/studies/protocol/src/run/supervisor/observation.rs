@@ -10,7 +10,7 @@ pub enum Observation {
     Force(Wrench, Stamp),
     /// A reading of the force transducer, with its sequence number.
     Numbered(Wrench, Stamp, u64),
-    /// Pose in the motion announced by [`Supervisor::sent`](super::Supervisor::sent), read by a guard thread.
+    /// Pose during the motion announced by [`Supervisor::sent`](super::Supervisor::sent), read by a guard thread.
     UnderWay {
         /// Pose.
         pose: Pose,
@@ -34,12 +34,12 @@ pub enum Observation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum MotionStage {
-    /// In the air: a force above `threshold_n` is a collision.
+    /// In the air; a force above `threshold_n` is a collision.
     Travel {
         /// Greatest force without a collision, in N.
         threshold_n: f64,
     },
-    /// At rest in the air while the transducer sets its zero: forces are ignored.
+    /// At rest in the air while the transducer sets its zero; forces are ignored.
     Zeroing,
     /// Approach to the first contact.
     Search,
@@ -48,7 +48,7 @@ pub enum MotionStage {
         /// Height from which depths count in the sensor's frame, in mm: that of the first contact, or the fitted surface above it.
         height_mm: f64,
     },
-    /// Retreat, in which the force must not rise above `force_n`.
+    /// Retreat; the force must not rise above `force_n`.
     Retreat {
         /// Force at the start of the retreat, in N.
         force_n: f64,

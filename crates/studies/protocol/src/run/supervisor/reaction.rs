@@ -1,11 +1,11 @@
-//! Reaction time of a guard, from a passed limit to a sent halt.
+//! Reaction time of a guard, from an exceeded limit to a sent halt.
 
 /// Time to send a halt, in s.
 const SEND_S: f64 = 0.001;
-/// Percentile of the reaction time: one of a thousand may be later.
+/// Percentile of the reaction time; one in a thousand may be later.
 const SOONER: f64 = 0.999;
 
-/// Ages of readings when they were shown to the supervisor.
+/// Ages of readings on arrival at the supervisor.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Lateness {
     ages_s: Vec<f64>,

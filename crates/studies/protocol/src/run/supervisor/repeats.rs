@@ -2,9 +2,9 @@
 
 use taceva_core::Wrench;
 
-/// Counts equal readings in a row, each after a motion.
+/// Counts consecutive equal readings, each after a motion.
 ///
-/// Compares raw readings, so that neither another stage of a press nor a zero set by the host resets the count.
+/// Compares raw readings, so that neither a new stage nor a zero set by the host resets the count.
 #[derive(Default)]
 pub(super) struct Repeats {
     last: Option<Wrench>,
@@ -15,17 +15,17 @@ pub(super) struct Repeats {
 }
 
 impl Repeats {
-    /// Marks that the tip moved: at rest, equal readings are normal.
+    /// Records a motion of the tip; at rest, equal readings are normal.
     pub(super) fn moved(&mut self) {
         self.moved = true;
     }
 
-    /// Counts a reading. `equality_is_frozen` means that a live transducer hardly ever repeats a reading.
+    /// Counts a reading. `equality_is_frozen` is true for a transducer that hardly ever repeats a reading.
     pub(super) fn take(&mut self, wrench: &Wrench, number: Option<u64>, equality_is_frozen: bool) {
         let before = self.last.replace(*wrench);
         let is_equal = match (std::mem::replace(&mut self.number, number), number) {
             (Some(last), Some(number)) if last == number => true,
-            // An amplifier may increment its sequence number although its signal froze.
+            // An amplifier may increment its sequence number although its signal is frozen.
             _ if !equality_is_frozen => false,
             _ => before.is_some_and(|last| last == *wrench),
         };
@@ -36,12 +36,12 @@ impl Repeats {
         };
     }
 
-    /// Number of equal readings in a row, each after a motion.
+    /// Number of consecutive equal readings, each after a motion.
     pub(super) fn count(&self) -> u32 {
         self.count
     }
 
-    /// Resets the count: the transducer sets its own zero.
+    /// Resets the count, because the transducer sets its own zero.
     pub(super) fn forget(&mut self) {
         *self = Repeats::default();
     }

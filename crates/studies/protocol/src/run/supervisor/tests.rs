@@ -1,4 +1,4 @@
-//! Every reading that must halt, and those that must not.
+//! Tests of readings that must halt, and of readings that must not.
 
 mod boundaries;
 mod enabling;
@@ -66,7 +66,7 @@ fn at_height(z: f64) -> Pose {
 
 const PRESS: MotionStage = MotionStage::Press { height_mm: 0.2 };
 
-/// What one observation at 10.02 s trips in `stage`, and whether the robot was halted for it.
+/// Trip of one observation at 10.02 s in `stage`; checks that the robot is halted for it.
 fn trip(stage: MotionStage, observation: &Observation) -> Option<Trip> {
     let (mut supervisor, halts) = watching(stage);
     let tripped = supervisor.observe(observation, 10.02).err();

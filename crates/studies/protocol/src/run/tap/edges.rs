@@ -3,20 +3,20 @@
 use super::heard::{Said, TapHeard};
 use crate::rig_file::Latency;
 
-/// Height above the gel up to which signals count as those in the air, in mm.
+/// Height above the gel above which signals count as in the air, in mm.
 const AIR_MM: f64 = 0.1;
-/// Last part of a tap, in s: the tip rests in the gel, and every device shows it.
+/// Duration of the end of a tap, in s: the tip rests in the gel, and every device shows it.
 const REST_S: f64 = 0.2;
-/// Least number of readings, frames or poses of a stretch.
+/// Least number of readings, frames or poses in a section of a tap.
 const LEAST: usize = 3;
-/// Part of the change that marks the edge: in the air the signal stays below it, at rest well above.
+/// Part of the change that marks the edge. The signal stays below it in the air, and is well above it at rest.
 const EDGE: f64 = 0.5;
 const AT_REST: f64 = 0.75;
-/// Distance from both ends of the way within which poses are ignored, in mm: there the arm accelerates.
+/// Distance from both ends of the motion within which poses are ignored, in mm, because the arm accelerates there.
 const END_MM: f64 = 0.05;
-/// Least ratio of the fastest to the slowest tap; below it, offset and latency cannot be separated.
+/// Least ratio of the fastest to the slowest tap. Below it, offset and latency cannot be separated.
 const LEAST_RATIO: f64 = 1.5;
-/// Standard deviations that cover 95 of 100 taps.
+/// Number of standard deviations that cover 95 of 100 taps.
 const WITHIN: f64 = 2.0;
 
 /// Recorded taps at one place.
@@ -27,7 +27,7 @@ pub struct Tapped {
     taps: Vec<TapHeard>,
 }
 
-/// Reasons for which taps give no latency.
+/// Reasons why taps give no latency.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TapError {
@@ -42,12 +42,12 @@ pub enum TapError {
         device: &'static str,
         /// Kind of its values.
         what: &'static str,
-        /// Stretch of the tap.
+        /// Section of the tap.
         stretch: &'static str,
         /// Number of values.
         count: usize,
     },
-    /// A device does not show the tap: in the air its signal varies by at least half of its change.
+    /// A device does not show the tap: its signal in the air varies by at least half of its change.
     #[error(
         "tap {tap}: the {device} signal does not show it clearly: in the air it varies by {in_air:.2} of its change, expected below {EDGE}; check its mounting, its light or its noise"
     )]
@@ -79,7 +79,7 @@ pub enum TapError {
     },
     /// Taps contradict each other.
     #[error(
-        "the latency of the {device} varies by {spread_ms:.1} ms between taps, expected at most half a frame, {allowed_ms:.1} ms: stop other traffic and other programs, run with `chrt -f 10`, and check that nothing shakes the rig"
+        "the latency of the {device} varies by {spread_ms:.1} ms between taps, expected at most half a frame, {allowed_ms:.1} ms: stop other traffic and other programs, run with `chrt -f 10`, and check the rig for vibration"
     )]
     Spread {
         /// `force` or `sensor`.
@@ -91,7 +91,7 @@ pub enum TapError {
     },
 }
 
-/// Passage of the tip in one tap, by a straight line through its poses.
+/// Motion of the tip in one tap, from a straight line through its poses.
 #[derive(Clone, Copy, Debug)]
 struct Passage {
     /// Time at which it passed the reference height, in s.
@@ -103,7 +103,7 @@ impl Tapped {
     /// Number of taps, alternating between the speed of contact and a part of it.
     pub const TAPS: u32 = 20;
 
-    /// Empty record of taps on a gel that begins at `contact_mm`. The time of each tap is the passage of `reference_mm`.
+    /// Empty record of taps on a gel at the height `contact_mm`. The tip passes `reference_mm` at the time of each tap.
     pub(super) fn new(contact_mm: f64, reference_mm: f64) -> Tapped {
         Tapped {
             contact_mm,
@@ -123,11 +123,11 @@ impl Tapped {
 
     /// Latencies of the transducer and of the sensor.
     ///
-    /// Each tap gives the difference of two times: a device shows half of its change, and the tip passes the reference height. Over all
-    /// taps it is L + δ/v, a line in the reciprocal of the speed v. L is the latency, δ the offset of the half change below that height.
+    /// Each tap gives the delay between two times: the tip passes the reference height, and a device shows half of its change. Over all taps the
+    /// delay is L + δ/v, a line in the reciprocal of the speed v. L is the latency, δ the offset of the half change below that height.
     ///
     /// # Errors
-    /// [`TapError`] for signals that are missing, unclear or contradictory.
+    /// [`TapError`] for missing, unclear or contradictory signals.
     pub fn latencies(&self) -> Result<(Latency, Latency), TapError> {
         let mut passages = Vec::new();
         for (place, heard) in self.taps.iter().enumerate() {
@@ -216,7 +216,7 @@ struct Listened {
 }
 
 impl Listened {
-    /// Time at which half of the change was shown, in s; before `air_s` the tip touches nothing.
+    /// Time at which half of the change was reached, in s. Before `air_s`, the tip touches nothing.
     fn edge_s(&self, said: &Said, air_s: f64) -> Result<f64, TapError> {
         let Listened { tap, device, what } = *self;
         let end_s = said.last().map_or(0.0, |(at_s, _)| *at_s);
@@ -248,7 +248,7 @@ impl Listened {
             .map(|(rest, air)| rest - air)
             .collect();
         let whole: f64 = change.iter().map(|change| change * change).sum();
-        // Projection on the change: 0 in the air, 1 at rest, whatever else the values do.
+        // Projection on the change: 0 in the air, 1 at rest, independent of other variation.
         let shown = |numbers: &[f64]| -> f64 {
             let apart = numbers.iter().zip(&air).map(|(number, air)| number - air);
             apart

@@ -4,7 +4,7 @@ use taceva_core::{Frame, Pose, Stamp, Wrench};
 
 use crate::run::session_start::picture::means;
 
-/// Parts along each side of a picture, whose mean brightness is recorded.
+/// Number of parts along each side of a frame; the mean brightness of each is recorded.
 const PARTS: usize = 8;
 
 /// Values of every device, from before a tap to the rest after it, each with the time of its stamp.
@@ -18,7 +18,7 @@ const PARTS: usize = 8;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TapHeard {
-    /// Heights of the tip, in s and mm.
+    /// Heights of the tip, as pairs in s and mm.
     pub(super) heights: Vec<(f64, f64)>,
     pub(super) forces: Said,
     pub(super) frames: Said,
@@ -51,7 +51,7 @@ impl TapHeard {
     }
 }
 
-/// Adds a value with a newer stamp; skips repeats, since a device may be read faster than it updates.
+/// Adds a value with a newer stamp. Skips repeats, because a device may be read faster than it updates.
 fn add(said: &mut Said, numbers: Vec<f64>, stamp: &Stamp) {
     if said
         .last()

@@ -33,7 +33,7 @@ impl Check<'_> {
             self.count(key, count, 1, GREATEST_COUNT)?;
         }
         self.count("indentations", &calibration.indentations, 1, 1_000)?;
-        // One trial repeats nothing, and one picture has no rate.
+        // A single trial repeats nothing, and a single frame has no rate.
         self.count("trials", &repeatability.trials, 2, GREATEST_COUNT)?;
         self.count("frames", &idle.frames, 2, GREATEST_COUNT)?;
         for (key, length) in [
@@ -61,7 +61,7 @@ impl Check<'_> {
         }
         self.range("settle_s", &contact.settle_s, 10.0)?;
         self.range("step_mm", &contact.step_mm, 0.5)?;
-        // In contact the tip must be able to stop within a step.
+        // In contact, the tip must be able to stop within a step.
         self.range("speed_mm_s", &contact.speed_mm_s, 5.0)?;
         self.range("depth_fraction", &gratings.depth_fraction, 1.0)?;
         boards::spacings(gratings)

@@ -19,7 +19,7 @@ pub(super) struct WrittenRecording {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct WrittenSize(pub(super) String);
 
-/// Accepts a number too, so that the check can reject it with the key and the expected form.
+/// Also accepts a number, so that the check can reject it with the key and the expected form.
 impl<'de> Deserialize<'de> for WrittenSize {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<WrittenSize, D::Error> {
         struct Size;

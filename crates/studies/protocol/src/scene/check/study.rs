@@ -169,7 +169,7 @@ impl Check<'_> {
         }
     }
 
-    /// Rejects devices beside a rig file, which names the devices.
+    /// Rejects devices in a scene with a rig file, which names the devices itself.
     fn no_device(
         &self,
         sensor: Option<&Setting<String>>,
@@ -185,7 +185,7 @@ impl Check<'_> {
         }
     }
 
-    /// Checks a list of names: not empty, each a valid name, none twice.
+    /// Checks a list of names: not empty, each name valid and unique.
     fn distinct(&self, what: &'static str, names: Option<&Setting<Vec<String>>>) -> Checked {
         let Some(names) = names else { return Ok(()) };
         let mut seen = BTreeSet::new();

@@ -1,4 +1,4 @@
-//! Rig files, every way to write one wrong, and what a scene that is put on one may not ask.
+//! Tests of rig files, of every kind of invalid rig file, and of scenes that a rig file forbids.
 
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ latency_ms = 38.0
 speed_max_mm_s = 20.0
 "#;
 
-/// What a scene must say of a sensor whose camera states nothing.
+/// Scene with the facts of a sensor whose camera states none.
 const SCENE: &str = r#"scene_version = 1
 name = "my gel"
 rig = "lab.toml"
@@ -47,7 +47,7 @@ fn put_on(scene: &str, rig: &str) -> Scene {
     scene
 }
 
-/// What the planner says of [`SCENE`] on `rig`.
+/// Result of planning [`SCENE`] on `rig`.
 fn planned_on(scene: &str, rig: &str) -> Result<(), String> {
     let devices = devices();
     plan(&put_on(scene, rig), |_| {
@@ -57,7 +57,7 @@ fn planned_on(scene: &str, rig: &str) -> Result<(), String> {
     .map_err(|error| error.to_string())
 }
 
-/// An arm that reaches half a metre along x of its base and 300 mm above the table, and a transducer that measures Fz alone.
+/// An arm that reaches 500 mm along x of its base and 300 mm above the table, and a transducer of Fz alone.
 fn devices() -> RigInfo {
     let corner = |x: f64, y: f64, z: f64| {
         let [x, y, z] = [x, y, z].map(Millimetre);
@@ -294,6 +294,6 @@ fn a_robot_that_moves_in_its_base_frame_is_refused_without_a_rig_file_that_maps_
         said.contains("`origin_mm` and `axes`") && said.contains("--rig"),
         "{said}"
     );
-    // A rig file maps it.
+    // A rig file maps the base frame.
     planned(&put_on(SCENE, RIG)).expect("it is mapped");
 }

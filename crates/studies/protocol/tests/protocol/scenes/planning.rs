@@ -1,4 +1,4 @@
-//! Scenes that contradict the devices that they name.
+//! Tests of scenes that contradict their devices.
 
 use taceva_core::{Descriptor, Facts, FrameInfo, LightingFacts, PixelFormat};
 use taceva_protocol::{Plan, RigInfo, Scene, SceneProblem, SourceInfo, plan};
@@ -81,7 +81,7 @@ fn a_gel_that_is_opaque_and_said_to_be_transparent_is_refused() {
     let error = plan(&scene, |_| SourceInfo::Rig(Box::new(rig()))).expect_err("contradiction");
     assert_eq!(
         error.to_string(),
-        "s.toml, line 5: `opaque` is false, but the sensor says true: one of them is wrong"
+        "s.toml, line 5: `opaque` is false, but the sensor states true: correct one of them"
     );
 }
 
@@ -146,7 +146,7 @@ fn a_metric_that_can_never_apply_is_refused_by_its_line_if_it_was_named_by_itsel
         error,
         "s.toml, line 12: `r_light` can never apply: the gel is opaque: ambient light cannot reach the camera"
     );
-    // A group is taken as far as it goes.
+    // A group includes only the metrics that apply.
     let explained = planned("[metrics]\nwant = [\"accuracy\"]", rig());
     assert!(
         explained.contains("skip  metric  mae, r2, smape"),
@@ -161,7 +161,7 @@ fn more_presses_than_any_gel_survives_are_refused() {
     );
     let scene = Scene::parse("s.toml", &scene).expect("reads");
     let source = SourceInfo::Rig(Box::new(rig()));
-    // The presses are counted before they are drawn, and never printed.
+    // Presses are counted before they are drawn.
     match plan(&scene, |_| source.clone())
         .err()
         .map(|error| *error.problem)
@@ -171,7 +171,7 @@ fn more_presses_than_any_gel_survives_are_refused() {
     }
 }
 
-/// A rig whose sensor says how large its frames are.
+/// A rig whose sensor states its frame size.
 fn seeing() -> RigInfo {
     let info = FrameInfo {
         width: 160,
@@ -223,7 +223,7 @@ fn a_plan_says_at_what_size_frames_are_kept_and_costs_what_they_take() {
     assert!(whole.cost.frames > 0);
     assert_eq!(whole.cost.bytes, Some(bytes(&whole, 160 * 120 * 6)));
     assert_eq!(kept.cost.bytes, Some(bytes(&kept, 64 * 48 * 3)));
-    // What is recorded is another recording; the camera stays what it is.
+    // The recording is another one; the camera stays the same.
     assert_ne!(whole.digest(), kept.digest());
     assert_eq!(whole.frame, kept.frame);
     let written = |plan: &Plan| serde_json::to_value(plan).expect("JSON");

@@ -1,4 +1,4 @@
-//! Texts that are no scenes.
+//! Tests of invalid scene texts.
 
 use taceva_core::DriverKind;
 use taceva_protocol::{BuiltinScene, Scene, Study};

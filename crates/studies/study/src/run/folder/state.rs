@@ -1,4 +1,4 @@
-//! The state of a run folder: the run it belongs to, and whether its recordings are complete.
+//! State of a run folder: its run, and whether its recordings are complete.
 
 use std::fs;
 use std::path::Path;
@@ -12,14 +12,14 @@ use super::{RunFolder, slug};
 use crate::error::StudyError;
 
 impl RunFolder {
-    /// The folder below `parent` with the name of `scene`; it may not exist yet.
+    /// Folder below `parent` named after `scene`; it may not exist yet.
     pub fn named(parent: &Path, scene: &PlannedScene) -> RunFolder {
         RunFolder {
             path: parent.join(slug(&scene.scene.name)),
         }
     }
 
-    /// True if the run of `scene` was begun there; changes nothing.
+    /// True if the run of `scene` was started there. Changes nothing.
     ///
     /// # Errors
     /// [`StudyError::RunFolder`] if the run there has other plans, or if they cannot be read.
@@ -38,15 +38,15 @@ impl RunFolder {
         }
     }
 
-    /// True if every study of `scene` is completely recorded there; changes nothing.
+    /// True if every study of `scene` is completely recorded there. Changes nothing.
     ///
     /// # Errors
-    /// [`StudyError::Evaluate`] for a recording that was changed.
+    /// [`StudyError::Evaluate`] for a recording that was edited.
     pub fn is_acquired(&self, scene: &PlannedScene) -> Result<bool, StudyError> {
         for (number, study) in scene.studies.iter().enumerate() {
             match Dataset::open(&self.recording(number, &study.plan.name)) {
                 Ok(_) => {}
-                // It does not exist, it was not closed, or another process is recording.
+                // It does not exist, was not closed, or another process is recording.
                 Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::Busy) => {
                     return Ok(false);
                 }
@@ -56,7 +56,7 @@ impl RunFolder {
         Ok(true)
     }
 
-    /// The plans of `scene` as written.
+    /// Stored plans of `scene`.
     pub(super) fn plans_of(&self, scene: &PlannedScene) -> Result<String, StudyError> {
         serde_json::to_string(scene).map_err(|error| self.refused(error.to_string()))
     }

@@ -1,4 +1,4 @@
-//! Spacings predicted by a model that predicts one of its training labels.
+//! Spacings predicted by a model that returns one of its training labels.
 
 use taceva_core::{
     Channel, Channels, FeatureShape, Features, Nanometre, Regressor, Targets, TrainingSet, Unit,
@@ -8,7 +8,7 @@ use crate::classifier::ModelClassifier;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Work;
 
-/// The spacings of the spectra `asked`, by a model fitted on `known` spectra with their spacings.
+/// Spacings of the spectra `asked`, predicted by a model fitted on the spectra `known` and their spacings.
 pub(super) fn predict(
     classifier: &ModelClassifier,
     known: &[Vec<f64>],

@@ -9,7 +9,7 @@ use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Work;
 use taceva_evaluate::{extract, extractor};
 
-/// Classifies `presses`, whose pictures are in `dataset`, fold by fold.
+/// Classifies `presses` on the frames of `dataset`, fold by fold.
 pub(super) fn classify(
     dataset: &Dataset,
     presses: &[(usize, Nanometre)],

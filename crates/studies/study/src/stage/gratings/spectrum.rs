@@ -9,10 +9,10 @@ use crate::classifier::ModelClassifier;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Work;
 
-/// Memory limit of the planes held at once, bytes; presses that need more are decoded twice.
+/// Memory limit of the planes held at once, in bytes. Presses that need more are decoded twice.
 const HELD_BYTES: u64 = 512 << 20;
 
-/// Passes over `presses` pictures of `dataset`: one if their planes fit in memory, else one for the mean and one for the pictures.
+/// Number of passes over `presses` frames of `dataset`: one if their planes fit in memory, else two, for the mean and for the frames.
 pub(super) fn times_decoded(dataset: &Dataset, presses: usize) -> u64 {
     let info = dataset.header().frames.as_ref().map(|frames| frames.info);
     let plane = info.map_or(0, |info| RadialSpectrum::new(info).plane_bytes());
@@ -29,7 +29,7 @@ pub(super) enum ByFold<'a> {
     Model(&'a ModelClassifier),
 }
 
-/// Classifies `presses`, whose pictures are in `dataset`, fold by fold.
+/// Classifies `presses` on the frames of `dataset`, fold by fold.
 pub(super) fn classify(
     dataset: &Dataset,
     presses: &[(usize, Nanometre)],
@@ -44,22 +44,22 @@ pub(super) fn classify(
     Ok(())
 }
 
-/// A press of a board.
+/// A press on a board.
 struct Seen {
     row: usize,
     spacing: Nanometre,
     fold: usize,
-    /// Its spectrum beyond the background of each fold.
+    /// Spectrum of the press for each fold, after subtraction of the background of the fold.
     spectra: Vec<Vec<f64>>,
 }
 
-/// The pictures of the presses of one relief.
+/// Frames of the presses on one relief.
 struct Pictures<'a> {
     dataset: &'a Dataset,
     spectra: RadialSpectrum,
     presses: &'a [(usize, Nanometre)],
     rows: Vec<usize>,
-    /// The fold of each press: those of one board are assigned in turn.
+    /// Fold of each press. Presses on one board are assigned in turn.
     folds: Vec<usize>,
     work: Work<'a>,
 }
@@ -126,7 +126,7 @@ impl<'a> Pictures<'a> {
         Ok(seen)
     }
 
-    /// For each fold, the sum of the planes of all other folds, and their number; calls `keep` with each plane once.
+    /// Sum and number of the planes of all other folds, for each fold; calls `keep` once with each plane.
     fn backgrounds(
         &self,
         mut keep: impl FnMut(FourierPlane),
@@ -155,7 +155,7 @@ impl<'a> Pictures<'a> {
     }
 }
 
-/// Classifies the presses of `fold` by a classifier fitted on the others.
+/// Classifies the presses of `fold` by a classifier fitted on the other folds.
 fn classify_fold(
     seen: &[Seen],
     fold: usize,

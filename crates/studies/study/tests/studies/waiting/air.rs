@@ -1,4 +1,4 @@
-//! A run in the air.
+//! Tests of a rehearsal above the gel.
 
 use taceva_acquire::{AIR_MM, rehearse_scene};
 use taceva_core::SilentProgress;
@@ -17,7 +17,7 @@ fn a_run_in_the_air_visits_every_place_far_above_the_gel_and_presses_nothing() {
         |planned, workshop| Ok(rehearse_scene(planned, workshop)?),
     );
     assert_eq!(visited.expect("nothing is in the way"), 3);
-    // Depths of the presses, a millimetre at most, are visited there too.
+    // The rehearsal also visits the depths of the presses, at most 1 mm.
     assert!(depth_mm(&world) < 1.0 - AIR_MM, "{} mm", depth_mm(&world));
     let state = world.state();
     assert!(state.motions >= 3 && state.deepest_mm <= 0.0);

@@ -1,4 +1,4 @@
-//! A camera that goes wrong amid presses.
+//! Tests of a camera that fails during presses.
 
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,7 +10,7 @@ use crate::waiting::guard::{depth_mm, stopped};
 use crate::waiting::record_by_hand;
 use crate::waiting::world::World;
 
-/// Pictures of six places.
+/// Scene with frames of six places.
 const SEEN: &str = r#"
 scene_version = 1
 name = "wall"
@@ -25,7 +25,7 @@ contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 5.0, travel_mm_s =
 calibration = { points = 6, indentations = 2, shear_mm = 0.0 }
 "#;
 
-/// Spoils the camera once the tip is in the gel.
+/// Makes the camera fail once the tip is in the gel.
 struct Spoils<'a>(&'a World, ErrorKind, AtomicBool);
 
 impl Progress for Spoils<'_> {
@@ -51,7 +51,7 @@ fn a_camera_that_is_unplugged_or_changes_its_size_ends_a_run_above_the_gel_which
             StopCause::Device(device) => {
                 assert_eq!((device.kind(), kind), (kind, ErrorKind::Disconnected));
             }
-            // One frame of another size is a frame that is lost; nothing but such frames end the run.
+            // A frame of another size counts as lost. Only such frames end the run.
             StopCause::Frames { .. } => assert_eq!(kind, ErrorKind::Protocol),
             other => panic!("{other}"),
         }

@@ -1,4 +1,4 @@
-//! Specimens and units that changers bring: when these move, who does it where they do not, and what comes of one that fails.
+//! Tests of changers for specimens and units: their order of motion, the manual alternative, and failures.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Condvar, Mutex};
@@ -17,7 +17,7 @@ use crate::waiting::record_on;
 use crate::waiting::session::{self, UPRIGHT, rig_file, scene};
 use crate::waiting::world::{Misfortune, World};
 
-/// Two units, of which the surface is felt at two places each, with a tip so slow in contact that a busy machine is in time.
+/// Two units, each with its surface measured at two places. The tip is slow in contact, so that a busy machine keeps up.
 const SCENE: &str = r#"
 scene_version = 1
 name = "wall"
@@ -32,12 +32,12 @@ want = ["inter_sensor"]
 contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 1.5, travel_mm_s = 50.0, settle_s = 0.01 }
 surface = { points = 2 }
 "#;
-/// What the scene presses with.
+/// Specimen of the scene.
 const BALL: &str = "sphere of radius 2 mm";
-/// How long a change takes, and how often it is looked whether the robot stands meanwhile.
+/// Duration of a change, and interval at which the changer checks that the robot stands still.
 const CHANGE: Duration = Duration::from_millis(100);
 
-/// A changer that looks at the robot while it moves.
+/// A changer that observes the robot during a change.
 pub(crate) struct Carousel {
     world: World,
     holds: Vec<String>,
@@ -55,7 +55,7 @@ impl Interrupt for Bell {
 }
 
 impl Bell {
-    /// Whether it rang within `patience`; it is quiet again after that.
+    /// True if it was notified within `patience`; resets the notification.
     fn rang_within(&self, patience: Duration) -> bool {
         let held = self.0.lock().expect("whole");
         let waited = self.1.wait_timeout_while(held, patience, |rang| !*rang);
@@ -109,7 +109,7 @@ impl Changer for Carousel {
     }
 }
 
-/// The rig file of a world with `changers`. It says that it is emulated, so that nobody has to let the robot move.
+/// Rig file of a world with `changers`. It states that the rig is emulated, so that no operator has to enable the robot.
 fn rig(folder: &Path, changers: &str) -> PathBuf {
     let path = rig_file(folder, UPRIGHT);
     let text = std::fs::read_to_string(&path).expect("written");
@@ -118,7 +118,7 @@ fn rig(folder: &Path, changers: &str) -> PathBuf {
     path
 }
 
-/// Changers that hold everything.
+/// Changers that hold every item.
 fn both() -> String {
     format!(
         "specimen = \"wall/carousel:holds={BALL}\"\nunit = \"wall/revolver:holds=a+b\"\npatience_s = 0.5"
@@ -130,7 +130,7 @@ fn changers_bring_units_and_specimens_while_the_robot_stands_halted_and_nobody_i
     let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
     let rig = rig(folder.path(), &both());
     let run = folder.path().join("run");
-    // Whoever was there before left the tip in the gel.
+    // An earlier run left the tip in the gel.
     assert!(world.travel([0.0, 0.0, 0.2], 50.0));
     let whole = record_on(&world, &run, &SilentProgress, (SCENE, Some(&rig), None));
     assert_eq!(whole.expect("two units").table().samples().len(), 4);
@@ -247,7 +247,7 @@ fn a_changer_that_fails_ends_an_unattended_run_with_everything_recorded_and_the_
     }
 }
 
-/// Answers, notes what was asked, and mends the changer.
+/// Answers and stores the questions, and repairs the changer.
 struct Person(World, Vec<Question>);
 
 impl Operator for Person {
@@ -319,7 +319,7 @@ fn a_changer_that_is_none_or_holds_nothing_is_refused_with_its_line() {
     }
 }
 
-/// Wishes to stop while the changer moves.
+/// Requests a stop while the changer moves.
 struct StopsMeanwhile(Instant);
 
 impl Progress for StopsMeanwhile {

@@ -1,4 +1,4 @@
-//! The drivers of that world.
+//! Drivers of the emulated world.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -24,12 +24,12 @@ pub(crate) const CAROUSEL: DriverKey = DriverKey::fixed("wall/carousel");
 const REVOLVER: DriverKey = DriverKey::fixed("wall/revolver");
 const LAMP: DriverKey = DriverKey::fixed("wall/lamp");
 const SENSOR: DriverKey = DriverKey::fixed("wall/gel");
-/// From one reading to the next.
+/// Interval between readings.
 const READING_S: f64 = 0.005;
-/// How late readings are stamped.
+/// Delay of the stamps of readings.
 const LATENCY_MS: f64 = 1.0;
 
-/// The drivers of `world`.
+/// Drivers of `world`.
 pub(crate) fn drivers(world: &World) -> Drivers {
     let robot = RobotFacts::default().with_repeatability(Millimetre(0.002));
     let force = ForceFacts::default()
@@ -89,7 +89,7 @@ fn unplugged(doing: &'static str) -> DriverError {
     DriverError::new(ErrorKind::Disconnected, &SWITCH, doing).because("it was unplugged")
 }
 
-/// What somebody holds with a foot.
+/// Foot pedal as the enabling switch.
 struct Pedal(World);
 
 impl EnablingSwitch for Pedal {
@@ -102,7 +102,7 @@ impl EnablingSwitch for Pedal {
     }
 }
 
-/// Opens a device of a world.
+/// Factory that opens a device of a world.
 struct OnWall {
     descriptor: Descriptor,
     world: World,
@@ -111,7 +111,7 @@ struct OnWall {
 impl OnWall {
     fn new(key: DriverKey, facts: Facts, world: &World) -> OnWall {
         let spec = DescriptorSpec::new(key, "a device of this test", DriverSource::Real, facts);
-        // Of a sensor there are several.
+        // There are several sensors, selected by `unit`.
         let spec = match spec.facts {
             Facts::Sensor(_) => spec.arguments([ArgSpec::text("unit").optional()]),
             _ => spec,
@@ -123,7 +123,7 @@ impl OnWall {
     }
 }
 
-/// Makes the factory one of devices of a kind.
+/// Implements the factory for a kind of device.
 macro_rules! opens {
     ($kind:ty, $device:path) => {
         impl Factory<$kind> for OnWall {
@@ -154,7 +154,7 @@ impl Factory<dyn Changer> for OnWall {
     }
 }
 
-/// The names in an argument, with `+` between them.
+/// Names in an argument, separated by `+`.
 fn held(args: &Args) -> Vec<String> {
     args.text("holds").split('+').map(str::to_owned).collect()
 }
@@ -164,7 +164,7 @@ opens!(dyn ForceTransducer, Transducer);
 opens!(dyn Sensor, Gel);
 opens!(dyn Lighting, Lamp::over);
 
-/// The scenes of the lamp.
+/// Scenes of the lamp.
 fn scenes() -> Vec<String> {
     ["dark", "lamp"].map(str::to_owned).to_vec()
 }
@@ -289,7 +289,7 @@ impl ForceTransducer for Transducer {
         let mut state = self.0.state();
         let now = MonotonicClock.now();
         state.readings += 1;
-        // A load of 0.3 N rests on it, and its noise is a function of the number of the reading.
+        // A load of 0.3 N rests on it. Its noise depends on the number of the reading.
         let noise_n = if state.readings.is_multiple_of(2) {
             0.001
         } else {
@@ -297,7 +297,7 @@ impl ForceTransducer for Transducer {
         };
         let force_n = state.force_n(now.as_secs_f64()) + noise_n + 0.3;
         let force = [Newton(0.0), Newton(0.0), Newton(force_n)];
-        // It is stamped late, as its descriptor says.
+        // The stamp is late by the latency in the descriptor.
         let stamp = Stamp::at(now + Duration::from_micros(1_000));
         let wrench = Wrench {
             force,
@@ -317,7 +317,7 @@ const FRAME: FrameInfo = FrameInfo {
     format: PixelFormat::Gray8,
 };
 
-/// Shows whether it is touched.
+/// Touch sensor of the gel.
 struct Gel(World);
 
 impl Sensor for Gel {

@@ -1,4 +1,4 @@
-//! What the threads of the guard see while the tip moves, and what comes of it.
+//! Tests of the guard threads during motions, and of their reactions.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,7 +12,7 @@ use taceva_study::StudyError;
 use crate::waiting::record;
 use crate::waiting::world::World;
 
-/// Calls `look` with the world whenever the guard asks for wishes, a hundred times a second; what it returns are the wishes.
+/// Calls `look` with the world whenever the guard asks for cancellation, a hundred times a second, and returns its result.
 struct Looking<'a, F>(&'a World, F);
 
 #[derive(Clone, Copy, Default)]
@@ -33,7 +33,7 @@ impl<F: Fn(&World) -> Wishes + Send + Sync> Progress for Looking<'_, F> {
     }
 }
 
-/// Records while `look` looks on.
+/// Records the scene while `look` observes it.
 fn looked_on(
     world: &World,
     folder: &Path,
@@ -55,7 +55,7 @@ pub(crate) fn depth_mm(world: &World) -> f64 {
     state.tip(taceva_drivers::MonotonicClock.now_s())[2]
 }
 
-/// Every press of the scene once, with both of its samples.
+/// Asserts that every press of the scene occurs once, with both of its samples.
 fn assert_whole(dataset: &Dataset) {
     let mut names: Vec<&String> = dataset.table().samples().iter().collect();
     assert_eq!(names.len(), 6);
@@ -67,7 +67,7 @@ fn assert_whole(dataset: &Dataset) {
 #[test]
 fn a_collision_on_the_way_through_the_air_is_seen_before_its_end() {
     let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
-    // Presses lie on both sides; the first that is to the right is not reached.
+    // Presses lie on both sides; the first one to the right is not reached.
     world.state().obstacle_x_mm = 0.05;
     let error = stopped(looked_on(&world, &folder.path().join("run"), |_| {
         Wishes::default()
@@ -82,7 +82,7 @@ fn a_collision_on_the_way_through_the_air_is_seen_before_its_end() {
     let state = world.state();
     let struck_s = state.struck_s.expect("it came there");
     let late_s = state.first_halt_after(struck_s) - struck_s;
-    // 5 ms to the next reading; the rest is what a busy machine takes to wake a thread.
+    // The next reading comes after 5 ms; the rest is the time to wake a thread on a busy machine.
     assert!((0.0..0.2).contains(&late_s), "{late_s} s");
 }
 
@@ -92,7 +92,7 @@ fn a_press_is_made_again_after_a_gap_in_the_stream_of_forces() {
     let was_silent = AtomicBool::new(false);
     let dataset = looked_on(&world, &folder.path().join("run"), |world| {
         if depth_mm(world) > 0.1 && !was_silent.swap(true, Ordering::SeqCst) {
-            // Six questions of 20 ms each.
+            // Six calls of 20 ms each.
             world.state().withheld = 6;
         }
         Wishes::default()

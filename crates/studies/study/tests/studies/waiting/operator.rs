@@ -1,4 +1,4 @@
-//! A study that needs hands: refused where nobody is, and asked for where somebody is.
+//! Tests of a study that needs an operator: rejected without one, and asked for with one.
 
 use std::sync::Mutex;
 
@@ -10,7 +10,7 @@ use taceva_study::StudyError;
 use crate::waiting::record_by_hand;
 use crate::waiting::world::World;
 
-/// Two units, of which the surface is felt at two places each.
+/// Two units, each with its surface measured at two places.
 const SCENE: &str = r#"
 scene_version = 1
 name = "wall"
@@ -50,7 +50,7 @@ fn a_scene_that_needs_hands_is_refused_where_nobody_can_be_asked_before_anything
     let refused = refused.expect_err("nobody is there");
     assert!(refused.is_usage());
     let text = refused.to_string();
-    let needed = "this rig needs a person: 2 units of the sensor are changed by hand";
+    let needed = "this rig needs an operator: 2 units of the sensor are changed by hand";
     assert!(text.contains(needed), "{text}");
     assert_eq!(world.state().readings, 0);
 }
@@ -87,7 +87,7 @@ fn each_unit_is_asked_for_and_one_that_is_skipped_is_left_for_the_next_call() {
     assert_eq!(whole.table().samples().len(), 4);
 }
 
-/// Notes where the tip stands when a unit is asked for, whether it is halted then, and whether it moves before the answer.
+/// Stores the tip height when a unit is requested, whether the tip is halted, and whether it moves before the answer.
 struct Hands {
     world: World,
     seen: Vec<(f64, bool, bool)>,
@@ -117,7 +117,7 @@ impl Hands {
 fn a_tip_that_stands_in_the_gel_is_raised_and_halted_before_a_unit_is_asked_for() {
     let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
     let path = folder.path().join("run");
-    // Whoever was there before left it 0.2 mm deep.
+    // An earlier run left the tip 0.2 mm deep.
     assert!(world.travel([0.0, 0.0, 0.2], 50.0));
     let hands = Mutex::new(Hands {
         world: world.clone(),
@@ -136,7 +136,7 @@ fn a_tip_that_stands_in_the_gel_is_raised_and_halted_before_a_unit_is_asked_for(
     }
 }
 
-/// One unit under two lights, which no device sets.
+/// One unit under two lights that no device sets.
 pub(crate) const LIGHTS: &str = r#"
 scene_version = 1
 name = "wall"

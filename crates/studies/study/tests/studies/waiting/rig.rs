@@ -1,4 +1,4 @@
-//! Setting a rig up: what is heard of its devices, how soon its robot stands, and where somebody jogged it.
+//! Tests of rig setup: readings of its devices, the halt of its robot, and taught places.
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -12,7 +12,7 @@ use crate::waiting::record_on;
 use crate::waiting::session::{self, UPRIGHT, rig_file, scene};
 use crate::waiting::world::World;
 
-/// Lets the robot move, or not.
+/// Allows or forbids the robot to move.
 struct Person(Answer);
 
 impl Operator for Person {
@@ -38,7 +38,7 @@ fn a_check_hears_every_device_and_halts_the_robot_once_on_its_way_up_if_somebody
     let check = check_rig(&rig(), &drivers, Some(&mut Person(Answer::Done)));
     let check = check.expect("devices that answer");
     let force = check.force.expect("it is in the file");
-    // One every 5 ms, and fewer where the machine is busy; it hisses by 1 mN.
+    // A reading every 5 ms, fewer on a busy machine, with noise of 1 mN.
     assert!((20.0..201.0).contains(&force.rate_hz), "{force:?}");
     let noise_n = force.noise.expect("numbers");
     assert!((0.0009..0.0011).contains(&noise_n), "{force:?}");
@@ -49,7 +49,7 @@ fn a_check_hears_every_device_and_halts_the_robot_once_on_its_way_up_if_somebody
         "{robot:?}"
     );
     let halt = check.halt.expect("somebody let it move");
-    // 0.3 s at 5 mm/s, or a little more where the machine is busy; upwards.
+    // 0.3 s upwards at 5 mm/s, or a little more on a busy machine.
     assert!((1.0..4.9).contains(&halt.left_mm), "{halt:?}");
     let now_s = taceva_drivers::MonotonicClock.now_s();
     let state = world.state();
@@ -129,7 +129,7 @@ fn nothing_moves_in_a_check_whose_rig_file_has_the_tip_in_the_gel_or_was_never_t
     assert_eq!(check.halt_left_out.as_deref(), Some(why));
 }
 
-/// A rig file as `init rig` writes it.
+/// A rig file as written by `init rig`.
 fn untaught() -> RigFile {
     let folder = tempfile::tempdir().expect("a folder");
     read_rig(&new_file(folder.path())).expect("a rig")
@@ -166,7 +166,7 @@ fn a_run_with_a_rig_file_that_was_never_taught_is_refused_with_its_line_before_a
     assert_eq!((state.readings, state.motions), (0, 0));
 }
 
-/// Fails the test if it is asked.
+/// An operator that fails the test if asked.
 struct Nobody;
 
 impl Operator for Nobody {
@@ -175,7 +175,7 @@ impl Operator for Nobody {
     }
 }
 
-/// Jogs the robot in its base frame to places that it was given.
+/// An operator that jogs the robot to given places in its base frame.
 struct Jogs {
     world: World,
     along: [[f64; 3]; 3],
@@ -214,7 +214,7 @@ fn three_places_to_which_the_robot_is_jogged_become_its_origin_and_axes() {
     assert_eq!(robot.axes.value.to_string(), "[\"y\", \"x\", \"-z\"]");
     assert!(robot.origin_mm.value.iter().eq(&taught.origin_mm));
     assert_eq!(rig.force, self::rig().force);
-    // Nobody but the person moved it.
+    // Only the operator moved it.
     assert_eq!(world.state().motions, 3);
 }
 

@@ -1,4 +1,4 @@
-//! Sessions on the rig of a rig file: who lets the robot move, what is tried first, and what is written down of it.
+//! Tests of sessions on the rig of a rig file: permission, checks before presses, and the session table.
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -12,7 +12,7 @@ use taceva_study::StudyError;
 use crate::waiting::world::World;
 use crate::waiting::{SCENE, record_on};
 
-/// The rig file of a world, whose transducer lies so.
+/// Rig file of a world whose transducer has the axes `force_axes`.
 pub(crate) fn rig_file(folder: &Path, force_axes: &str) -> PathBuf {
     let path = folder.join("lab.toml");
     let text = format!(
@@ -22,14 +22,14 @@ pub(crate) fn rig_file(folder: &Path, force_axes: &str) -> PathBuf {
     path
 }
 
-/// The scene with a tip so slow in contact that a busy machine is in time.
+/// Scene with a tip so slow in contact that a busy machine keeps up.
 pub(crate) fn scene() -> String {
     SCENE.replacen("speed_mm_s = 5.0", "speed_mm_s = 1.5", 1)
 }
 
 pub(crate) const UPRIGHT: &str = "[\"x\", \"y\", \"z\"]";
 
-/// Says yes to everything, and notes what was asked.
+/// Allows everything, and stores the questions.
 #[derive(Default)]
 pub(crate) struct Person(Vec<Question>);
 
@@ -46,7 +46,7 @@ fn rows(folder: &Path) -> Vec<String> {
     text.lines().skip(1).map(str::to_owned).collect()
 }
 
-/// Stops once the tip is in the gel for the first time after the session has begun.
+/// Requests a stop once the tip is in the gel for the first time after the session began.
 struct StopsInPress<'a>(&'a World, PathBuf, AtomicBool);
 
 impl Progress for StopsInPress<'_> {
@@ -95,7 +95,7 @@ fn a_session_is_enabled_tried_and_written_down_and_the_next_one_goes_on_where_th
         .iter()
         .any(|asked| matches!(asked, Question::Resume(_)));
     assert!(!resumed && asked.len() == 4, "{asked:?}");
-    // The same boot, and columns of lengths and forces that agree.
+    // The same boot id, and consistent columns of lengths and forces.
     let fields: Vec<Vec<&str>> = rows.iter().map(|row| row.split(',').collect()).collect();
     assert_eq!(fields[0][0], fields[1][0]);
     let number =
@@ -123,7 +123,7 @@ fn a_transducer_that_is_upside_down_in_the_rig_file_stops_the_session_before_its
         "lab.toml, line 9: `axes` of [force]: pressed along +z, the force was measured along -z";
     assert!(said.contains(line), "{said}");
     let state = world.state();
-    // No deeper than half of what is allowed, and out again.
+    // At most half of the allowed depth, and out again.
     assert!(state.deepest_mm < 0.5, "{} mm", state.deepest_mm);
     assert!(state.tip(taceva_drivers::MonotonicClock.now_s())[2] < -0.29);
     assert!(!run.join("recordings/1-wall.sessions.csv").exists());
@@ -139,13 +139,13 @@ fn a_robot_that_nobody_is_there_to_let_move_is_refused_before_anything_is_opened
     assert!(refused.is_usage());
     let said = refused.to_string();
     assert!(
-        said.contains("this rig needs a person: `wall/robot` is enabled by hand"),
+        said.contains("this rig needs an operator: `wall/robot` is enabled by hand"),
         "{said}"
     );
     assert_eq!(world.state().readings, 0);
 }
 
-/// Wishes to stop so long after it was made.
+/// Requests a stop after this time, in s.
 struct StopsAfter(f64);
 
 impl StopsAfter {
@@ -169,7 +169,7 @@ fn ctrl_c_at_any_moment_leaves_the_tip_above_the_gel_and_no_press_is_lost_or_dou
     let rig = rig_file(folder.path(), UPRIGHT);
     let run = folder.path().join("run");
     let person = Mutex::new(Person::default());
-    // While readings are timed, in the air, in the gentle touch, in presses.
+    // Stops while readings are timed, in the air, in the gentle touch, and in presses.
     for seconds in [0.3, 2.2, 2.9, 3.6, 4.4, 5.3] {
         let stops = StopsAfter::seconds(seconds);
         let stopped = record_on(&world, &run, &stops, (&scene(), Some(&rig), Some(&person)));
@@ -181,7 +181,7 @@ fn ctrl_c_at_any_moment_leaves_the_tip_above_the_gel_and_no_press_is_lost_or_dou
                 );
             }
             Err(other) => panic!("{seconds}: {other}"),
-            // A quick machine had finished.
+            // A fast machine has finished already.
             Ok(_) => {}
         }
         let tip = world.state().tip(taceva_drivers::MonotonicClock.now_s());
@@ -200,7 +200,7 @@ fn ctrl_c_at_any_moment_leaves_the_tip_above_the_gel_and_no_press_is_lost_or_dou
     assert_eq!(names.len(), 6);
 }
 
-/// Never answers: waits until the run is cancelled.
+/// Never answers; waits until the run is cancelled.
 struct WalkedAway(World, u32);
 
 impl Operator for WalkedAway {
@@ -235,7 +235,7 @@ fn a_disk_that_takes_no_session_stops_it_before_its_first_press() {
     let rig = rig_file(folder.path(), UPRIGHT);
     let run = folder.path().join("run");
     let person = Mutex::new(Person::default());
-    // A folder stands in its place.
+    // A folder blocks the path of the session table.
     let in_the_way = run.join("recordings/1-wall.sessions.csv");
     let blocks = Blocks(in_the_way.clone());
     let stopped = record_on(&world, &run, &blocks, (&scene(), Some(&rig), Some(&person)));
@@ -254,7 +254,7 @@ fn a_disk_that_takes_no_session_stops_it_before_its_first_press() {
     assert_eq!(dataset.expect("it goes on").table().samples().len(), 6);
 }
 
-/// Puts a folder where a file is going to be written, as soon as there is a folder of recordings.
+/// Creates a folder at the path of the session table once the folder of recordings exists.
 struct Blocks(PathBuf);
 
 impl Progress for Blocks {

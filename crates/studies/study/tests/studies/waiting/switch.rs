@@ -1,4 +1,4 @@
-//! An enabling switch that somebody holds while a run moves the robot.
+//! Tests of an enabling switch while a run moves the robot.
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -16,7 +16,7 @@ use crate::waiting::record_on;
 use crate::waiting::session::{Person, UPRIGHT, rig_file, scene};
 use crate::waiting::world::World;
 
-/// The rig file of a world with an enabling switch, whose line is 12.
+/// Rig file of a world with an enabling switch, in line 12.
 fn rig_with(folder: &Path, enable: &str) -> PathBuf {
     let path = rig_file(folder, UPRIGHT);
     let mut text = std::fs::read_to_string(&path).expect("written");
@@ -53,16 +53,16 @@ fn assert_whole(dataset: &Dataset) {
     assert_eq!((names.len(), dataset.table().samples().len()), (6, 6));
 }
 
-/// How many of the looks of the guard the switch is let go for.
+/// Number of guard readings for which the switch is released.
 const LOOKS: u32 = 40;
-/// A motion that was going on is halted within so many looks.
+/// Number of guard readings within which a motion in progress is halted.
 const HALTED_LOOKS: u32 = 20;
 
-/// Lets the switch go once the tip is deep in the gel, and holds it again 40 looks later; the tip must stand meanwhile.
+/// Releases the switch once the tip is deep in the gel, and holds it again 40 readings later. The tip must stand still meanwhile.
 struct LetsGo<'a> {
     world: &'a World,
     looks: AtomicU32,
-    /// Where the tip stood when it must have been halted, by the bits of a number.
+    /// Position of the tip when it must have been halted, as the bits of a number.
     stood: AtomicU64,
     moved_looks: AtomicU32,
 }
@@ -196,7 +196,7 @@ fn an_enable_that_is_no_switch_or_does_not_open_is_refused_with_its_line_before_
     }
 }
 
-/// Lets the robot move.
+/// Allows the robot to move.
 struct LetsMove;
 
 impl Operator for LetsMove {
@@ -205,7 +205,7 @@ impl Operator for LetsMove {
     }
 }
 
-/// What `rig check` finds with the switch held or not, with somebody there.
+/// Result of `rig check` with the switch held or not, with an operator.
 fn checked(world: &World, is_held: bool) -> RigCheck {
     let folder = tempfile::tempdir().expect("a folder");
     let rig = read_rig(&rig_with(folder.path(), "wall/pedal")).expect("a rig");

@@ -1,4 +1,4 @@
-//! A robot, a gel and a force transducer that say that they are real: the time in which they work is that of the machine.
+//! A robot, a gel and a force transducer that claim to be real and run in real time.
 
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
@@ -6,54 +6,53 @@ use std::time::Duration;
 use taceva_core::{ErrorKind, Millimetre, Point, Pose};
 use taceva_drivers::MonotonicClock;
 
-/// The gel, in N/mm from a height of 0.
+/// Stiffness of the gel, in N/mm, from a height of 0.
 const STIFFNESS_N_MM: f64 = 0.5;
-/// Where the tip begins.
+/// Start position of the tip, in mm.
 const HOME_MM: [f64; 3] = [0.0, 0.0, -2.0];
 
-/// What goes on, shared by the devices and by a test that looks on.
+/// State of the emulated rig, shared by its devices and the test.
 #[derive(Clone)]
 pub(crate) struct World(Arc<Mutex<State>>);
 
 pub(crate) struct State {
-    /// From where to where, and from when to when.
+    /// Start and end of the current motion, with their times.
     way: [[f64; 3]; 2],
     span_s: [f64; 2],
     pub(crate) is_halted: bool,
     pub(crate) motions: u32,
-    /// Readings that were given, and how many are still withheld.
+    /// Number of readings returned, and number still to be withheld.
     pub(crate) readings: u64,
     pub(crate) withheld: u32,
     pub(crate) deepest_mm: f64,
-    /// How often the robot was halted, and when.
+    /// Number and times of the halts of the robot.
     pub(crate) halts: usize,
     halted_s: Vec<f64>,
-    /// Something stands in the air, where x is above this, and presses with 1 N.
+    /// An obstacle in the air presses with 1 N where x is above this, in mm.
     pub(crate) obstacle_x_mm: f64,
-    /// When the tip came to it first.
+    /// Time of the first contact with it, in s.
     pub(crate) struck_s: Option<f64>,
-    /// Whether the emergency stop is pressed.
+    /// True if the emergency stop is pressed.
     pub(crate) is_stopped: bool,
-    /// Whether the robot gives no pose, because its cable is out.
+    /// True if the robot reports no pose, because its cable is unplugged.
     pub(crate) is_lost: bool,
-    /// Motions and releases that were asked for after it was reported.
+    /// Number of motions and releases that were requested after the fault was reported.
     pub(crate) defied: u32,
     told: bool,
-    /// Whether the enabling switch is there and held.
+    /// True if the enabling switch is present and held.
     pub(crate) is_held: bool,
     pub(crate) is_unplugged: bool,
-    /// What the camera says instead of giving a picture, and how many it gave.
+    /// Error that the camera returns instead of a frame, and number of frames returned.
     pub(crate) camera: Option<ErrorKind>,
     pub(crate) pictures: u32,
-    /// What goes wrong with a changer, and of every change what was asked for, the height of the tip, whether it was halted, and whether it
-    /// stood meanwhile.
+    /// Fault of a changer. For every change, also the requested item, the height of the tip, whether it was halted, and whether it stood still.
     pub(crate) changer: Misfortune,
     pub(crate) changes: Vec<(String, f64, bool, bool)>,
-    /// Of every light that was set, its name and the height of the tip.
+    /// Name of every light that was set, and the height of the tip.
     pub(crate) lights: Vec<(String, f64)>,
 }
 
-/// What goes wrong with a changer.
+/// Fault of a changer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Misfortune {
     None,
@@ -95,7 +94,7 @@ impl World {
         self.0.lock().expect("nobody panics with it")
     }
 
-    /// Moves the tip, and returns when it rests; whether it arrived.
+    /// Moves the tip and waits until it rests; returns true if it arrived.
     pub(crate) fn travel(&self, to: [f64; 3], speed_mm_s: f64) -> bool {
         let until_s = {
             let mut state = self.state();
@@ -133,7 +132,7 @@ impl World {
         state.halted_s.push(MonotonicClock.now_s());
     }
 
-    /// Somebody presses the emergency stop.
+    /// Presses the emergency stop.
     pub(crate) fn stop(&self) {
         let mut state = self.state();
         state.stand();
@@ -142,7 +141,7 @@ impl World {
 }
 
 impl State {
-    /// When it was halted first after `time_s`.
+    /// Time of the first halt after `time_s`.
     pub(crate) fn first_halt_after(&self, time_s: f64) -> f64 {
         let mut later = self.halted_s.iter().filter(|halted_s| **halted_s >= time_s);
         *later.next().expect("it was halted")
@@ -162,7 +161,7 @@ impl State {
         [0, 1, 2].map(|axis| from[axis] + (to[axis] - from[axis]) * part)
     }
 
-    /// What presses on the tip, without noise.
+    /// Force on the tip, without noise, in N.
     pub(crate) fn force_n(&mut self, now_s: f64) -> f64 {
         let [x, _, z] = self.tip(now_s);
         self.deepest_mm = self.deepest_mm.max(z);
@@ -177,7 +176,7 @@ impl State {
         STIFFNESS_N_MM * z.max(0.0)
     }
 
-    /// Whether the robot refuses, because the emergency stop is pressed.
+    /// True if the robot rejects motions because the emergency stop is pressed.
     pub(crate) fn refuses(&mut self) -> bool {
         if self.is_stopped {
             self.defied += u32::from(std::mem::replace(&mut self.told, true));

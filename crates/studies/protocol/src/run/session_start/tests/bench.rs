@@ -1,4 +1,4 @@
-//! A gel with an arm, a transducer and a camera in simulated time, what may be wrong with it, and a session on it.
+//! A gel with an arm, a transducer and a camera in simulated time, its possible faults, and a session on it.
 
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
@@ -19,9 +19,9 @@ use crate::run::{
     SharedSupervisor, Supervisor, TapListener, Tapped, Timekeeper, run_guarded, tap,
 };
 
-/// How the transducer of the bench is mounted.
+/// Mounting axes of the transducer.
 pub(super) const MOUNTED: [&str; 3] = ["x", "-y", "-z"];
-/// Where its gel begins, in mm, and how stiff it is against presses and pushes, in N/mm.
+/// Surface height of the gel, in mm, and its stiffness against presses and pushes, in N/mm.
 pub(super) const SURFACE_MM: f64 = 0.13;
 const STIFFNESS_N_MM: [f64; 3] = [0.1, 0.1, 0.5];
 
@@ -40,14 +40,14 @@ pub(super) struct Bench(Arc<Mutex<State>>);
 pub(super) struct State {
     now_s: f64,
     pose: Pose,
-    /// Where the tip touched the gel.
+    /// Place at which the tip touched the gel.
     touched: Option<[f64; 2]>,
     axes: SignedAxes,
     readings: u32,
     pub(super) motions: u32,
     is_halted: bool,
     pub(super) supervisor: Option<SharedSupervisor>,
-    // What may be wrong with it.
+    // Possible faults.
     pub(super) surface_mm: f64,
     pub(super) stiffness: f64,
     pub(super) latency_s: f64,
@@ -60,7 +60,7 @@ pub(super) struct State {
 pub(super) enum Sees {
     Touches,
     Nothing,
-    /// What it saw once it shows for ever.
+    /// Keeps showing the touch forever.
     Afterwards,
 }
 
@@ -103,7 +103,7 @@ impl State {
         (self.pose.position.z.0 - self.surface_mm).max(0.0)
     }
 
-    /// What the tip does to the gel, along the axes of the sensor.
+    /// Force of the tip on the gel, along the axes of the sensor, in N.
     fn force_n(&mut self) -> [f64; 3] {
         let depth_mm = self.depth_mm();
         if depth_mm <= 0.0 {
@@ -168,7 +168,7 @@ impl ForceTransducer for Transducer {
         Axes::FORCE
     }
 
-    /// As it is mounted, turned as the rig file says, and shown to the supervisor as a thread of the guard would.
+    /// A reading along the mounted axes, mapped by the rig file and passed to the supervisor, as by a guard thread.
     fn read(&mut self, _: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let mut state = self.0.state();
         state.readings += 1;
@@ -189,7 +189,7 @@ impl ForceTransducer for Transducer {
         let seen = Observation::Numbered(wrench, stamp, u64::from(state.readings));
         drop(state);
         let _ = supervisor.lock().observe(&seen, now_s);
-        // The next question is asked once the reading is here: it was true when this one was.
+        // The next reading starts once this one has arrived.
         Ok((
             wrench,
             Stamp {
@@ -233,7 +233,7 @@ impl Sensor for Camera {
 }
 
 impl State {
-    /// The way below the surface, for a picture that keeps what it saw.
+    /// Depth below the surface, for a frame that keeps an earlier touch.
     fn deepest(&mut self) -> f64 {
         if self.depth_mm() > 0.0 {
             self.clings_n = self.clings_n.max(f64::MIN_POSITIVE);
@@ -252,7 +252,7 @@ impl Timekeeper for Bench {
     }
 }
 
-/// What a session wrote.
+/// Stores the records of a session.
 #[derive(Default)]
 pub(super) struct Memory {
     pub(super) presses: usize,
@@ -277,7 +277,7 @@ impl PressLog for Memory {
     }
 }
 
-/// Answers, and notes how high the tip stood and how often it had moved.
+/// Answers, and stores the height of the tip and the number of its motions.
 pub(super) struct Person {
     bench: Bench,
     answer: Answer,
@@ -300,7 +300,7 @@ pub(super) struct Session<'a> {
     pub(super) answer: Option<Answer>,
 }
 
-/// Taps of a rig that its file describes, with `listener`.
+/// Taps on the rig of a rig file, with `listener`.
 pub(super) fn tapped(bench: &Bench, listener: &mut dyn TapListener) -> Result<Tapped, RunError> {
     let mut plan = one_press();
     plan.presses[0].frames = false;
@@ -323,7 +323,7 @@ pub(super) fn tapped(bench: &Bench, listener: &mut dyn TapListener) -> Result<Ta
     )
 }
 
-/// A supervisor of the bench, which its transducer shows every reading to.
+/// A supervisor of the bench that receives every reading of its transducer.
 fn supervised(bench: &Bench, plan: &Plan) -> SharedSupervisor {
     let limits = plan.limits.clone().expect("it moves");
     let supervisor = SharedSupervisor::new(Supervisor::new(limits, Arc::new(bench.clone())));
@@ -331,7 +331,7 @@ fn supervised(bench: &Bench, plan: &Plan) -> SharedSupervisor {
     supervisor
 }
 
-/// One touch of the surface, with a picture.
+/// One touch of the surface, with a frame.
 fn one_press() -> Plan {
     let mut plan = plan();
     plan.presses.truncate(1);

@@ -1,9 +1,9 @@
-//! Taps that are broken off.
+//! Tests of interrupted taps.
 
 use super::bench::{Bench, MOUNTED, tapped};
 use crate::run::{Observation, TapHeard, TapListener, Tapped, Timekeeper as _};
 
-/// Counts taps; during one of them the threads that look on hear nothing for a while.
+/// Counts taps. During one of them, the guard threads receive no readings for a while.
 struct Counting {
     bench: Bench,
     broken_off: u32,

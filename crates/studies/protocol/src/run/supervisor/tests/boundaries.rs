@@ -1,9 +1,8 @@
-//! Each limit from both sides, for each axis and sign: what lies on it is let through or not as its words say, and the next number of
-//! binary64 on its other side is not.
+//! Tests of each limit from both sides, for each axis and sign: the limit itself, and the next binary64 number beyond it.
 
 use super::*;
 
-/// RigLimits that are dyadic fractions, so that sums and roots on them are exact; nothing hides behind saturation.
+/// Limits that are dyadic fractions, so that sums and roots are exact. Saturation is out of reach.
 fn limits() -> RigLimits {
     RigLimits {
         depth_max: Millimetre(1.0),
@@ -17,7 +16,7 @@ fn limits() -> RigLimits {
     }
 }
 
-/// RigLimits of which only saturation is in reach.
+/// Limits of which only saturation can be reached.
 fn wide() -> RigLimits {
     RigLimits {
         normal_max: Newton(64.0),
@@ -26,7 +25,7 @@ fn wide() -> RigLimits {
     }
 }
 
-/// What one observation at `now_s` trips, with `limits`, in a `stage` that is watched from 0 s on.
+/// Trip of one observation at `now_s`, with `limits`, in a `stage` supervised from 0 s on.
 fn trips(
     limits: RigLimits,
     stage: MotionStage,
@@ -38,7 +37,7 @@ fn trips(
     supervisor.observe(observation, now_s).err()
 }
 
-/// What a force in N trips.
+/// Trip of a force in N.
 fn pushed(limits: RigLimits, stage: MotionStage, force: [f64; 3]) -> Option<Trip> {
     let wrench = Wrench {
         force: force.map(Newton),
@@ -47,7 +46,7 @@ fn pushed(limits: RigLimits, stage: MotionStage, force: [f64; 3]) -> Option<Trip
     trips(limits, stage, &Observation::Force(wrench, at(0.0)), 0.0)
 }
 
-/// What a tip at a place trips that was sent to another, both in mm.
+/// Trip of a tip at `place` that was sent to `target`, both in mm.
 fn placed(stage: MotionStage, place: [f64; 3], target: [f64; 3]) -> Option<Trip> {
     let observation = Observation::Pose {
         pose: pose_at(place),
@@ -65,7 +64,7 @@ fn pose_at([x, y, z]: [f64; 3]) -> Pose {
     }
 }
 
-/// `size` along one axis, in both directions.
+/// Vectors of length `size` along one axis, in both directions.
 fn along(axis: usize, size: f64) -> [[f64; 3]; 2] {
     [size, -size].map(|size| {
         let mut vector = [0.0; 3];
@@ -114,7 +113,7 @@ fn a_shear_force_on_the_limit_passes_and_one_beyond_halts_along_each_axis_and_be
             assert!((force_n - 0.3125).abs() < 1e-6, "{force_n}");
             assert_eq!(limit_n.to_bits(), 0.3125_f64.to_bits());
         }
-        // Two equal parts of which each is far from the limit.
+        // Two equal components, each far below the limit.
         let equal = |share: f64| {
             let part = share * 0.3125 * std::f64::consts::FRAC_1_SQRT_2;
             [part, -part, 0.0]
@@ -169,7 +168,7 @@ fn a_force_on_the_way_back_may_be_that_of_the_halt_or_of_the_limit_and_the_margi
         let risen = highest.next_up();
         let trip = pushed(limits(), back, [0.0, 0.0, risen]);
         assert_eq!(trip, Some(Trip::UnexpectedContact { force_n: risen }));
-        // A gel that sticks pulls, and shear rests in it: neither keeps the tip from leaving.
+        // A sticky gel pulls and keeps shear. Neither stops the tip from leaving.
         assert_eq!(pushed(limits(), back, [8.0, 0.0, -8.0]), None);
     }
 }
@@ -199,7 +198,7 @@ fn silence_counts_from_when_the_last_force_was_true_and_from_the_watch_before_on
 
     let mut supervisor = Supervisor::new(limits(), Arc::new(Halts::default()));
     supervisor.watch(TOUCHING, 0.0);
-    // It arrives at 1/32 s and was true at 1/64 s: that is when the transducer was last alive.
+    // It arrives at 1/32 s and was measured at 1/64 s, the last sign of life of the transducer.
     let (valid_s, now_s) = (0.015_625, 0.031_25);
     let force = Observation::Force(Wrench::default(), at(valid_s));
     assert_eq!(supervisor.observe(&force, now_s), Ok(()));
@@ -210,7 +209,7 @@ fn silence_counts_from_when_the_last_force_was_true_and_from_the_watch_before_on
     assert_eq!(supervisor.observe(&silence, 1.049), Ok(()));
 }
 
-/// What the second of two normal forces in N trips that are `span_s` apart, the first of them at `start_s`.
+/// Trip of the second of two normal forces in N, `span_s` apart; the first is at `start_s`.
 fn stepped(start_s: f64, forces_n: [f64; 2], span_s: f64) -> Option<Trip> {
     let mut supervisor = Supervisor::new(wide(), Arc::new(Halts::default()));
     supervisor.watch(TOUCHING, start_s);
@@ -223,7 +222,7 @@ fn stepped(start_s: f64, forces_n: [f64; 2], span_s: f64) -> Option<Trip> {
 
 #[test]
 fn a_force_may_rise_or_fall_by_two_hundred_newton_a_second_and_no_faster() {
-    // 1/128 s at 200 N/s: exact, whatever the clock says.
+    // 1/128 s at 200 N/s: exact at any clock time.
     let (span_s, change_n) = (0.007_812_5, 1.562_5);
     for start_s in [0.0, 1.0] {
         let steps = [[0.0, change_n], [change_n, 0.0], [0.0, -change_n]];
@@ -261,7 +260,7 @@ fn a_tip_may_be_as_deep_as_the_limit_and_its_overshoot_and_no_deeper() {
     let depth_mm = deepest.next_up();
     let limit_mm = 1.0;
     assert_eq!(at_depth(depth_mm), Some(Trip::Depth { depth_mm, limit_mm }));
-    // From the contact, and only while there is one.
+    // Counted from the contact, and only in contact.
     let place = [0.0, 0.0, 1.25];
     let above = MotionStage::Press { height_mm: 0.25 };
     assert_eq!(placed(above, place, place), None);

@@ -1,4 +1,4 @@
-//! An enabling switch: what is halted when it is let go, and what does not begin.
+//! Tests of a released enabling switch: halted motions, and motions that do not begin.
 
 use super::*;
 
@@ -15,7 +15,7 @@ fn a_switch_that_is_let_go_halts_a_motion_and_lets_none_begin_until_it_is_held_a
         assert_eq!(supervisor.sent(way[0], way[1]), Ok(()));
         supervisor.enabling(enabling);
         assert_eq!((supervisor.tripped(), halted()), (Some(trip), 1));
-        // It rests, and the halt is ended; the switch is not held for that.
+        // The robot rests and the halt is ended. Neither needs the switch to be held.
         supervisor.rests();
         supervisor.release(PRESS, 11.0);
         assert_eq!(supervisor.withheld(), Some(trip));

@@ -1,9 +1,9 @@
-//! What allowance is made for signals as they are on a real rig: noise, numbers, slow transducers, a zero of the host.
+//! Tests of allowances for signals of real rigs: noise, sequence numbers, slow transducers, and a zero of the host.
 
 use super::*;
 use crate::limits::FROZEN_READINGS;
 
-/// A supervisor in `stage` that makes allowance for `signals`, since 10 s.
+/// A supervisor in `stage` with the allowances of `signals`, since 10 s.
 fn allowing(signals: Signals, stage: MotionStage) -> Supervisor {
     let limits = RigLimits {
         depth_max: Millimetre(1.0),
@@ -47,7 +47,7 @@ fn a_tip_under_way_is_compared_with_its_way_and_one_at_rest_with_its_target() {
     let stamp = at(10.0);
     let astray = beside.observe(&Observation::UnderWay { pose, stamp }, 10.0);
     assert!(matches!(astray, Err(Trip::Diverged { .. })));
-    // It rests where it began, and says that it arrived.
+    // It rests at its start, and reports arrival.
     let mut stuck = allowing(Signals::default(), MotionStage::Search);
     stuck
         .sent(at_height(-8.0), at_height(0.0))
@@ -88,7 +88,7 @@ fn a_slow_transducer_may_be_silent_for_longer() {
     assert!(matches!(stale, Err(Trip::StaleForce { .. })));
 }
 
-/// The reading after whose motion the signal counts as frozen, of a hundred.
+/// Number of the reading, of a hundred, at which the signal counts as frozen.
 fn frozen(signals: Signals, reading: impl Fn(u32, Stamp) -> Observation) -> Option<u32> {
     let mut supervisor = allowing(signals, PRESS);
     (0..100_u32).find(|number| {
@@ -110,7 +110,7 @@ fn a_signal_with_numbers_is_frozen_when_they_stand_still_and_when_forces_do_in_f
         ..Signals::default()
     };
     assert_eq!(frozen(coarse, equal), None);
-    // The force changes, the number does not.
+    // The force changes; the sequence number does not.
     let repeated =
         |count: u32, stamp| Observation::Numbered(force(f64::from(count) * 1e-3), stamp, 7);
     assert_eq!(frozen(Signals::default(), repeated), Some(FROZEN_READINGS));

@@ -1,9 +1,9 @@
-//! Signals that lie: frozen, and what a halt and another stage do to what was seen before.
+//! Tests of frozen signals, and of the state after a halt or a new stage.
 
 use super::*;
 use crate::limits::FROZEN_READINGS;
 
-/// Sees the tip move and reads a force after it, at 0.02 s a reading.
+/// A tip that moves, with a force reading after each motion, every 0.02 s.
 struct Watched {
     supervisor: Supervisor,
     now_s: f64,
@@ -32,7 +32,7 @@ impl Watched {
         tripped
     }
 
-    /// Reads `force_n` after each of `count` motions, none of which halts.
+    /// Reads `force_n` after each of `count` motions; none halts.
     fn repeat(&mut self, count: u32, force_n: f64) {
         for _ in 0..count {
             self.moved();
@@ -44,7 +44,7 @@ impl Watched {
 #[test]
 fn one_equal_reading_fewer_than_frozen_passes_and_the_next_halts_with_their_number() {
     let mut watched = Watched::new(PRESS);
-    // The first is equal to nothing.
+    // The first reading has no predecessor.
     watched.repeat(1 + FROZEN_READINGS - 1, 0.1);
     watched.moved();
     let readings = FROZEN_READINGS;
@@ -108,7 +108,7 @@ fn a_number_that_stands_still_is_counted_on_over_travel() {
         let now_s = watched.now_s;
         watched.supervisor.watch(stage, now_s);
         watched.moved();
-        // What it says differs; its number does not.
+        // The force differs; the sequence number does not.
         let said = Observation::Numbered(force(0.1 + noise_n), at(now_s), 7);
         watched.now_s += 0.02;
         watched.supervisor.observe(&said, now_s).err()
@@ -139,7 +139,7 @@ fn travel_forgets_the_force_before_it_for_its_zero_may_have_moved() {
     watched.repeat(1, 0.1);
     let air = MotionStage::Travel { threshold_n: 5.0 };
     watched.supervisor.watch(air, watched.now_s);
-    // A step over the change of zero is no rate: 1.6 N in 6 ms would be one.
+    // A step across the change of zero is not a rate; 1.6 N in 6 ms would be too fast.
     watched.now_s -= 0.014;
     assert_eq!(watched.read(-1.5), None);
 }

@@ -3,19 +3,19 @@ use super::*;
 const CONTACT_MM: f64 = 0.1;
 const DEPTH_MM: f64 = 0.4;
 const LEAD_MM: f64 = 0.5;
-/// When the tip sets out, after 0.15 s of rest.
+/// Time at which the tip starts, after 0.15 s of rest.
 const SETS_OUT_S: f64 = 0.15;
 const LASTS_S: f64 = 0.6;
 
-/// A rig that says late what a gel does, with noise that a number of the tap decides.
+/// A rig with delayed signals of a gel, and noise that depends on the number of the tap.
 #[derive(Clone, Copy)]
 struct Rig {
     force_late_s: f64,
     frame_late_s: f64,
     frame_hz: f64,
-    /// What the edge of a device is moved by from tap to tap, in s.
+    /// Variation of the edge of a device between taps, in s.
     shaken_s: f64,
-    /// How much of the picture the touch changes.
+    /// Part of the frame that the touch changes.
     shade: f64,
 }
 
@@ -27,7 +27,7 @@ const RIG: Rig = Rig {
     shade: 20.0,
 };
 
-/// A number from −1 to 1 that is another for every pair.
+/// A pseudo-random number from −1 to 1 for each pair.
 fn noise(tap: u32, place: u32) -> f64 {
     let mixed = (tap * 7919 + place + 1)
         .wrapping_mul(2_654_435_761)
@@ -63,7 +63,7 @@ impl Rig {
             )
         });
         let frames = times(self.frame_hz).map(|(place, at_s)| {
-            // Another part of the gel begins to show later, and brighter.
+            // Another part of the gel changes later, and more.
             let pressed = pressed(at_s - self.frame_late_s - shaken_s);
             let hiss = 0.3 * noise(number, place + 77);
             let shades = [
@@ -93,7 +93,7 @@ fn twenty_taps_find_the_latency_of_each_device_to_a_millisecond_or_two() {
     let tapped = RIG.tapped(20);
     assert_eq!(tapped.count(), 20);
     let (force, sensor) = tapped.latencies().expect("clear edges");
-    // Readings come every 5 ms and frames every 17: between two of them the edge is a straight line.
+    // Readings come every 5 ms and frames every 17 ms; the edge between two of them is a straight line.
     assert!((force.after_robot_ms - 12.3).abs() < 1.0, "{force:?}");
     assert!((sensor.after_robot_ms - 38.1).abs() < 2.0, "{sensor:?}");
     for latency in [force, sensor] {
