@@ -70,10 +70,14 @@ impl fmt::Display for Detection {
                 if let Some(reason) = reason {
                     write!(f, " ({reason})")?;
                 }
-                f.write_str(
-                    "; noise_equivalent_force uses untouched frames only; light presses (0.02 N to 0.2 N) at ten places or more would verify \
-                     a limit",
-                )
+                f.write_str("; noise_equivalent_force uses untouched frames only")?;
+                match reason {
+                    // Every reason states what is missing; more light presses need not be.
+                    Some(_) => Ok(()),
+                    None => f.write_str(
+                        "; light presses (0.02 N to 0.2 N) at ten places or more would verify a limit",
+                    ),
+                }
             }
         }
     }
