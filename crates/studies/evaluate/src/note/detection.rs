@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use taceva_core::counted;
 use taceva_results::{Score, Value};
 
 /// Evidence for a least force that is detected.
@@ -13,8 +14,8 @@ pub enum Detection {
         limit_n: f64,
         /// Least and greatest true force of the presses, N.
         forces_n: [f64; 2],
-        /// The presses.
-        presses: u64,
+        /// Samples of the presses: of one press there may be several.
+        samples: u64,
         /// The places that they pressed.
         places: u64,
     },
@@ -47,7 +48,7 @@ fn verified(score: &Score) -> Option<Detection> {
     Some(Detection::Verified {
         limit_n: score.value.number()?,
         forces_n: [force("least_force")?, force("greatest_force")?],
-        presses: score.n,
+        samples: score.n,
         places: places.map(|(_, count)| *count)?,
     })
 }
@@ -58,12 +59,13 @@ impl fmt::Display for Detection {
             Detection::Verified {
                 limit_n,
                 forces_n: [least, greatest],
-                presses,
+                samples,
                 places,
             } => write!(
                 f,
-                "detection limit: {limit_n:.3} N of Fz, from {presses} light presses of {least:.3} N to {greatest:.3} N at {places} places; \
-                 it is not verified for other forces, places and days"
+                "detection limit: {limit_n:.3} N of Fz, from {} of light presses ({least:.3} N to {greatest:.3} N) at {places} places; \
+                 it is not verified for other forces, places and days",
+                counted(*samples, "sample")
             ),
             Detection::Unverified(reason) => {
                 f.write_str("detection limit: not verified")?;

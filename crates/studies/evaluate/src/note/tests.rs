@@ -72,7 +72,7 @@ fn a_detection_limit_names_the_presses_that_it_stands_on_or_the_reason_that_ther
         .to_vec();
     assert_eq!(
         said(&[noise, limit]).expect("a note"),
-        "detection limit: 0.081 N of Fz, from 24 light presses of 0.021 N to 0.199 N at 12 places; it is not verified for other \
+        "detection limit: 0.081 N of Fz, from 24 samples of light presses (0.021 N to 0.199 N) at 12 places; it is not verified for other \
          forces, places and days"
     );
     assert_eq!(said(&[score("mae", Some(0.1))]), None);
