@@ -124,5 +124,5 @@ fn names(column: &SeenColumn, stems: &HashSet<&str>, rows: usize) -> bool {
         && cells.len() > 1
         && different.len() == cells.len()
         && cells.iter().all(|cell| stems.contains(cell))
-        && (!cells.iter().all(|cell| is_count(cell)) || are_as_many())
+        && (!cells.iter().all(is_count) || are_as_many())
 }
