@@ -118,7 +118,7 @@ pub(super) fn channels(
             || keys.names().any(|key| key == name)
     };
     // Distances that `predict` writes are no predictions, unless the truth has such a column.
-    let is_distance = |name: &str| name == DISTANCE && !truth.has(name);
+    let is_distance = |name: &str| name == DISTANCE && !truth.has(name) && prediction.has("sample");
     let is_channel =
         |name: &&String| is_declared(request, name) || !(is_beside(name) || is_distance(name));
     let six = |name: &str| {
