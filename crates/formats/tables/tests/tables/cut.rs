@@ -99,6 +99,9 @@ fn the_messages_before_a_cut_are_counted_when_refused_and_read_on_request() {
                     assert!(matches!(none, Err(TableError::Cut { .. })), "{none:?}");
                 }
                 messages => {
+                    let said = Recording::open(&path).expect_err("cut").to_string();
+                    let one = "; 1 complete message is before the cut: ";
+                    assert_eq!(said.contains(one), messages == 1, "{said}");
                     read_to_cut(&path, &whole, messages);
                     counts.insert(messages);
                 }
