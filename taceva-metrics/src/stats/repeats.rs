@@ -36,7 +36,14 @@ impl Repeats {
             return None;
         }
         let count = values.len() as f64;
-        let mean = values.iter().sum::<f64>() / count;
+        let are_equal = values
+            .windows(2)
+            .all(|pair| pair[0].to_bits() == pair[1].to_bits());
+        // The sum of equal values is rounded, so that their mean may be another number: (0.1 + 0.1 + 0.1) / 3.
+        let mean = match are_equal {
+            true => values[0],
+            false => values.iter().sum::<f64>() / count,
+        };
         let squares = values.iter().map(|value| (value - mean) * (value - mean));
         let variance = squares.sum::<f64>() / (count - 1.0);
         let half = quantile(COVERAGE, count - 1.0) * (variance / count).sqrt();
@@ -63,8 +70,14 @@ mod tests {
 
     #[test]
     fn equal_repeats_leave_an_interval_of_no_width() {
-        let repeats = Repeats::of(&[0.25; 4]).expect("four");
-        assert_eq!(repeats.interval.map(f64::to_bits), [0.25_f64.to_bits(); 2]);
+        // The sum of three 0.1 is not three times 0.1.
+        for values in [&[0.25; 4][..], &[0.1; 3], &[0.7; 3]] {
+            let repeats = Repeats::of(values).expect("several");
+            let ends = repeats.interval.map(f64::to_bits);
+            assert_eq!(ends, [values[0].to_bits(); 2]);
+            assert_eq!(repeats.mean.to_bits(), values[0].to_bits());
+            assert_eq!(repeats.standard_deviation.to_bits(), 0);
+        }
         assert_eq!(Repeats::of(&[1.0, f64::NAN]), None);
     }
 

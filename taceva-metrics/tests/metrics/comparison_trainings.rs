@@ -127,6 +127,9 @@ fn trainings_that_agree_change_no_bit_of_a_comparison() {
     let a = Estimate::try_new(0.5, 0.03, 10).expect("an estimate");
     let same = a.over_trainings(spread(&[0.5, 0.5, 0.5]));
     assert_eq!(a, same);
+    // The sum of three 0.1 is not three times 0.1.
+    assert!(!spread(&[0.1; 3]).varies() && !spread(&[0.7; 3]).varies());
+    assert_eq!(a, a.over_trainings(spread(&[0.1; 3])));
     let sums = five_points();
     let both = Sides {
         a: &sums.a,

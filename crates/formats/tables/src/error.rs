@@ -38,9 +38,11 @@ pub enum TableError {
     },
     /// A recording that ends before its index: it was truncated, or its recorder did not close it.
     #[error(
-        "{}{place}: {}; {messages} complete messages are before the cut: {remedy}",
+        "{}{place}: {}; {} {} before the cut: {remedy}",
         core_shown(path),
-        core_shown(problem)
+        core_shown(problem),
+        taceva_core::counted(*messages, "complete message"),
+        taceva_core::by_count(*messages, "is", "are")
     )]
     Cut {
         /// The file.

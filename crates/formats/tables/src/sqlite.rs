@@ -131,6 +131,12 @@ impl Database {
         (self.pages < self.announced).then(|| u64::from(self.pages) * u64::from(self.page_bytes))
     }
 
+    /// Size of the file before a cut, bytes.
+    fn announced_bytes(&self) -> u64 {
+        let announced = u64::from(self.announced) * u64::from(self.page_bytes);
+        self.source.length().max(announced)
+    }
+
     /// Description of the missing pages.
     pub(crate) fn missing_pages(&self) -> String {
         format!(

@@ -172,7 +172,7 @@ fn are_beside(
     table: &SeenTable<'_>,
     pictures: &FileGroup,
 ) -> bool {
-    let has_pictures = frames::has_pictures(folder, groups, table);
+    let has_pictures = frames::evidence(folder, groups, table) > 0;
     let is_other =
         table.is_single_array || (table.own_taxels().is_empty() && table.time().is_none());
     !has_pictures
@@ -195,7 +195,7 @@ fn main_table<'t, 'g>(
         .filter(|table| table.rows > 0 && !table.columns.is_empty())
         .max_by_key(|table| {
             (
-                frames::has_pictures(folder, groups, table),
+                frames::evidence(folder, groups, table),
                 !table.is_single_array && !table.own_taxels().is_empty(),
                 table.channels(),
                 table.group.paths.len(),

@@ -25,7 +25,7 @@ pub fn of(seeds: &[u64], evaluations: &[&Evaluation]) -> OverSeeds {
         });
         let values: Vec<Option<f64>> = of_seed.collect();
         let known: Vec<f64> = values.iter().copied().flatten().collect();
-        let repeats = Repeats::of(&known)?.within(range(metric.id, &known));
+        let repeats = Repeats::of(&known)?.within(metric.range.ends());
         let variant = variant.and_then(|name| score.variant(name));
         Some(SeedScore {
             metric: match variant {
@@ -47,17 +47,6 @@ pub fn of(seeds: &[u64], evaluations: &[&Evaluation]) -> OverSeeds {
     }
 }
 
-/// Range of a metric.
-fn range(metric: &str, known: &[f64]) -> [f64; 2] {
-    match metric {
-        "r2" | "skill" => [f64::MIN, 1.0],
-        "sr" | "tolerance" => [0.0, 1.0],
-        // Metrics that are never negative, such as errors; a bias may be negative.
-        _ if known.iter().all(|value| *value >= 0.0) => [0.0, f64::MAX],
-        _ => [f64::MIN, f64::MAX],
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use taceva_core::{Channel, Channels, FieldSet, Readings, Sample, SampleSink};
@@ -65,15 +54,15 @@ mod tests {
 
     use super::*;
 
-    /// Two repeats at each of six points: ±`scatter` mm at the first point and six times as much at the last.
-    fn evaluation(scatter: f64) -> Evaluation {
+    /// Two repeats at each of six points, `scatter` mm to either side at the first and six times as much at the last, all `bias` mm too small.
+    fn evaluation(metric: &str, scatter: f64, bias: f64) -> Evaluation {
         let channels = Channels::new([Channel::PZ]).expect("one channel");
-        let wanted = catalogue::select(["repeatability"]).expect("a known name");
+        let wanted = catalogue::select([metric]).expect("a known name");
         let fields: FieldSet = Field::ALL.into_iter().collect();
         let mut evaluator = Evaluator::new(&MetricPlan::new(&wanted, channels, fields));
         for press in 0..12_u32 {
             let side = if press % 2 == 0 { scatter } else { -scatter };
-            let predicted = 1.0 + side * f64::from(press / 2 + 1);
+            let predicted = 1.0 - bias + side * f64::from(press / 2 + 1);
             let sample = Sample::default()
                 .with_point_id(format!("p{}", press / 2))
                 .with_depth_step(0)
@@ -87,7 +76,7 @@ mod tests {
 
     #[test]
     fn the_variant_that_decides_verdicts_stands_beside_the_value() {
-        let all = [0.01, 0.02].map(evaluation);
+        let all = [0.01, 0.02].map(|scatter| evaluation("repeatability", scatter, 0.0));
         let over = of(&[3, 4], &all.each_ref());
         let names: Vec<&str> = over.scores.iter().map(|of| of.metric.as_str()).collect();
         assert_eq!(names, ["repeatability", "repeatability.pooled"]);
@@ -99,5 +88,17 @@ mod tests {
         };
         assert_eq!(over.scores[1].values, all.each_ref().map(pooled));
         assert_ne!(over.scores[0].values, over.scores[1].values);
+    }
+
+    #[test]
+    fn the_mean_bias_may_be_below_zero_and_the_mean_error_may_not() {
+        let of_metric = |metric: &str| {
+            let all = [0.01, 0.02].map(|bias| evaluation(metric, 0.0, bias));
+            let over = of(&[3, 4], &all.each_ref());
+            assert_eq!(over.scores.len(), 1, "{metric}");
+            over.scores[0].interval[0]
+        };
+        assert!(of_metric("bias") < 0.0);
+        assert_eq!(of_metric("mae").to_bits(), 0.0_f64.to_bits());
     }
 }

@@ -73,8 +73,8 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
     }
     table.note(format!(
         "Tests of mean absolute errors on test parts, paired by sample and summed by contact point over all seeds: by sign flips for one \
-         seed, by Student's t with the variance between seeds for several. All {count} tests of the sweep form one family of Holm's \
-         procedure, at a level of 5 %."
+         seed and where no seed changes the difference, else by Student's t with the variance between seeds. All {count} tests of the \
+         sweep form one family of Holm's procedure, at a level of 5 %."
     ));
     if let Some(words) = out_of_reach {
         table.note(words);

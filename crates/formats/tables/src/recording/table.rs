@@ -82,8 +82,8 @@ impl TopicTable {
 
     /// Columns: the times, then the fields in the order of the schema. A list has one name. For JSON the fields are from the first message.
     ///
+    /// # Errors
     /// [`TableError::Unsupported`] if the schema has too many fields. For JSON as [`columns`](Self::columns).
-    /// [`TableError::Unsupported`] if the schema has too many fields; for JSON as [`columns`](Self::columns).
     pub fn names(&self) -> Result<Vec<String>, TableError> {
         let mut names: Vec<String> = TIMES.iter().map(|(name, _)| (*name).to_owned()).collect();
         let fields = language::names(&self.language);

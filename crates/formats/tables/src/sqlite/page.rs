@@ -62,7 +62,12 @@ impl<'a> Pages<'a> {
             self.row_bytes = self.row_bytes.saturating_add(bytes);
         }
         let length = self.database.source.length();
-        match self.row_bytes <= length {
+        // A cut may have taken the end of this row, which `uncount` takes back.
+        let open = match self.database.cut_at() {
+            Some(_) => bytes,
+            None => 0,
+        };
+        match self.row_bytes.saturating_sub(open) <= length {
             true => Ok(()),
             false => {
                 let problem = format!(
@@ -72,6 +77,11 @@ impl<'a> Pages<'a> {
                 Err(self.damaged(place.page, problem))
             }
         }
+    }
+
+    /// Takes back `bytes` of a counted row, which a cut took away.
+    pub(super) fn uncount(&mut self, bytes: u64) {
+        self.row_bytes = self.row_bytes.saturating_sub(bytes);
     }
 
     /// True for a page that the header announces and a cut took away.

@@ -51,11 +51,9 @@ impl<'p, 'd> Record<'p, 'd> {
         let (length, rest) = varint(cell).ok_or_else(|| pages.damaged(place.page, beyond))?;
         let (number, rest) = varint(rest).ok_or_else(|| pages.damaged(place.page, beyond))?;
         let source = &pages.database.source;
-        if length > source.length() {
-            let problem = format!(
-                "a row of {length} bytes, but the file has {}",
-                source.length()
-            );
+        let most = pages.database.announced_bytes();
+        if length > most {
+            let problem = format!("a row of {length} bytes, but the file has {most}");
             return Err(pages.damaged(place.page, problem));
         }
         if length > limits::CELL_BYTES {
@@ -107,7 +105,11 @@ impl<'p, 'd> Record<'p, 'd> {
     pub(crate) fn is_before_cut(&mut self) -> Result<bool, TableError> {
         match self.read_to(self.length) {
             Ok(()) => Ok(true),
-            Err(_) if self.pages.is_beyond_cut(self.next) => Ok(false),
+            Err(_) if self.pages.is_beyond_cut(self.next) => {
+                let absent = self.length.saturating_sub(self.read.len());
+                self.pages.uncount(absent as u64);
+                Ok(false)
+            }
             Err(error) => Err(error),
         }
     }

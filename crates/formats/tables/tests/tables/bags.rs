@@ -245,7 +245,7 @@ fn a_cut_bag_states_how_many_messages_are_whole_before_its_cut() {
     let counted = |bytes: &[u8]| {
         fs::write(&path, bytes).expect("written");
         let problem = read_all(&path).expect_err("cut").to_string();
-        let words = problem.split(" complete messages are before").next();
+        let words = problem.split(" complete message").next();
         let number = words.and_then(|words| words.rsplit([' ', '(']).next()?.parse::<u64>().ok());
         number.unwrap_or_else(|| panic!("{problem}"))
     };

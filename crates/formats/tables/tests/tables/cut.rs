@@ -99,6 +99,9 @@ fn the_messages_before_a_cut_are_counted_when_refused_and_read_on_request() {
                     assert!(matches!(none, Err(TableError::Cut { .. })), "{none:?}");
                 }
                 messages => {
+                    let said = Recording::open(&path).expect_err("cut").to_string();
+                    let one = "; 1 complete message is before the cut: ";
+                    assert_eq!(said.contains(one), messages == 1, "{said}");
                     read_to_cut(&path, &whole, messages);
                     counts.insert(messages);
                 }
@@ -107,6 +110,21 @@ fn the_messages_before_a_cut_are_counted_when_refused_and_read_on_request() {
         }
         assert!(counts.len() >= least_counts, "{file}: {counts:?}");
     }
+}
+
+#[test]
+fn rows_that_end_behind_the_cut_hide_no_complete_message() {
+    let mut bytes = fs::read(data("bags/small_pages.db3")).expect("there");
+    // The length of the ninth message, a picture on pages 36 to 44: with it all rows are longer than 40 pages.
+    let length = 17_965;
+    assert_eq!(bytes[length..length + 3], [0xa2, 0x1e, 9]);
+    bytes[length..length + 2].copy_from_slice(&[0xfd, 0x42]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("cut.db3");
+    fs::write(&path, &bytes[..40 * 512]).expect("written");
+    assert_eq!(refused(&path), 8);
+    let whole = Recording::open(&data("bags/small_pages.db3")).expect("opens");
+    read_to_cut(&path, &whole, 8);
 }
 
 #[test]

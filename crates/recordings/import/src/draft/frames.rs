@@ -35,15 +35,12 @@ pub(super) struct FrameLines {
     pub(super) drop: Option<String>,
 }
 
-/// True if rows of `table` hold or name pictures.
-pub(super) fn has_pictures(
-    folder: &SourceFolder,
-    groups: &[FileGroup],
-    table: &SeenTable<'_>,
-) -> bool {
-    !table.pictures.is_empty()
-        || !file_columns(folder, table).is_empty()
-        || stems::of(folder, groups, table).is_some()
+/// Evidence that rows of `table` have pictures: 2 if they hold or name them, 1 if cells are names without their ending, 0 for none.
+pub(super) fn evidence(folder: &SourceFolder, groups: &[FileGroup], table: &SeenTable<'_>) -> u8 {
+    match table.pictures.is_empty() && file_columns(folder, table).is_empty() {
+        true => u8::from(stems::of(folder, groups, table).is_some()),
+        false => 2,
+    }
 }
 
 /// Column whose cells name pictures.

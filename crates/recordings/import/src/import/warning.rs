@@ -117,8 +117,10 @@ impl fmt::Display for ImportWarning {
                 end,
             } => write!(
                 f,
-                "{} was cut or not closed: its {messages} complete messages before byte {end} are read, and later ones are lost",
-                taceva_core::shown(file)
+                "{} was cut or not closed: its {} before byte {end} {} read, and later ones are lost",
+                taceva_core::shown(file),
+                taceva_core::counted(*messages, "complete message"),
+                taceva_core::by_count(*messages, "is", "are")
             ),
         }
     }

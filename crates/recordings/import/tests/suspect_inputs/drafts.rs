@@ -282,7 +282,36 @@ fn cells_that_are_names_of_pictures_without_their_ending_are_drafted_as_a_patter
     assert!(!draft.contains("pattern = "), "{draft}");
 }
 
-/// Pictures at 30 Hz beside a table with `rate` rows a second, whose force grows by 10 N a second.
+#[test]
+fn a_counter_of_another_table_names_no_pictures_and_other_folders_that_match_are_named() {
+    let names: Vec<String> = (0..12).map(|row| format!("{row}.png")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    // Six forces beside twelve pictures, whose own table names them.
+    let rows = |count: u32, row: fn(u32) -> String| (0..count).map(row).collect::<String>();
+    let log = format!(
+        "seq,fz\n{}",
+        rows(6, |row| format!("{row},{}.5\n", row * row))
+    );
+    let camera = format!("file\n{}", rows(12, |row| format!("{row}.png\n")));
+    let folder = with_pictures(&[("camera.csv", &camera), ("log.csv", &log)], &names);
+    let text = draft(folder.path());
+    assert!(text.contains("table = \"camera.csv\""), "{text}");
+    let folder = with_pictures(&[("log.csv", &log)], &names);
+    let text = draft(folder.path());
+    assert!(!text.contains("{seq}.png"), "{text}");
+    let folder = with_pictures(
+        &[("labels.csv", "fz,id\n1.5,a\n2.5,b\n")],
+        &["left/a.png", "left/b.png", "right/a.png", "right/b.png"],
+    );
+    let text = draft(folder.path());
+    assert!(
+        text.contains("\npattern = \"left/{id}.png\"   # a guess")
+            && text.contains("\n# or: pattern = \"right/{id}.png\"\n"),
+        "{text}"
+    );
+}
+
+/// Pictures at 30 Hz beside a table of forces of 10 N a second, with so many rows a second.
 fn beside_forces(rate: u32) -> tempfile::TempDir {
     let rows = (0..12).map(|row| format!("{:.6},{row}.png\n", f64::from(row) / 30.0));
     let camera = format!("t,file\n{}", rows.collect::<String>());

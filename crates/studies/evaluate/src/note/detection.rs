@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use taceva_core::counted;
 use taceva_results::{Score, Value};
 
 /// Evidence for a detection limit.
@@ -13,9 +14,9 @@ pub enum Detection {
         limit_n: f64,
         /// Least and greatest true force of the presses, in N.
         forces_n: [f64; 2],
-        /// Number of presses.
-        presses: u64,
-        /// Number of pressed places.
+        /// Samples of the presses: of one press there may be several.
+        samples: u64,
+        /// The places that they pressed.
         places: u64,
     },
     /// Only the noise of untouched frames, with the reason why light presses give no limit.
@@ -47,7 +48,7 @@ fn verified(score: &Score) -> Option<Detection> {
     Some(Detection::Verified {
         limit_n: score.value.number()?,
         forces_n: [force("least_force")?, force("greatest_force")?],
-        presses: score.n,
+        samples: score.n,
         places: places.map(|(_, count)| *count)?,
     })
 }
@@ -58,22 +59,27 @@ impl fmt::Display for Detection {
             Detection::Verified {
                 limit_n,
                 forces_n: [least, greatest],
-                presses,
+                samples,
                 places,
             } => write!(
                 f,
-                "detection limit: {limit_n:.3} N of Fz, from {presses} light presses of {least:.3} N to {greatest:.3} N at {places} places; \
-                 it is not verified for other forces, places and days"
+                "detection limit: {limit_n:.3} N of Fz, from {} of light presses ({least:.3} N to {greatest:.3} N) at {places} places; \
+                 it is not verified for other forces, places and days",
+                counted(*samples, "sample")
             ),
             Detection::Unverified(reason) => {
                 f.write_str("detection limit: not verified")?;
                 if let Some(reason) = reason {
                     write!(f, " ({reason})")?;
                 }
-                f.write_str(
-                    "; noise_equivalent_force uses untouched frames only; light presses (0.02 N to 0.2 N) at ten places or more would verify \
-                     a limit",
-                )
+                f.write_str("; noise_equivalent_force uses untouched frames only")?;
+                match reason {
+                    // Every reason states what is missing; more light presses need not be.
+                    Some(_) => Ok(()),
+                    None => f.write_str(
+                        "; light presses (0.02 N to 0.2 N) at ten places or more would verify a limit",
+                    ),
+                }
             }
         }
     }

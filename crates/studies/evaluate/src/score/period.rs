@@ -47,14 +47,15 @@ impl Period {
     /// A message with the remedy if the period does not fit the unit, or is not a whole number of degrees.
     pub fn degrees(self, name: &str, unit: Unit) -> Result<u16, String> {
         let degrees = match (unit, self.is_of_pi) {
-            (Unit::Radian, true) => self.number * 180.0,
-            (Unit::Radian, false) => self.number.to_degrees(),
-            (_, true) => {
+            (Unit::Degree, true) => {
                 return Err(format!(
                     "a period of {self} is given for `{name}`, whose unit is {unit}: write {name}={} for degrees, or --units {name}=rad",
                     self.number * 180.0
                 ));
             }
+            // The channel refuses a period of a length or a force.
+            (_, true) => self.number * 180.0,
+            (Unit::Radian, false) => self.number.to_degrees(),
             (_, false) => self.number,
         };
         let rounding = if unit == Unit::Radian {
@@ -146,6 +147,7 @@ mod tests {
             ("6.283185307179586", Unit::Radian, 360),
             ("6.2832", Unit::Radian, 360),
             ("3.1416", Unit::Radian, 180),
+            ("2pi", Unit::Millimetre, 360),
         ] {
             assert_eq!(degrees(text, unit), Ok(expected), "{text}");
         }

@@ -106,7 +106,18 @@ fn write_parquet(path: &Path, text: &str) {
     writer.finish().expect("written");
 }
 
-/// Rows under `header` in the order of `numbers`; `cells` gives the cells of a row number.
+#[test]
+fn distances_beside_predictions_are_left_out_and_a_channel_of_that_name_needs_its_truth() {
+    let prediction = "sample,Fz,distance\na,1,0.5\nb,2,0.75\n";
+    let scored = Tables::new("sample,Fz\na,1\nb,2\n", prediction).scored();
+    assert!(scored.report.score("mae", "Fz").is_some());
+    assert!(scored.report.score("mae", "distance").is_none());
+    let prediction = prediction.replace("sample", "id");
+    let refused = Tables::new("id,Fz\na,1\nb,2\n", &prediction).refused();
+    assert!(refused.contains("distance"), "{refused}");
+}
+
+/// `rows` rows under `header`, each the cells that `cells` gives for its number, in the order of `numbers`.
 fn table(header: &str, numbers: &[u32], cells: impl Fn(u32) -> String) -> String {
     let mut text = format!("{header}\n");
     for number in numbers {

@@ -2,13 +2,33 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use super::{FrameLines, LOOKED_UP, empty_rows, is_gray, is_picture};
+use super::{FrameLines, empty_rows, is_gray, is_picture};
 use crate::draft::roles::Role;
 use crate::draft::survey::FileGroup;
 use crate::draft::tables::{SeenColumn, SeenTable};
 use crate::source_folder::SourceFolder;
 
-/// Frame lines for pictures whose names without their ending are the cells of a column.
+/// Column that names pictures of a folder.
+struct Match<'t> {
+    /// Folder of the pictures, relative to that of the table; `None` outside of it.
+    within: Option<&'t str>,
+    /// The same, relative to the source folder.
+    base: &'t str,
+    ending: &'t str,
+    column: &'t SeenColumn,
+}
+
+impl Match<'_> {
+    fn pattern(&self) -> String {
+        let before = match self.within.unwrap_or(self.base) {
+            "" => String::new(),
+            before => format!("{before}/"),
+        };
+        format!("{before}{{{}}}.{}", self.column.name, self.ending)
+    }
+}
+
+/// Frame lines for pictures whose names without their ending are the cells of a column. Pictures below the folder of the table go first.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],
@@ -19,41 +39,54 @@ pub(super) fn of(
         .first()
         .rsplit_once('/')
         .map_or("", |(own, _)| own);
-    stems(groups)
-        .into_iter()
-        .find_map(|((base, ending), stems)| {
-            // Each of several tables has its pictures in its own folder.
-            let within = match own {
-                "" => Some(base),
-                own if base == own => Some(""),
-                own => base
-                    .strip_prefix(own)
-                    .and_then(|rest| rest.strip_prefix('/')),
-            };
-            if within.is_none() && main.group.paths.len() > 1 {
-                return None;
-            }
-            let column = main.columns.iter().find(|column| names(column, &stems))?;
-            let first = column.cells.iter().find(|cell| !cell.is_empty())?;
-            let before = match within.unwrap_or(base) {
-                "" => String::new(),
-                before => format!("{before}/"),
-            };
-            let mut lines = vec![format!(
-                "pattern = {:?}   # a guess: the cells are names of pictures without `.{ending}`",
-                format!("{before}{{{}}}.{ending}", column.name)
-            )];
-            if within.is_none() {
-                lines.push("folder = \".\"".to_owned());
-            }
-            let picture = folder.path().join(base).join(format!("{first}.{ending}"));
-            Some(FrameLines {
-                lines,
-                is_gray: is_gray(&picture),
-                drop: empty_rows(column, main.rows),
-                ..FrameLines::default()
-            })
-        })
+    let stems = stems(groups);
+    let mut found: Vec<Match<'_>> = Vec::new();
+    for (&(base, ending), stems) in &stems {
+        let within = match own {
+            "" => Some(base),
+            own if base == own => Some(""),
+            own => base
+                .strip_prefix(own)
+                .and_then(|rest| rest.strip_prefix('/')),
+        };
+        // Each of several tables has its pictures in its own folder.
+        if within.is_none() && main.group.paths.len() > 1 {
+            continue;
+        }
+        let columns = main.columns.iter();
+        let columns = columns.filter(|column| names(column, stems, main.rows));
+        found.extend(columns.map(|column| Match {
+            within,
+            base,
+            ending,
+            column,
+        }));
+    }
+    found.sort_by_key(|one| one.within.is_none());
+    let (best, others) = found.split_first()?;
+    let first = best.column.cells.iter().find(|cell| !cell.is_empty())?;
+    let mut lines = vec![format!(
+        "pattern = {:?}   # a guess: the cells are names of pictures without `.{}`",
+        best.pattern(),
+        best.ending
+    )];
+    if best.within.is_none() {
+        lines.push("folder = \".\"".to_owned());
+    }
+    let others = others
+        .iter()
+        .filter(|other| other.within.is_none() == best.within.is_none());
+    lines.extend(others.map(|other| format!("# or: pattern = {:?}", other.pattern())));
+    let picture = folder
+        .path()
+        .join(best.base)
+        .join(format!("{first}.{}", best.ending));
+    Some(FrameLines {
+        lines,
+        is_gray: is_gray(&picture),
+        drop: empty_rows(best.column, main.rows),
+        ..FrameLines::default()
+    })
 }
 
 /// Names of the pictures without their ending, by folder and ending.
@@ -69,17 +102,27 @@ fn stems(groups: &[FileGroup]) -> BTreeMap<(&str, &str), HashSet<&str>> {
     found
 }
 
-/// True if the cells of `column` are different members of `stems`.
-fn names(column: &SeenColumn, stems: &HashSet<&str>) -> bool {
+/// True if each cell of `column` is another one of `stems`. Plain numbers also count the rows of a log: they name pictures only if there are
+/// as many numbered ones as `rows`.
+fn names(column: &SeenColumn, stems: &HashSet<&str>, rows: usize) -> bool {
     let may_name = matches!(
         column.role,
         Role::Attribute | Role::Index | Role::Number | Role::Other
     ) && !column.name.contains(['{', '}']);
     let cells = column.cells.iter().filter(|cell| !cell.is_empty());
-    let cells: Vec<&str> = cells.map(String::as_str).take(LOOKED_UP).collect();
+    let cells: Vec<&str> = cells.map(String::as_str).collect();
     let different: HashSet<&str> = cells.iter().copied().collect();
+    let is_count = |text: &&str| {
+        let number: Result<u64, _> = text.parse();
+        number.is_ok_and(|number| number.to_string() == **text)
+    };
+    let are_as_many = || {
+        let numbered = stems.iter().filter(|stem| is_count(stem)).count();
+        numbered == rows.saturating_sub(column.empty)
+    };
     may_name
         && cells.len() > 1
         && different.len() == cells.len()
         && cells.iter().all(|cell| stems.contains(cell))
+        && (!cells.iter().all(is_count) || are_as_many())
 }

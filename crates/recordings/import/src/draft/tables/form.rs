@@ -18,7 +18,8 @@ pub(super) const NUMBERED_HEADER: &str = "header = true";
 pub(super) fn cut_key(before: BeforeCut) -> (&'static str, String) {
     let BeforeCut { messages, end } = before;
     let comment = format!(
-        "# The recording was cut or not closed. `cut = \"keep\"` reads its {messages} complete messages before byte {end}."
+        "# The recording was cut or not closed. `cut = \"keep\"` reads its {} before byte {end}.",
+        taceva_core::counted(messages, "complete message")
     );
     ("cut = \"?\", ", comment)
 }
