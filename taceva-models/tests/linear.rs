@@ -99,7 +99,7 @@ fn too_few_samples_are_refused() {
         let result = estimator.fit_linear(&recording.set(), None, &SilentProgress);
         assert_eq!(
             refusal(result, estimator.name()),
-            "1 training samples, at least 2 are needed"
+            "1 training sample, at least 2 are needed"
         );
     }
 }

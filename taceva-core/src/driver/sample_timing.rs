@@ -8,6 +8,8 @@ use crate::stamp::Stamp;
 
 /// Periods of the declared rate after which a sample is late.
 const LATE_PERIODS: f64 = 10.0;
+/// Least delay of a late sample, in s: links and busy machines give many samples at once, and a driver keeps the newest.
+const LATE_LEAST_S: f64 = 0.05;
 /// Late samples in a row that are an error of the device.
 const LATE_MAX: u32 = 10;
 /// Maximum jump of stamps, in s.
@@ -15,8 +17,8 @@ const JUMP_S: f64 = 60.0;
 
 /// Delays and stamps of the samples of one device.
 ///
-/// A sample is late if the calls for it took more than ten periods of the declared rate. Ten late samples in a row are an error, and so is a
-/// stamp that jumps by a minute. A sample from a queue may be old.
+/// A sample is late if the calls for it took more than ten periods of the declared rate, and more than 50 ms. Ten late samples in a row are an
+/// error, and so is a stamp that jumps by a minute. A sample from a queue may be old.
 ///
 /// ```
 /// use std::time::{Duration, Instant};
@@ -92,7 +94,7 @@ impl SampleTiming {
         let Some(rate) = self.rate.filter(|rate| rate.0 > 0.0) else {
             return Ok(());
         };
-        let limit_s = LATE_PERIODS / rate.0;
+        let limit_s = (LATE_PERIODS / rate.0).max(LATE_LEAST_S);
         if took_s <= limit_s {
             self.late = 0;
             return Ok(());
@@ -144,11 +146,11 @@ impl SampleTiming {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TimingError {
-    /// Successive samples that each took longer than ten periods of the declared rate.
+    /// Successive samples that each took longer than ten periods of the declared rate, and than 50 ms.
     Late {
         /// Number of these samples.
         samples: u32,
-        /// Ten periods, in s.
+        /// Ten periods or 50 ms, the longer, in s.
         limit_s: f64,
         /// Duration of the calls for the last sample, in s.
         took_s: f64,
@@ -217,6 +219,18 @@ mod tests {
         assert!(refused.contains("the last one 4.900 s"), "{refused}");
         assert!(refused.contains("at a declared 100 Hz"), "{refused}");
         taken(&mut SampleTiming::of(None), 50, PERIOD * 490).expect("no declared rate");
+    }
+
+    #[test]
+    fn samples_of_a_fast_device_that_arrive_in_batches_are_not_late() {
+        let batches = |took| {
+            let mut timing = SampleTiming::of(Some(Hertz(7000.0)));
+            taken(&mut timing, 50, Duration::from_millis(took))
+        };
+        batches(16).expect("a latency timer of 16 ms");
+        batches(50).expect("the limit");
+        let refused = batches(60).expect_err("late").to_string();
+        assert!(refused.contains("more than 0.050 s"), "{refused}");
     }
 
     #[test]

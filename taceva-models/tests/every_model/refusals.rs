@@ -12,7 +12,7 @@ fn as_many_samples_as_are_needed_are_enough_and_one_less_is_refused() {
     for case in cases() {
         case.fitted(&case.recording(case.least, 7), None);
         let said = case.refusal(&case.recording(case.least - 1, 7), None);
-        let few = format!("{} training samples, ", case.least - 1);
+        let few = taceva_core::counted(case.least - 1, "training sample") + ", ";
         assert!(said.starts_with(&few), "{}: {said}", case.name);
     }
 }

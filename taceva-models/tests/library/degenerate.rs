@@ -102,7 +102,7 @@ fn columns_that_depend_on_each_other_are_learnt_from() {
 fn one_sample_is_refused_by_all_and_two_by_those_that_need_more() {
     let refused = fit_all(&data(1, 2), None);
     assert_eq!(refused.len(), library_models().count());
-    let few = |said: &String| said.contains("1 training samples, at least 2 are needed");
+    let few = |said: &String| said.contains("1 training sample, at least 2 are needed");
     assert!(refused.iter().all(few), "{refused:?}");
     let refused = fit_all(&data(2, 2), None);
     assert_eq!(refused.len(), 1, "{refused:?}");

@@ -7,7 +7,7 @@ use crate::escape::terminal;
 use crate::number::{FormattedValue, spaced};
 use crate::results::Study;
 use crate::scores::ScoreTable;
-use taceva_results::{Interval, Score};
+use taceva_results::{Interval, Score, not_measured};
 
 /// Distance of a limit from the result, as a share of the value.
 const MARGIN: f64 = 0.2;
@@ -52,8 +52,8 @@ pub fn limits_template(study: &Study) -> String {
         MARGIN * 100.0,
         MARGIN * 100.0
     );
-    if study.is_simulated() {
-        out += "# The samples are simulated: nothing here was measured.\n";
+    if let Some(words) = not_measured([study.source.as_str()]) {
+        out += &format!("# {words}\n");
     }
     match limits.is_empty() {
         true => out += "\n# This result has no score to derive a limit from.\n",
@@ -162,6 +162,20 @@ mod tests {
                 assert!(finding.is_kept, "{name}: {:?}", finding.reason);
             }
         }
+    }
+
+    #[test]
+    fn a_template_of_samples_that_nobody_measured_states_their_origin() {
+        let of = |source: &str| {
+            let study = Study {
+                source: source.to_owned(),
+                ..catalogue::find("GelSight").expect("there").as_study()
+            };
+            limits_template(&study)
+        };
+        let words = "\n# Nothing here was measured: the samples are synthetic.\n";
+        assert!(of("synthetic").contains(words));
+        assert!(!of("recorded").contains("here was measured"));
     }
 
     #[test]

@@ -165,14 +165,14 @@ mod tests {
         (count, None)
     }
 
-    /// Reading times that add up to eleven periods of 1 kHz, or more on a busy machine.
+    /// Readings that take more than ten periods of 200 Hz, or more on a busy machine.
     fn eleven_periods(count: usize) -> Vec<Duration> {
-        vec![Duration::from_millis(11); count]
+        vec![Duration::from_millis(55); count]
     }
 
     #[test]
     fn a_transducer_that_is_ten_times_too_slow_for_ten_readings_is_an_error_of_that_device() {
-        let slow = Slow::opened(DriverSource::Real, Hertz(1000.0), eleven_periods(10));
+        let slow = Slow::opened(DriverSource::Real, Hertz(200.0), eleven_periods(10));
         let (read, error) = readings(&mut *slow.timely(false, |_| None), 10);
         let error = error.expect("the tenth");
         assert_eq!((read, error.kind()), (9, ErrorKind::DeviceFault));
@@ -190,8 +190,8 @@ mod tests {
             (DriverSource::Simulated, false),
             (DriverSource::Recorded, false),
         ] {
-            let slow = Slow::opened(source, Hertz(1000.0), eleven_periods(12));
-            let (read, error) = readings(&mut *slow.timely(is_emulated, |_| None), 12);
+            let slow = Slow::opened(source, Hertz(200.0), eleven_periods(10));
+            let (read, error) = readings(&mut *slow.timely(is_emulated, |_| None), 10);
             assert!(error.is_none(), "{source}, reading {read}: {error:?}");
         }
     }

@@ -61,6 +61,7 @@ impl HeldRigs {
             rig.operator.as_ref().map(|operator| &operator.enable),
             rig.changers.specimen.as_ref(),
             rig.changers.unit.as_ref(),
+            rig.changers.light.as_ref(),
         ];
         let devices = drivers.into_iter().flatten();
         let devices = devices.map(|driver| (driver.value.clone(), rig.name().to_owned()));
@@ -147,5 +148,16 @@ mod tests {
         take(&other, device, rig).expect("another arm is free");
         drop(held);
         take(&path, device, rig).expect("free again");
+    }
+
+    #[test]
+    fn the_light_of_a_rig_file_is_held_too() {
+        // Locks are those of the machine: no other process has this lamp.
+        let lamp = format!("lab/lamp:id={}", std::process::id());
+        let text = format!("rig_version = 1\n[changers]\nlight = \"{lamp}\"\n");
+        let rig = RigFile::parse("lab.toml", &text).expect("a rig file");
+        let _held = HeldRigs::of_file(&rig).expect("free");
+        let error = HeldRigs::of_file(&rig).expect_err("held").to_string();
+        assert!(error.contains(&lamp), "{error}");
     }
 }

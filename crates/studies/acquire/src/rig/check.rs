@@ -272,6 +272,13 @@ impl RigCheck {
         self.halt_left_out = Some("the robot failed on its way up".to_owned());
         robot.clear_halt(DEADLINE)?;
         let (from, _) = robot.pose(DEADLINE)?;
+        let depth_mm = from.position.z.0;
+        if depth_mm > 0.0 {
+            // It was moved since, or its pose was not read before.
+            self.problems.push(RigProblem::InGel { depth_mm });
+            self.halt_left_out = self.obstacle();
+            return Ok(());
+        }
         let mut up = from;
         up.position.z.0 -= WAY_MM;
         let speed = Speed::try_new(WAY_MM_S).expect("it is above 0");

@@ -129,6 +129,29 @@ fn nothing_moves_in_a_check_whose_rig_file_has_the_tip_in_the_gel_or_was_never_t
     assert_eq!(check.halt_left_out.as_deref(), Some(why));
 }
 
+/// Jogs the tip into the gel before it lets the robot move.
+struct JogsIntoGel(World);
+
+impl Operator for JogsIntoGel {
+    fn ask(&mut self, _: &Question, _: &Cancel) -> Answer {
+        assert!(self.0.travel([0.0, 0.0, 0.25], 50.0));
+        Answer::Done
+    }
+}
+
+#[test]
+fn nothing_moves_in_a_check_if_the_tip_was_jogged_into_the_gel_before_somebody_let_it_move() {
+    let world = World::new();
+    let mut jogs = JogsIntoGel(world.clone());
+    let check = check_rig(&rig(), &drivers(&world), Some(&mut jogs)).expect("a file");
+    let mut problems = check.problems.iter();
+    let is_deep = problems.any(|problem| matches!(problem, RigProblem::InGel { .. }));
+    assert!(is_deep, "{:?}", check.problems);
+    assert!(check.halt.is_none() && world.state().motions == 1);
+    let why = "nothing moves, because the place of the robot is wrong";
+    assert_eq!(check.halt_left_out.as_deref(), Some(why));
+}
+
 /// A rig file as written by `init rig`.
 fn untaught() -> RigFile {
     let folder = tempfile::tempdir().expect("a folder");
