@@ -44,7 +44,9 @@ fn gives_declared(tried: &Subject<'_>) -> Result<(), Unmet> {
     stream::gives(tried)?;
     match facts.frame {
         Some(_) => Ok(()),
-        None => Err(skipped(format!("frames of {given}, no size declared"))),
+        None => Err(skipped(format!(
+            "it gives frames of {given} but declares no size to compare them with"
+        ))),
     }
 }
 

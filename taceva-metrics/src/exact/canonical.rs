@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::digits::DIGITS;
 
-/// Most digits of an external sum, so few that no number of merges overflows.
+/// Maximum number of digits of a sum that is read. The digits above it leave room for any number of merges.
 const READABLE_DIGITS: usize = DIGITS - 4;
 
 /// An exact sum as sign, magnitude and place: equal sums have equal forms.

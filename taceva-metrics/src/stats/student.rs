@@ -22,7 +22,7 @@ pub(super) fn beyond(level: f64, freedom: f64) -> f64 {
 
 /// Newton's steps from 0, while they increase.
 fn climb(freedom: f64, missing: impl Fn(&Split) -> f64) -> f64 {
-    /// A multiple of the ten steps that 95 % takes.
+    /// Maximum number of steps; the 95 % quantile takes about ten.
     const MOST_STEPS: usize = 200;
     let mut t = 0.0;
     for _ in 0..MOST_STEPS {

@@ -154,9 +154,15 @@ fn streamed(name: &str, decoder: impl Read, size: usize) -> Result<Vec<u8>, Stri
 fn snappy(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
     let wrong = |error: snap::Error| format!("incomplete Snappy block: {error}");
     let announced = snap::raw::decompress_len(packed).map_err(wrong)?;
-    if announced != size || size > packed.len().saturating_mul(SNAPPY_GROWTH) {
+    if announced != size {
         return Err(format!(
-            "{} bytes of Snappy state {announced} bytes, expected {size}",
+            "{} bytes of Snappy announce {announced} unpacked bytes, expected {size}",
+            packed.len()
+        ));
+    }
+    if size > packed.len().saturating_mul(SNAPPY_GROWTH) {
+        return Err(format!(
+            "{} bytes of Snappy cannot hold {size}",
             packed.len()
         ));
     }

@@ -18,9 +18,10 @@ pub(crate) fn check_sorted(
         return Err(source.mismatch(name, problem));
     }
     match sorted.last() {
-        Some(last) if *last >= rows => {
-            Err(source.mismatch(name, format!("no row {last}, there are {rows} from 0")))
-        }
+        Some(last) if *last >= rows => Err(source.mismatch(
+            name,
+            format!("no row {last}: there are {rows}, counted from 0"),
+        )),
         _ => Ok(()),
     }
 }

@@ -61,7 +61,10 @@ pub enum VideoError {
         limit: u64,
     },
     /// The clip has no frame with the requested index.
-    #[error("{}: no frame {index}, there are {frames} from 0", shown(path))]
+    #[error(
+        "{}: no frame {index}: there are {frames}, counted from 0",
+        shown(path)
+    )]
     NoFrame {
         /// Clip.
         path: PathBuf,

@@ -118,7 +118,7 @@ fn check_data(source: &Source, chunks: &mut Chunks<'_>, data_end: u64) -> Result
         true => Ok(()),
         false => {
             let problem = format!(
-                "the checksum of the data is {formed:08x}, expected {crc:08x}: it was changed after writing"
+                "the checksum of the data is {formed:08x}, expected {crc:08x}: the file was changed after writing"
             );
             Err(source.damaged(Place::byte(at), problem))
         }
@@ -139,7 +139,7 @@ fn summary(
     let formed = crc32fast::hash(&all);
     if crc != 0 && crc != formed {
         let problem = format!(
-            "the checksum of the summary is {formed:08x}, expected {crc:08x}: it was changed after writing"
+            "the checksum of the summary is {formed:08x}, expected {crc:08x}: the file was changed after writing"
         );
         return Err(source.damaged(Place::byte(begin), problem));
     }

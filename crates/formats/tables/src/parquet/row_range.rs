@@ -35,7 +35,11 @@ impl ParquetTable {
     ) -> Result<(), TableError> {
         let found = Found::new(&self.source, &self.columns, name)?;
         if rows.end > self.rows {
-            let problem = format!("no row {}, there are {} from 0", rows.end - 1, self.rows);
+            let problem = format!(
+                "no row {}: there are {}, counted from 0",
+                rows.end - 1,
+                self.rows
+            );
             return Err(self.source.mismatch(name, problem));
         }
         let mut begin = 0;

@@ -197,7 +197,7 @@ impl Reader<'_> {
             self.bytes += u64::from(size);
             let Some(end) = end.filter(|_| size > 0 && self.bytes <= source.length()) else {
                 let problem = format!(
-                    "a frame of {size} bytes at byte {offset} exceeds the file, which ends after {}",
+                    "a frame of {size} bytes at byte {offset} extends past the end of the file, which has {} bytes",
                     source.length()
                 );
                 return Err(source.damaged(at, problem));

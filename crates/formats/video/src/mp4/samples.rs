@@ -163,7 +163,7 @@ fn read_offsets(source: &Source, tables: &BoxAt, sizes: &[u32]) -> Result<Vec<u6
             let end = offset.checked_add(u64::from(size));
             let Some(end) = end.filter(|end| *end <= source.length()) else {
                 let problem = format!(
-                    "frame {} of {size} bytes at byte {offset} exceeds the file, which ends after {}",
+                    "frame {} of {size} bytes at byte {offset} extends past the end of the file, which has {} bytes",
                     offsets.len(),
                     source.length()
                 );

@@ -22,7 +22,8 @@ pub(super) static CHECK: Check = Check {
 /// Minimum jump within one contact: a multiple of the usual step, and a time in seconds.
 const JUMP_STEPS: f64 = 100.0;
 const JUMP_S: f64 = 1.0;
-/// Without contact points a pause between presses looks like a jump: at most one step in this many, or a single one, is a jump.
+/// Without contact points, a pause between presses looks like a jump. Jumps are reported only if there is a single one, or at most one in
+/// this many steps.
 const SELDOM: usize = 100;
 /// Such jumps are searched only if nine in ten steps are at most this many usual steps.
 const REGULAR_STEPS: f64 = 3.0;

@@ -59,7 +59,7 @@ impl Recorder {
         }
         match self.frame_info {
             Some(expected) if expected != frame.info() => refused(format!(
-                "a frame of {}, expected {expected} as the first",
+                "a frame of {}, expected {expected}, as in the first frame",
                 frame.info()
             )),
             _ => Ok(()),

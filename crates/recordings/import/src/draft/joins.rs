@@ -210,7 +210,7 @@ fn in_hz(rate: f64) -> String {
 fn by_row(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     // With several tables, each would begin with the first row of the other.
     let is_alike = main.rows == other.rows && main.channels() == 0 && main.group.paths.len() == 1;
-    is_alike.then(|| vec!["on = \"row\"   # both have as many rows".to_owned()])
+    is_alike.then(|| vec!["on = \"row\"   # both have the same number of rows".to_owned()])
 }
 
 #[cfg(test)]

@@ -59,7 +59,10 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
         }
         Err(ImportError::image(
             self.path(),
-            format!("no frame {index}, there are {} from 0", self.count()),
+            format!(
+                "no frame {index}: there are {}, counted from 0",
+                self.count()
+            ),
         ))
     }
 }

@@ -125,7 +125,7 @@ fn what_is_no_array_of_frames_is_refused_in_words() {
         (
             npy("|u1", "(1, 1, 1)", &[0]),
             in_file,
-            "no frame 1, there are 1 from 0",
+            "no frame 1: there are 1, counted from 0",
         ),
         (npy("|u1", "(2, 1, 0)", &[]), in_file, "not accepted"),
         (npy("|u1", "(2, 2, 2)", &[0; 7]), in_file, "frames.npy"),

@@ -90,7 +90,7 @@ impl fmt::Display for RigProblem {
                 "the enabling switch was never read as held: hold it when the check asks for it; if you did, correct `byte` and `mask` of `enable`; nothing moves without it",
             ),
             RigProblem::NotHalted => f.write_str(
-                "the robot did not stop at a halt: do not run it; check the driver and the controller",
+                "the robot did not stop when it was halted: do not run it; check the driver and the controller",
             ),
         }
     }

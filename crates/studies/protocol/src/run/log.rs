@@ -24,7 +24,7 @@ pub trait PressLog {
     /// Any failure to make it durable. The run then stops.
     fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError>;
 
-    /// Stores the start of a session on the rig of a rig file, before its first press.
+    /// Stores the record of a session's start, before its first press. Only runs with a rig file have sessions.
     ///
     /// # Errors
     /// Any failure to make it durable. The run then stops.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Clock of a run, in s: the clock that stamps the devices. It never goes back.
+/// Clock of a run, in s. It stamps the readings of the devices and never goes back.
 ///
 /// (Core's [`Clock`](taceva_core::Clock) names only the kind of clock of a recording.)
 pub trait Timekeeper {

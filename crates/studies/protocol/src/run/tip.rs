@@ -195,7 +195,7 @@ impl<'a> Tip<'a> {
         self.look().map(drop)
     }
 
-    /// Sets the stage for a way through the air. Guard threads check it for collisions if the zero is known.
+    /// Sets the motion stage before a motion through the air. Guard threads watch it for collisions if the zero is known.
     pub(super) fn watch_way(&mut self) -> Step<()> {
         if self.is_zero_known || !self.pace.host_zero {
             let threshold_n = match self.is_guarded {

@@ -50,7 +50,7 @@ enum WrittenOn {
 #[derive(Deserialize)]
 #[serde(
     untagged,
-    expecting = "a number of ms, { \"FILE\" = ms, … } or the name of a column with it"
+    expecting = "a lag in ms, { \"FILE\" = lag in ms, … } or the name of a column that holds the lag"
 )]
 enum WrittenLag {
     Fixed(f64),

@@ -19,7 +19,7 @@ pub(in crate::import) struct ResolvedTable {
     cells: Vec<Vec<String>>,
     /// Place of each row, for messages.
     places: Vec<Place>,
-    /// For each row, the join without a match that leaves it out, if any.
+    /// For each row, the first join that has no match for it, if any. Such a row is left out.
     unmatched: Vec<Option<String>>,
 }
 
