@@ -146,6 +146,8 @@ pub(crate) struct ColumnTable {
 #[derive(Debug, Default)]
 struct ReadColumns {
     by_name: BTreeMap<String, Arc<Vec<String>>>,
+    /// Problems of columns that could not be read, so that each costs one attempt.
+    refused: BTreeMap<String, String>,
     bytes: usize,
 }
 
@@ -230,15 +232,20 @@ impl ColumnTable {
         if names.is_empty() {
             return Ok(());
         }
-        let columns = guarded(|| self.source.columns(&names)).and_then(|columns| columns);
-        let columns = columns.map_err(|problem| {
-            ImportError::table(
-                match names.as_slice() {
-                    [name] => Place::file(&self.path).in_column(*name),
-                    _ => Place::file(&self.path),
-                },
-                problem,
-            )
+        // A cell takes at least its `String`, which is known before anything is unpacked.
+        let least = size_of::<String>().saturating_mul(self.rows());
+        let least = least.saturating_mul(names.len()).saturating_add(read.bytes);
+        let columns = match names.as_slice() {
+            [name] if read.refused.contains_key(*name) => Err(read.refused[*name].clone()),
+            _ if least > self.most_bytes => Err(self.too_many_bytes()),
+            names => guarded(|| self.source.columns(names)).and_then(|columns| columns),
+        };
+        let columns = columns.map_err(|problem| match names.as_slice() {
+            [name] => {
+                read.refused.insert((*name).to_owned(), problem.clone());
+                ImportError::table(Place::file(&self.path).in_column(*name), problem)
+            }
+            _ => ImportError::table(Place::file(&self.path), problem),
         })?;
         for (name, column) in names.into_iter().zip(columns) {
             if column.len() != self.rows() {
@@ -249,17 +256,21 @@ impl ColumnTable {
                 );
                 return Err(ImportError::table(&self.path, problem));
             }
-            read.bytes = read.bytes.saturating_add(bytes_of(&column));
-            if read.bytes > self.most_bytes {
-                let problem = format!(
-                    "the cells of its columns take more than {} bytes, far more than the file: write it with less compression, or name fewer columns",
-                    self.most_bytes
-                );
-                return Err(ImportError::table(&self.path, problem));
+            let bytes = read.bytes.saturating_add(bytes_of(&column));
+            if bytes > self.most_bytes {
+                return Err(ImportError::table(&self.path, self.too_many_bytes()));
             }
+            read.bytes = bytes;
             read.by_name.insert(name.to_owned(), Arc::new(column));
         }
         Ok(())
+    }
+
+    fn too_many_bytes(&self) -> String {
+        format!(
+            "the cells of its columns take more than {} bytes, far more than the file: write it with less compression, or name fewer columns",
+            self.most_bytes
+        )
     }
 
     pub(super) fn time_unit(&self, name: &str) -> Option<&'static str> {
@@ -319,3 +330,6 @@ impl ColumnTable {
         pictures.map_err(|problem| ImportError::table(&self.path, problem))
     }
 }
+
+#[cfg(test)]
+mod tests;
