@@ -231,7 +231,7 @@ fn a_device_that_answers_nan_or_saturates_or_stalls_is_caught() {
         (FaultKind::Silence, "no answer within 1s (timeout)"),
         (
             FaultKind::StaleStamp,
-            "a stamp of 0.1 s after one of 0.1 s, expected increasing stamps",
+            "a stamp of 0.1 s follows a stamp of 0.1 s, expected increasing stamps",
         ),
     ];
     for (kind, expected) in cases {

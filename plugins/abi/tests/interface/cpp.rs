@@ -20,7 +20,7 @@ long: -15 502 xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx
 stop throws: 0 0 
 wait: -4 20 nothing came in time
 well: -7 17 it is not started
-well: -7 38 a buffer that is too short for a frame
+well: -7 35 the buffer is too short for a frame
 interrupted: -10 18 it was interrupted
 third: -1 14 no such driver
 key = \"second\"

@@ -136,7 +136,7 @@ fn a_frame_beyond_the_clip_names_its_row_and_how_many_there_are() {
     refused(
         folder.path(),
         &map,
-        &["labels.csv, line 3, column `k`", "no frame 9000, there are"],
+        &["labels.csv, line 3, column `k`", "no frame 9000: there are"],
     );
 }
 

@@ -108,7 +108,7 @@ fn frames_of_an_array_are_kept_bit_for_bit() {
     let error = lab.import_to("other", 1).expect_err("beyond");
     let message = error.to_string();
     assert!(
-        message.contains("line 5, column `x`") && message.contains("no frame 6, there are 6"),
+        message.contains("line 5, column `x`") && message.contains("no frame 6: there are 6"),
         "{message}"
     );
 }

@@ -161,7 +161,7 @@ mod tests {
             ("90.5", Unit::Degree, "a whole number of degrees"),
             ("1", Unit::Radian, "a whole number of degrees"),
             ("-360", Unit::Degree, "a whole number of degrees"),
-            ("full", Unit::Degree, "`full` is no period"),
+            ("full", Unit::Degree, "`full` is not a period"),
         ] {
             let problem = degrees(text, unit).expect_err(text);
             assert!(problem.contains(remedy), "{problem}");

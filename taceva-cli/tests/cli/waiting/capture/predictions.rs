@@ -161,7 +161,7 @@ fn a_model_of_hand_presses_predicts_what_the_transducer_measures_on_a_page_and_b
     let ran = running.ended();
     assert_eq!(ran.code, 0, "{}", ran.err);
     assert!(
-        ran.err.contains("pictures were sent to a browser"),
+        ran.err.contains(" sent to a browser, 95 % within "),
         "{}",
         ran.err
     );

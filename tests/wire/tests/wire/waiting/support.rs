@@ -46,7 +46,7 @@ pub(crate) fn moved(
             Instant::now()
         });
         let error = arm
-            .move_to(lower(home, 15.0), speed(2.0), PATIENCE)
+            .move_to(lower(home, 15.0), speed(1.5), PATIENCE)
             .expect_err("broken off");
         let returned = Instant::now();
         let happened = happening.join().expect("it happened");
