@@ -84,6 +84,9 @@ impl Channelwise for LightPresses {
         rows: Option<&[u32]>,
     ) {
         let points = batch.points();
+        if points.is_none() && batch.rows() > 0 {
+            sums.places.forget_names();
+        }
         each_pair(batch, position, rows, |row, pair| {
             if !pair.is_valid() {
                 sums.n_invalid += 1;
