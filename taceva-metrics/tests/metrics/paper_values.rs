@@ -114,7 +114,7 @@ fn a_report_has_the_keys_that_scripts_rely_on() {
             "value": 0.25, "unit": "N", "of": ["Fx", "Fy"], "n": 5, "n_invalid": 0,
             "ci95": [0.25, 0.25], "method": "jackknife by point_id, G=5, logarithmic",
             "standard_error": 0.0, "clusters": 5, "degrees_of_freedom": 4.0, "definition": "mae/1", "better": "lower",
-            "standing": "skill unknown"
+            "flags": ["equal clusters"], "standing": "skill unknown"
         })
     );
     assert_eq!(
