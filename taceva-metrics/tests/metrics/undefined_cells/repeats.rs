@@ -102,6 +102,6 @@ fn a_constant_predictor_has_no_signal_and_perfect_repeats_no_ratio() {
     );
     assert_eq!(
         said(&one, "signal_to_repeatability", "Px"),
-        "1 repeated presses, 2 are needed"
+        "1 repeated press, 2 are needed"
     );
 }
