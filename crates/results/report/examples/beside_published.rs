@@ -302,7 +302,7 @@ mod tests {
     fn a_seed_that_is_there_twice_or_lacks_a_sensor_is_refused() {
         let one = result(1, [1.0; 4]);
         let twice = tables(&[one.clone(), one.clone()]).expect_err("twice");
-        assert_eq!(twice, "1.json: GelSight with seed 1 for the second time");
+        assert_eq!(twice, "1.json: GelSight with seed 1 occurs twice");
         let lacking = result_of("another", 1, [1.0; 4]);
         let lacking = tables(&[lacking, result(2, [1.0; 4])]).expect_err("another sensor");
         assert_eq!(lacking, "every seed needs results of the same sensors");

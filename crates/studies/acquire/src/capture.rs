@@ -135,7 +135,7 @@ pub struct Captured {
 ///
 /// # Errors
 /// - [`AcquireError::Device`] if a device fails before the first frame.
-/// [`AcquireError::CaptureEnded`] if a device fails later; the earlier frames are a complete recording.
+/// - [`AcquireError::CaptureEnded`] if a device fails later; the earlier frames are a complete recording.
 /// - [`AcquireError::CaptureBroken`] if the recording cannot be written.
 /// - [`AcquireError::Dataset`] if the folder exists.
 /// - [`AcquireError::Model`] if the model does not fit the frames. A model that fails later ends its predictions, not the capture.

@@ -145,7 +145,11 @@ fn every_kind_of_mistake_is_found_by_a_check() {
 }
 
 fn what_a_library_says_that_it_needs_stands_in_its_manifest() {
-    finds(&["NEEDS=\"hid\""], "library/needs", "it states the need \"hid\"");
+    finds(
+        &["NEEDS=\"hid\""],
+        "library/needs",
+        "it states the need \"hid\"",
+    );
     let Some(fixture) = Fixture::built(&["NEEDS=\"hid\\nlisten:5025\""]) else {
         return;
     };

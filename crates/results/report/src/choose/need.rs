@@ -285,7 +285,7 @@ mod tests {
             said("uniformity high"),
             "`uniformity high`: expected a number above 0, such as `uniformity >= 0.9`"
         );
-        assert!(said("cheap").starts_with("`cheap`: prices take part in no ranking"));
+        assert!(said("cheap").starts_with("`cheap`: prices are not ranked"));
         let needs = Need::read("needs = [\"shear\", \"rate >= 50 Hz\"]").expect("a file");
         assert_eq!(needs.len(), 2);
     }

@@ -79,7 +79,7 @@ fn a_motion_beyond_what_the_robot_says_of_itself_is_refused_before_it_begins() {
     };
     let (status, message) = refused(fast);
     assert_eq!(status, Status::OUT_OF_RANGE);
-    assert_eq!(message, "200 mm/s, expected at most 100 mm/s");
+    assert_eq!(message, "the speed is 200 mm/s, expected at most 100 mm/s");
 }
 
 #[test]

@@ -29,7 +29,7 @@ fn every_metric_that_is_asked_for_is_answered_beside_the_questions_with_a_name()
     let comparison = compare(&two(), &request);
     assert_eq!(asked(&comparison), ["Normal force (mae Fz ↓)", "rmse Fz ↓"]);
     let overview = comparison.overview(None);
-    let line = "\nrmse Fz ↓: Fine, 0.25 N, better than Coarse (p < 0.001)\n";
+    let line = "\nrmse Fz ↓: Fine, 0.25 N, better than Coarse (p < 0.001)";
     assert!(overview.contains(line), "{overview}");
     // Without a request, only the named questions appear.
     let every = compare(&two(), &CompareRequest::default());
@@ -39,7 +39,7 @@ fn every_metric_that_is_asked_for_is_answered_beside_the_questions_with_a_name()
 #[test]
 fn markdown_has_the_answers_of_the_overview_above_every_pair() {
     let markdown = of_metric(&two(), "mae").markdown();
-    let answer = "\n- Normal force (mae Fz ↓): Fine, 0.25 N, better than Coarse (p &lt; 0.001)\n";
+    let answer = "\n- Normal force (mae Fz ↓): Fine, 0.25 N, better than Coarse (p &lt; 0.001)";
     let [answer, table] = [answer, "\n| metric"].map(|part| markdown.find(part));
     assert!(
         answer.is_some() && answer < table,
