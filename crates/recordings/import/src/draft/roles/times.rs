@@ -64,7 +64,7 @@ fn guessed_unit(numbers: &[f64], greatest: f64) -> (&'static str, Option<&'stati
 }
 
 /// Median positive step between sorted numbers.
-pub(in crate::draft) fn median_step(numbers: &[f64]) -> Option<f64> {
+pub(crate) fn median_step(numbers: &[f64]) -> Option<f64> {
     let mut sorted = numbers.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
     let steps = sorted.windows(2).map(|pair| pair[1] - pair[0]);
@@ -75,8 +75,8 @@ pub(in crate::draft) fn median_step(numbers: &[f64]) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::role;
     use super::*;
-    use crate::draft::roles::role;
 
     #[test]
     fn the_unit_of_times_without_one_is_guessed_by_the_median_step() {
