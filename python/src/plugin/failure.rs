@@ -171,13 +171,18 @@ fn library(message: &str) -> &str {
 /// Innermost file and line of the traceback of the exception.
 fn place(py: Python<'_>, error: &PyErr) -> Option<String> {
     let mut trace = error.traceback(py)?.into_any();
-    while let Ok(next) = trace.getattr("tb_next")
-        && !next.is_none()
-    {
-        trace = next;
+    let mut innermost = None;
+    loop {
+        let line: u32 = trace.getattr("tb_lineno").ok()?.extract().ok()?;
+        let code = trace.getattr("tb_frame").ok()?.getattr("f_code").ok()?;
+        let file: String = code.getattr("co_filename").ok()?.extract().ok()?;
+        // The functions that it puts in place of others are no code of the plugin.
+        if innermost.is_none() || !file.ends_with("/plugin_child.py") {
+            innermost = Some(format!("{file}, line {line}"));
+        }
+        match trace.getattr("tb_next") {
+            Ok(next) if !next.is_none() => trace = next,
+            _ => return innermost,
+        }
     }
-    let line: u32 = trace.getattr("tb_lineno").ok()?.extract().ok()?;
-    let code = trace.getattr("tb_frame").ok()?.getattr("f_code").ok()?;
-    let file: String = code.getattr("co_filename").ok()?.extract().ok()?;
-    Some(format!("{file}, line {line}"))
 }
