@@ -152,7 +152,7 @@ struct ReadColumns {
 }
 
 /// Memory limit of the cells of a file, bytes: `CELL_BYTES`, or `CELL_RATIO` times the file size if that is more.
-const CELL_BYTES: u64 = 128 << 20;
+const CELL_BYTES: u64 = 96 << 20;
 const CELL_RATIO: u64 = 64;
 
 /// Maximum memory of the cells of the file at `path`, bytes; unlimited for a folder.

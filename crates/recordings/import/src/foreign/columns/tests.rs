@@ -65,6 +65,6 @@ fn a_column_that_cannot_be_read_costs_one_attempt() {
 #[test]
 fn a_column_of_too_many_cells_is_refused_before_it_is_unpacked() {
     let (error, reads) = refused(10_000_000);
-    assert!(error.contains("take more than 134217728 bytes"), "{error}");
+    assert!(error.contains("take more than 100663296 bytes"), "{error}");
     assert_eq!(reads, 0);
 }
