@@ -24,7 +24,7 @@ const TILES_AT_ONCE_OF_MANY_WEIGHTS: usize = 48;
 /// transforms do. Errors are smallest if inner and outer sums have equally many terms. The count is therefore the square root of the channels, or the
 /// next larger power of two: 8 of 64, 16 of 128 and 256, 32 of 512.
 ///
-/// Of 4, 8, 16, 32 and all, this count is the most exact in each layer of a ResNet, to within a few hundredths. `tests/blocks.rs` prints and checks
+/// This count is the most exact of 4, 8, 16, 32 and all in each layer of a ResNet, to within a few hundredths. `tests/blocks.rs` prints and checks
 /// the errors against double precision. One count for all layers is less exact: 8 by a fifth at 512 channels, 16 by a twentieth at 64. Errors were
 /// not the only criterion. With 16 everywhere, `two_hundred_steps_go_as_pytorch_s` diverges from PyTorch at step 11, perhaps at a ReLU whose input is
 /// near zero. Of five settings tried, 8 everywhere and this count pass the test.

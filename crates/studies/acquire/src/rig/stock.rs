@@ -1,4 +1,4 @@
-//! What the changers and the lighting of a rig hold, opened to be checked.
+//! Specimens, units and light scenes of a rig, as its opened devices report them.
 
 use taceva_protocol::RigFile;
 
