@@ -33,8 +33,8 @@ impl End {
 
 /// Interval at which a thread that waits for a client checks for the end.
 const LOOK: Duration = Duration::from_millis(5);
-/// Longest time that a client without reads may block its thread.
-const WRITING: Duration = Duration::from_secs(2);
+/// Longest time that a client without reads may block its thread: a client that waits for a busy processor keeps its stream.
+const WRITING: Duration = Duration::from_secs(30);
 
 impl Server {
     /// Listens on `port` of `host`, a loopback address; port 0 selects any port. `serve` is called on a separate thread for each client.
