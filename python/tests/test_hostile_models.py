@@ -124,7 +124,7 @@ def test_a_model_that_calls_itself_without_end_is_named_with_its_line_and_nothin
     def endless(seen: Any) -> Any:
         return endless(seen)
 
-    said = r"test_hostile_models\..*(Mean|endless) calls itself without end: .*recursion.*test_hostile_models\.py, line \d+\)$"
+    said = r"test_hostile_models\..*(Mean|endless) recurses too deeply: .*recursion.*test_hostile_models\.py, line \d+\)$"
     with pytest.raises(taceva.ModelError, match=said) as caught:
         taceva.evaluate(drawn, kind(endless), split=SPLIT, settings=SMALL if kind is Mean else None)
     assert caught.value.__context__ is None
@@ -136,7 +136,7 @@ def test_a_fit_that_calls_itself_without_end_is_an_error_of_its_model(drawn: tac
         def fit(self, seen: Any, labels: Any) -> None:
             self.fit(seen, labels)
 
-    with pytest.raises(taceva.ModelError, match="Endless calls itself without end"):
+    with pytest.raises(taceva.ModelError, match="Endless recurses too deeply"):
         taceva.evaluate(drawn, Endless(), split=SPLIT, settings=SMALL)
 
 
@@ -149,7 +149,7 @@ def test_a_model_that_evaluates_itself_ends_after_a_few_evaluations_in_an_error_
 
     for _ in range(2):
         calls.clear()
-        with pytest.raises(taceva.ModelError, match=r"evaluates_itself calls itself without end: 8 evaluations .*hostile_models\.py, line"):
+        with pytest.raises(taceva.ModelError, match=r"evaluates_itself recurses too deeply: 8 evaluations .*hostile_models\.py, line"):
             taceva.evaluate(drawn, evaluates_itself, split=SPLIT)
         assert len(calls) == 8
 

@@ -131,7 +131,7 @@ def evaluate(
 
 
 def _ending(name: str, work: Callable[[], Any]) -> Any:
-    """Return the result of ``work``, which runs the model ``name``. An endless recursion becomes an error of that model."""
+    """Return the result of ``work``, which runs the model ``name``. A recursion that is too deep becomes an error of that model."""
     depth = _DEPTH.get()
     if depth >= _DEEPEST:
         raise RecursionError(f"{depth} evaluations of models lie within one another")
@@ -143,7 +143,7 @@ def _ending(name: str, work: Callable[[], Any]) -> Any:
     finally:
         _DEPTH.reset(token)
     # Raised here, because its context would otherwise keep every call of the recursion and their arrays.
-    raise _taceva.ModelError(f"{name} calls itself without end: {why}")
+    raise _taceva.ModelError(f"{name} recurses too deeply: {why}")
 
 
 def _place_of(error: BaseException) -> str:

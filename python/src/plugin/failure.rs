@@ -122,7 +122,7 @@ fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
         behind.push_str("; install it in the environment of the plugin");
     }
     if error.is_instance_of::<PyRecursionError>(py) {
-        behind.push_str("; it calls itself without end");
+        behind.push_str("; it recurses too deeply");
     }
     if let Some(place) = place(py, error) {
         behind.push_str(&format!(" ({place})"));
