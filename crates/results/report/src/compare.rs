@@ -25,6 +25,7 @@ use taceva_metrics::{
 
 use crate::names::listed;
 use crate::results::Study;
+use crate::training::demonstration;
 use remarks::Remarks;
 use taceva_results::{Score, not_measured};
 
@@ -178,8 +179,10 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     }
     Comparison {
         asides: asides(studies, &names, &answers),
-        notes: comparability::notes(studies, &names)
+        notes: demonstration(studies)
+            .map(|words| words.trim_end_matches('.').to_owned())
             .into_iter()
+            .chain(comparability::notes(studies, &names))
             .chain(unmeasured(studies))
             .chain(trainings(&names, &answers))
             .chain(unpaired)

@@ -17,7 +17,6 @@ mod studied;
 mod summary;
 mod tables;
 mod themes;
-mod training;
 mod triple;
 
 pub(crate) use document::Document;
@@ -35,6 +34,7 @@ use crate::figures::figures as all_figures;
 use crate::markup::{fold, folded_glossary};
 use crate::results::Study;
 use crate::scores::ScoreTable;
+use crate::training;
 
 /// Content of a report.
 #[derive(Clone, Copy, Debug)]

@@ -22,6 +22,7 @@ mod spread;
 mod table;
 mod tables_page;
 mod tie;
+mod training;
 mod variables;
 mod wrap;
 

@@ -21,7 +21,9 @@ pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> 
         let start = format!("{} in {}{mean}", score.definition, score.unit);
         constants.fold(start, |all, constant| all + &constant)
     };
-    if meaning(a) != meaning(b) {
+    // A score without a value has no unit in a file.
+    let has_value = a.value.number().is_some() && b.value.number().is_some();
+    if has_value && meaning(a) != meaning(b) {
         return Err(format!(
             "the definitions `{}` and `{}` differ",
             meaning(a),
@@ -113,6 +115,15 @@ mod tests {
             error,
             "the definitions `bias_level/1 in N, n_min = 5, width = 0.1` and `bias_level/1 in N, n_min = 5, width = 0.2` differ"
         );
+        // The unit of a file stands beside the value.
+        let mut valueless = other;
+        valueless.value = taceva_results::Value::Undefined("too few places".to_owned());
+        let error = of_both(Sides {
+            a: &a,
+            b: &valueless,
+        })
+        .expect_err("no value");
+        assert_eq!(error, "undefined: too few places");
     }
 
     #[test]

@@ -9,6 +9,7 @@ use super::{Answer, Comparison, Remarks};
 use crate::names::listed;
 use crate::number::{at_most, numeral, spaced};
 use crate::tie::best;
+use crate::training::NO_VERDICT;
 use crate::wrap::wrapped;
 
 /// Greatest number of lines in [`Comparison::overview`] before wrapping.
@@ -191,6 +192,14 @@ impl Comparison {
             }
             (None, None) if answers.is_empty() => (None, "no verdict".to_owned()),
             (None, None) => (None, untested(metric, &answers, &valued, &self.names)),
+            (Some((at, value)), None) if aside.is_demonstration => (
+                None,
+                format!(
+                    "{} {NO_VERDICT}, with {}{unit}",
+                    self.names[at],
+                    numeral(value)
+                ),
+            ),
             (Some((at, value)), None) => {
                 let lost = |answer: &&&Answer| answer.better() == Some(at);
                 let won: Vec<&Answer> = answers.iter().filter(lost).copied().collect();

@@ -6,6 +6,7 @@ use crate::light::Light;
 use crate::results::Study;
 use crate::spread;
 use crate::tie::{Tie, tie};
+use crate::training::is_demonstration;
 
 /// Remarks on one score of all studies.
 #[derive(Clone, Debug)]
@@ -16,6 +17,8 @@ pub(super) struct Remarks {
     pub(super) tie: Option<Tie>,
     /// Studies that are excluded from verdicts, with the reason.
     pub(super) barred: Vec<(usize, String)>,
+    /// True if models learnt on too few places for a verdict on sensors.
+    pub(super) is_demonstration: bool,
     /// Difference in label spread between the other studies; empty if none.
     pub(super) spread: String,
 }
@@ -45,6 +48,7 @@ impl Remarks {
             channel: channel.to_owned(),
             tie: tie(studies, names, metric, channel),
             barred: barred.collect(),
+            is_demonstration: is_demonstration(studies, metric),
             spread: spread::words(studies, names, &counting, metric, channel),
         }
     }

@@ -34,6 +34,7 @@ impl Comparison {
                     @let of = score_link(&decision.metric, &decision.channel);
                     li {
                         @if decision.question.is_empty() { strong { (of) } } @else { strong { (decision.question) } " (" (of) ")" }
+                        @if let Some(variant) = &decision.decided_by { ", decided by " code { (decision.metric) "." (variant) } }
                         ": " (decision.words)
                     } "\n"
                 }

@@ -4,10 +4,10 @@ use maud::{Markup, html};
 
 use super::figures::radars;
 use super::tables::table;
-use super::training::unequal_models;
 use crate::figure::Figure;
 use crate::results::Study;
 use crate::scores::{ScoreRow, ScoreTable};
+use crate::training::unequal_models;
 
 /// Main table and radars; `None` if both are absent.
 pub(super) fn section(studies: &[Study], table: &ScoreTable, figures: &[Figure]) -> Option<Markup> {

@@ -2,7 +2,6 @@
 
 use maud::{Markup, html};
 
-use super::training::is_demonstration;
 use crate::compare::{Answer, QUESTIONS};
 use crate::light;
 use crate::markup::score_link;
@@ -12,6 +11,7 @@ use crate::results::Study;
 use crate::scores::{ScoreCell, ScoreRow, ScoreTable};
 use crate::spread;
 use crate::tie::{best, tie};
+use crate::training::{NO_VERDICT, is_demonstration};
 use taceva_results::{Score, not_measured};
 
 /// Subtitle.
@@ -115,7 +115,7 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Mark
     let verdict = if known.len() < 2 {
         format!("is the only sensor with a value{that_takes_part}")
     } else if is_demonstration(studies, &row.metric) {
-        "has the best value, but this demonstration gives no verdict on sensors".to_owned()
+        NO_VERDICT.to_owned()
     } else if rivals.is_empty() {
         format!("is shown to be better than every other sensor{that_takes_part}")
     } else {

@@ -9,7 +9,7 @@ use crate::names::{listed, names};
 use crate::results::Study;
 
 /// Least number of contact places for a verdict on sensors. With fewer, doubling them still halves errors, so a comparison reflects the training.
-pub(super) const LEAST_PLACES: usize = 200;
+pub(crate) const LEAST_PLACES: usize = 200;
 
 /// Number of contact places on which the model of a study was fitted or selected here; `None` if unknown.
 fn places(study: &Study) -> Option<usize> {
@@ -33,18 +33,23 @@ fn places(study: &Study) -> Option<usize> {
 
 /// Least number of such places among several sensors, if too few for a verdict on sensors.
 fn too_few(studies: &[Study]) -> Option<usize> {
+    let sensors: BTreeSet<&str> = studies.iter().map(|study| study.sensor.as_str()).collect();
     let fewest = studies.iter().filter_map(places).min()?;
-    (studies.len() > 1 && fewest < LEAST_PLACES).then_some(fewest)
+    (sensors.len() > 1 && fewest < LEAST_PLACES).then_some(fewest)
 }
 
 /// True if `metric` gives no verdict on sensors, because it uses predictions of insufficiently trained models.
-pub(super) fn is_demonstration(studies: &[Study], metric: &str) -> bool {
+pub(crate) fn is_demonstration(studies: &[Study], metric: &str) -> bool {
     let reads = catalogue::find(metric).is_some_and(|metric| metric.reads_predictions());
     reads && too_few(studies).is_some()
 }
 
+/// Verdict for the best value of such a metric.
+pub(crate) const NO_VERDICT: &str =
+    "has the best value, but this demonstration gives no verdict on sensors";
+
 /// Sentence for pages of insufficiently trained models.
-pub(super) fn demonstration(studies: &[Study]) -> Option<String> {
+pub(crate) fn demonstration(studies: &[Study]) -> Option<String> {
     let fewest = too_few(studies)?;
     Some(format!(
         "A demonstration: models were fitted and chosen on {}, fewer than {LEAST_PLACES}, so scores of predictions give no verdict on sensors.",
@@ -53,7 +58,7 @@ pub(super) fn demonstration(studies: &[Study]) -> Option<String> {
 }
 
 /// Sentence on the models of the studies, if they differ.
-pub(super) fn unequal_models(studies: &[Study]) -> Option<String> {
+pub(crate) fn unequal_models(studies: &[Study]) -> Option<String> {
     // The best epoch depends on each training; features are compared by size and colour.
     let is_set = |setting: &&(String, String)| setting.0 != "epoch" && setting.0 != "features";
     let settings = |study: &Study| -> Vec<(String, String)> {
@@ -130,10 +135,51 @@ mod tests {
         let many = [study("a", 200, &[]), study("b", 300, &[])];
         assert_eq!(demonstration(&many), None);
         assert_eq!(demonstration(&few[..1]), None);
+        let models = [study("a", 112, &[]), study("a", 112, &[])];
+        assert_eq!(
+            demonstration(&models),
+            None,
+            "models of one sensor are compared as they are"
+        );
         // The training of a model that was not fitted here is unknown.
         let mut opened = few;
         opened[0].made.samples.clear();
         assert_eq!(demonstration(&opened), None);
+    }
+
+    #[test]
+    fn a_comparison_of_a_demonstration_names_no_winner() {
+        let scored = |sensor: &str, places: usize, mae: f64| {
+            let text = format!(
+                r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "x"}}, "metrics": {{"mae": {{"Fz":
+                {{"value": {mae}, "unit": "N", "n": 400, "ci95": [{}, {}], "method": "jackknife by point_id, G=40",
+                "definition": "mae/1"}}}}}}}}"#,
+                mae - 0.01,
+                mae + 0.01
+            );
+            let mut study = study(sensor, places, &[]);
+            study.scores = crate::results::unsealed(&text)
+                .expect("a result")
+                .remove(0)
+                .scores;
+            study
+        };
+        let decided = |places: usize| {
+            let studies = [scored("a", places, 0.1), scored("b", places, 0.9)];
+            let comparison = crate::compare(&studies, &crate::CompareRequest::default());
+            let decision = comparison.decisions().remove(0);
+            (decision.winner, decision.words, comparison.notes)
+        };
+        let (winner, words, notes) = decided(300);
+        assert_eq!(winner, Some(0), "{words}");
+        assert!(!notes.iter().any(|note| note.starts_with("A demonstration")));
+        let (winner, words, notes) = decided(112);
+        assert_eq!(winner, None, "{words}");
+        assert!(
+            words.starts_with(&format!("a {NO_VERDICT}, with 0.1 N")),
+            "{words}"
+        );
+        assert!(notes[0].starts_with("A demonstration: models"), "{notes:?}");
     }
 
     #[test]
