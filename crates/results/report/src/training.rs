@@ -151,9 +151,10 @@ mod tests {
     fn a_comparison_of_a_demonstration_names_no_winner() {
         let scored = |sensor: &str, places: usize, mae: f64| {
             let text = format!(
-                r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "x"}}, "metrics": {{"mae": {{"Fz":
-                {{"value": {mae}, "unit": "N", "n": 400, "ci95": [{}, {}], "method": "jackknife by point_id, G=40",
-                "definition": "mae/1"}}}}}}}}"#,
+                r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "x"}}, "metrics": {{
+                "r2": {{"Fz": {{"value": 0.9, "unit": "1", "n": 400, "ci95": [0.88, 0.92], "clusters": 40, "method": "drawn", "definition": "r2/1"}}}},
+                "mae": {{"Fz": {{"value": {mae}, "unit": "N", "n": 400, "ci95": [{}, {}], "clusters": 40, "method": "drawn", "definition": "mae/1"}}}}
+                }}}}"#,
                 mae - 0.01,
                 mae + 0.01
             );

@@ -14,9 +14,9 @@ pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String
     let sides = [(scores.a, names.a), (scores.b, names.b)];
     let reasons: Vec<String> = sides
         .into_iter()
-        .filter_map(|(score, name)| {
-            let reason = score.standing.reason().or_else(|| of_one_pair(score))?;
-            Some(format!("{name}: {reason}"))
+        .filter_map(|(score, name)| match score.standing.reason() {
+            Some(reason) => Some(format!("{name}: {reason}")),
+            None => of_one_pair(score).map(|reason| format!("{reason} ({name})")),
         })
         .collect();
     (!reasons.is_empty()).then(|| reasons.join("; "))

@@ -312,7 +312,7 @@ impl Answer {
         let barred = sides.into_iter().find(|standing| !standing.takes_part());
         let words = barred.and_then(Standing::phrase);
         let words = words.or(self.reason.as_deref()).unwrap_or("no value");
-        words.split(':').next().unwrap_or(words)
+        words.split([':', '(']).next().unwrap_or(words).trim_end()
     }
 
     /// `mae Pz ↓`, or `repeatability.pooled Pz ↓` for a compared variant.

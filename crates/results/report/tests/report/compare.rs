@@ -297,6 +297,20 @@ fn a_page_says_who_is_better_and_has_radars_only_if_some_are_drawn() {
 }
 
 #[test]
+fn the_summary_counts_single_pairs_of_units_as_one_cause() {
+    let of = |sensor| {
+        let mut units = score(0.5, 0.01, "N");
+        units["counts"] = json!({"pairs_valid": 1});
+        study(sensor, &[("inter_sensor", "Fz", units)], &["Fz"])
+    };
+    let summary = of_metric(&[of("one"), of("two")], "inter_sensor").summary();
+    assert!(
+        summary.contains("1 cannot be tested: only one pair of units was compared (1)"),
+        "{summary}"
+    );
+}
+
+#[test]
 fn with_a_margin_a_row_has_one_decision() {
     let margins = [("mae".to_owned(), 0.05)].into();
     let request = CompareRequest {
