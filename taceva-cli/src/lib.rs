@@ -23,6 +23,7 @@ use taceva_sim as _;
 
 use std::ffi::OsString;
 use std::path::Path;
+use std::time::Duration;
 
 use anyhow::Error;
 use clap::FromArgMatches as _;
@@ -70,7 +71,7 @@ pub fn main_with(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone
         Ok(cli) => cli,
         Err(code) => return code,
     };
-    progress::listen_for_signals();
+    progress::listen_for_signals(cli.command.as_ref().and_then(patience));
     process_limits::refuse_to_end_at_the_limit_of_file_sizes();
     let context = Context::new(&cli.everywhere, Invocation::new(&words));
     let done = cmd::check_isa().and_then(|()| match &cli.command {
@@ -113,6 +114,23 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Doctor(args) => cmd::doctor::run(args, context),
         Command::Completions(args) => cmd::completions::run(args),
         Command::Man(args) => cmd::man::run(args, context),
+    }
+}
+
+/// Time in which `command` must end after a signal: enough to finish a picture, or the 5 s of a plugin that fits a model. `None` for commands with
+/// devices, processes or several recordings of their own, which end in order.
+fn patience(command: &Command) -> Option<Duration> {
+    match command {
+        Command::Sweep(_)
+        | Command::Capture(_)
+        | Command::Preview(_)
+        | Command::Run(_)
+        | Command::Rig(_)
+        | Command::Plugin(_) => None,
+        Command::Fit(_) | Command::Evaluate(_) | Command::Predict(_) | Command::Bench(_) => {
+            Some(Duration::from_secs(8))
+        }
+        _ => Some(Duration::from_secs(1)),
     }
 }
 

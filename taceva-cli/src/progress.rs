@@ -18,17 +18,29 @@ static INSISTED: AtomicBool = AtomicBool::new(false);
 const HALTING: Duration = Duration::from_millis(250);
 
 /// Stops work on SIGINT and SIGTERM: a robot leaves the gel, and the recording stays complete. A second signal halts the robot in place and
-/// ends the program.
-pub(crate) fn listen_for_signals() {
-    let listening = ctrlc::set_handler(|| {
+/// ends the program. With a `patience`, the first signal ends it too, once this time has passed.
+pub(crate) fn listen_for_signals(patience: Option<Duration>) {
+    let listening = ctrlc::set_handler(move || {
         if STOPPED.swap(true, Ordering::SeqCst) {
             INSISTED.store(true, Ordering::SeqCst);
             std::thread::sleep(HALTING);
             std::process::exit(i32::from(crate::exit::STOPPED));
         }
+        if let Some(patience) = patience {
+            // Where no thread can be started, a second signal ends the program.
+            drop(std::thread::Builder::new().spawn(move || end_after(patience)));
+        }
     });
     // Without a handler a signal ends the program as by default: incomplete files are never read.
     drop(listening);
+}
+
+/// Ends the program, unless it ends by itself within `patience`. For work that holds no device and whose files are whole or absent.
+fn end_after(patience: Duration) {
+    std::thread::sleep(patience);
+    taceva_files::remove_before_exit();
+    stderr::say(format_args!("stopped on request"));
+    std::process::exit(i32::from(crate::exit::STOPPED));
 }
 
 /// Stops work like a signal, for a page. A second call halts a robot in place; the program then ends with the run.

@@ -128,6 +128,7 @@ impl Staged {
         self,
         exchange: impl Fn(&Path, &Path) -> io::Result<bool>,
     ) -> io::Result<()> {
+        self.folder.disown();
         let (path, target) = (&self.path, &self.target);
         let mut former = std::ffi::OsString::from(FORMER);
         former.push(path.file_name().unwrap_or_default());
@@ -174,6 +175,7 @@ pub fn replace<E: From<io::Error>>(
     clear_once(parent_of(path));
     write(&staged.path)?;
     fs::File::open(&staged.path)?.sync_all()?;
+    staged.folder.disown();
     fs::rename(&staged.path, path)?;
     Ok(sync_folder(parent_of(path))?)
 }

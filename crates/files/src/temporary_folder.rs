@@ -1,8 +1,10 @@
 //! Temporary folders with random names and owner-only access. Leftovers of killed processes are removed.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::durable::{parent_of, sync_folder};
 
@@ -14,6 +16,26 @@ pub(crate) const FORMER: &str = "replaced-";
 const CREATIONS: u32 = 16;
 /// Letters and digits behind the prefix of a name.
 const RANDOM: usize = 6;
+
+/// Temporary folders of this process whose content nobody publishes.
+static OWN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Removes the temporary folders of this process. For a program that ends while other threads still work.
+///
+/// From then on, a thread that makes or removes a temporary folder, or puts a staged version in place, waits for the exit. A folder in which another
+/// thread writes at this moment can remain. The next process removes it.
+pub fn remove_before_exit() {
+    let own = own();
+    for path in own.iter() {
+        drop(remove(path));
+    }
+    // Never unlocked, so that nothing is put in place from a folder that is gone.
+    std::mem::forget(own);
+}
+
+fn own() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    OWN.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Folder with a random name and owner-only access, removed on drop.
 ///
@@ -71,8 +93,10 @@ impl TemporaryFolder {
             }
             // After a power loss, no content exists without its marker.
             sync_folder(folder.path())?;
+            let path = folder.keep();
+            own().insert(path.clone());
             return Ok(TemporaryFolder {
-                path: folder.keep(),
+                path,
                 _marker: marker,
             });
         }
@@ -85,10 +109,16 @@ impl TemporaryFolder {
     pub fn path(&self) -> &Path {
         &self.path
     }
+
+    /// Keeps [`remove_before_exit`] from the folder, because its content is about to be published.
+    pub(crate) fn disown(&self) {
+        own().remove(&self.path);
+    }
 }
 
 impl Drop for TemporaryFolder {
     fn drop(&mut self) {
+        self.disown();
         // The next process removes the rest.
         drop(remove(&self.path));
     }

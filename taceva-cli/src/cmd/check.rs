@@ -62,7 +62,7 @@ pub(crate) fn run(args: &Check, context: &Context) -> anyhow::Result<u8> {
 /// Compares `folder` with the files that each recording was imported from.
 fn compared(recordings: &[Dataset], folder: &Path, context: &Context) -> anyhow::Result<u8> {
     let archive = UnpackedArchive::is_archive(folder)
-        .then(|| UnpackedArchive::open(folder, &std::env::temp_dir()))
+        .then(|| UnpackedArchive::open(folder, &std::env::temp_dir(), &context.progress))
         .transpose()?;
     let source = archive.as_ref().map_or(folder, UnpackedArchive::folder);
     let mut has_differences = false;

@@ -34,7 +34,7 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
             map_command(folder, Path::new("map.toml"))
         )));
     }
-    let source = Source::open(args, target)?;
+    let source = Source::open(args, target, context)?;
     if let Some(list) = &args.verify {
         let sums = SourceSums::read(list)?;
         let verified = sums.verify(source.folder(), context.jobs, &context.progress);
@@ -123,7 +123,7 @@ enum Source {
 }
 
 impl Source {
-    fn open(args: &Import, target: Option<&Path>) -> anyhow::Result<Source> {
+    fn open(args: &Import, target: Option<&Path>, context: &Context) -> anyhow::Result<Source> {
         let path = args
             .source
             .as_deref()
@@ -136,7 +136,8 @@ impl Source {
             Some(target) => parent_of(target).to_owned(),
             None => std::env::temp_dir(),
         };
-        Ok(Source::Archive(UnpackedArchive::open(path, &beside)?))
+        let unpacked = UnpackedArchive::open(path, &beside, &context.progress)?;
+        Ok(Source::Archive(unpacked))
     }
 
     fn folder(&self) -> &Path {

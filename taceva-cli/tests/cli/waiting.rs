@@ -1,6 +1,8 @@
 //! Tests that mostly wait: for emulated devices in real time, sandboxes and a cluster.
 
 mod capture;
+#[cfg(unix)]
+mod interruption;
 mod page;
 mod plugin_allow;
 mod plugin_carousel;

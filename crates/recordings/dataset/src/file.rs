@@ -7,6 +7,7 @@ use std::path::{Component, Path};
 
 use taceva_files::sync_folder;
 
+use crate::absence::quoted;
 use crate::error::DatasetError;
 
 /// Opens the regular file at `path` of at most `cap` bytes; also returns its size.
@@ -87,13 +88,20 @@ pub(crate) fn create_anew(path: &Path) -> Result<File, DatasetError> {
 
 /// Refuses a symbolic link at a name of a recording: its target would be written, cut or read instead.
 pub(crate) fn refuse_link(path: &Path) -> Result<(), DatasetError> {
-    match path.is_symlink() {
-        false => Ok(()),
-        true => Err(DatasetError::damaged(
-            path,
-            "a symbolic link, expected a file or folder of the recorder: replace the link by its target, or remove a foreign link".to_owned(),
-        )),
-    }
+    let Ok(target) = fs::read_link(path) else {
+        return Ok(());
+    };
+    let target = match path.parent() {
+        Some(parent) => parent.join(target),
+        None => target,
+    };
+    let (link, target) = (quoted(path), quoted(&target));
+    Err(DatasetError::damaged(
+        path,
+        format!(
+            "a symbolic link to {target}, which no recorder follows: put the target back by `rm {link} && mv {target} {link}`, or move the whole recording to the disk of the target, with the target at the place of the link, and name the new path; remove a link that is not yours"
+        ),
+    ))
 }
 
 /// Writes a new file and returns once its bytes are on the disk. Its name is durable only after `make_names_durable`.

@@ -62,6 +62,8 @@ pub(super) fn unclosed_folder(path: &Path) -> Result<File, DatasetError> {
 }
 
 /// Refuses links in the recording at `path`, by which it would continue in another place.
+///
+/// A link that is made after this check is followed. Whoever can write in the folder is trusted.
 fn refuse_links(path: &Path) -> Result<(), DatasetError> {
     for folder in [path.to_owned(), path.join(layout::FRAMES)] {
         let entries = match fs::read_dir(&folder) {

@@ -199,10 +199,37 @@ fn a_link_in_place_of_any_file_of_a_recording_is_refused_and_its_target_keeps_it
         let before = [entries(&theirs), entries(&target), entries(&path)];
         for resumed in [Recorder::resume(&path), Recorder::open(&path, &spec())] {
             let error = resumed.expect_err("a link").to_string();
-            let is_named = error.contains("a symbolic link") && error.contains("set/");
-            assert!(is_named, "{}: {error}", name.display());
+            let (link, target) = (link.display(), target.display());
+            let ways = [
+                format!("{link}: damaged: a symbolic link to {target}"),
+                format!("`rm {link} && mv {target} {link}`"),
+                "move the whole recording to the disk of the target".to_owned(),
+            ];
+            for way in ways {
+                assert!(error.contains(&way), "{}: {error}", name.display());
+            }
         }
         let after = [entries(&theirs), entries(&target), entries(&path)];
         assert_eq!(after, before, "{}", name.display());
     }
+}
+
+#[cfg(unix)]
+#[test]
+fn frames_on_another_disk_are_put_back_by_the_command_of_the_message() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    interrupted(&path);
+    std::fs::rename(path.join("frames"), folder.path().join("disk")).expect("moved");
+    std::os::unix::fs::symlink("../disk", path.join("frames")).expect("linked");
+    let error = Recorder::resume(&path).expect_err("a link").to_string();
+    let (_, command) = error.split_once('`').expect("a command");
+    let (command, _) = command.split_once('`').expect("its end");
+    let done = std::process::Command::new("sh")
+        .args(["-c", command])
+        .status();
+    assert!(done.expect("there is a shell").success(), "{command}");
+    let recorder = Recorder::resume(&path).expect("resumed");
+    recorder.close().expect("closed");
+    assert_eq!(Dataset::open(&path).expect("opens").table().rows(), 2);
 }

@@ -5,9 +5,11 @@ use std::io::{self, BufReader, Read};
 use std::path::{Path, PathBuf};
 
 use flate2::read::MultiGzDecoder;
+use taceva_core::Progress;
 
 use crate::error::ImportError;
 use crate::foreign::tar::{FileTape, Members, Tape, TarError};
+use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{open_regular, shown_path};
 use taceva_files::TemporaryFolder;
 
@@ -27,7 +29,8 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// ```no_run
 /// use taceva_import::{MapDraft, UnpackedArchive};
 ///
-/// let archive = UnpackedArchive::open("run.tar.gz".as_ref(), "/tmp".as_ref())?;
+/// let progress = taceva_core::SilentProgress;
+/// let archive = UnpackedArchive::open("run.tar.gz".as_ref(), "/tmp".as_ref(), &progress)?;
 /// println!("{}", MapDraft::of(archive.folder())?.text());
 /// # Ok::<(), taceva_import::ImportError>(())
 /// ```
@@ -63,8 +66,12 @@ impl UnpackedArchive {
     /// # Errors
     /// [`ImportError::Table`] naming the member if it is damaged, cut or larger than the archive, if its name leaves the folder, or for
     /// links, devices and sparse files. Also above a million members, and if a compressed archive grows beyond 128 times its size and 64
-    /// MiB more. [`ImportError::Dataset`] if the disk is full.
-    pub fn open(archive: &Path, beside: &Path) -> Result<UnpackedArchive, ImportError> {
+    /// MiB more. [`ImportError::Dataset`] if the disk is full, or `Cancelled`.
+    pub fn open(
+        archive: &Path,
+        beside: &Path,
+        progress: &dyn Progress,
+    ) -> Result<UnpackedArchive, ImportError> {
         let temporary = TemporaryFolder::create(beside, PREFIX);
         let temporary = temporary.map_err(ImportError::io("make a folder in", beside))?;
         let content = temporary.path().join("content");
@@ -81,9 +88,13 @@ impl UnpackedArchive {
                     left: length.saturating_mul(GROWTH).saturating_add(GROWTH_BYTES),
                 },
                 &content,
+                progress,
             ),
-            false => unpack(FileTape { file, length }, &content),
+            false => unpack(FileTape { file, length }, &content, progress),
         };
+        if progress.is_cancelled() {
+            return Err(DatasetError::Cancelled.into());
+        }
         outcome.map_err(|error| ImportError::table(archive, error.to_string()))?;
         Ok(UnpackedArchive {
             folder: innermost(&content)?,
@@ -97,7 +108,7 @@ impl UnpackedArchive {
     ///
     /// ```no_run
     /// # use taceva_import::{MapDraft, UnpackedArchive};
-    /// # let archive = UnpackedArchive::open("run.tar".as_ref(), "/tmp".as_ref())?;
+    /// # let archive = UnpackedArchive::open("run.tar".as_ref(), "/tmp".as_ref(), &taceva_core::SilentProgress)?;
     /// let draft = MapDraft::of(archive.folder()).map_err(|error| archive.named(error))?;
     /// # Ok::<(), taceva_import::ImportError>(())
     /// ```
@@ -116,7 +127,7 @@ impl UnpackedArchive {
     /// The same text with the archive's path instead of the temporary folder's.
     ///
     /// ```no_run
-    /// # let archive = taceva_import::UnpackedArchive::open("run.tar".as_ref(), "/tmp".as_ref())?;
+    /// # let archive = taceva_import::UnpackedArchive::open("run.tar".as_ref(), "/tmp".as_ref(), &taceva_core::SilentProgress)?;
     /// let said = format!("{} holds 3 tables", archive.folder().display());
     /// assert!(archive.text_named(&said).starts_with("run.tar"));
     /// # Ok::<(), taceva_import::ImportError>(())
@@ -134,9 +145,13 @@ impl UnpackedArchive {
     }
 }
 
-fn unpack(tape: impl Tape, into: &Path) -> Result<(), TarError> {
+/// Unpacks all members, or some if the work is cancelled.
+fn unpack(tape: impl Tape, into: &Path, progress: &dyn Progress) -> Result<(), TarError> {
     let mut members = Members::new(tape);
     while let Some(member) = members.next()? {
+        if progress.is_cancelled() {
+            return Ok(());
+        }
         let path = into.join(&member.name);
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent)?;

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::preset;
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use taceva_core::SilentProgress;
 use taceva_import::{ImportMap, ImportPlan, MapDraft, UnpackedArchive};
 use tar::{Builder, EntryType, Header};
 
@@ -29,7 +30,7 @@ fn gzipped(path: &Path) -> PathBuf {
 
 fn refused(path: &Path) -> String {
     let beside = tempfile::tempdir().expect("a folder");
-    let error = UnpackedArchive::open(path, beside.path()).expect_err("hostile");
+    let error = UnpackedArchive::open(path, beside.path(), &SilentProgress).expect_err("hostile");
     let left = std::fs::read_dir(beside.path()).expect("there").count();
     assert_eq!(left, 0, "{error}");
     error.to_string()
@@ -74,7 +75,7 @@ fn an_error_names_the_archive_and_its_member_and_not_where_it_was_unpacked() {
     };
     let beside = lab.path().join("beside");
     std::fs::create_dir(&beside).expect("made");
-    let archive = UnpackedArchive::open(&plain, &beside).expect("unpacked");
+    let archive = UnpackedArchive::open(&plain, &beside, &SilentProgress).expect("unpacked");
     let member = |name: &str| plain.join("run").join(name).display().to_string();
     let said = |error| {
         let said = archive.named(error).to_string();
@@ -119,7 +120,7 @@ fn an_archive_gives_the_dataset_of_the_folder_packed_or_compressed() {
     let expected = digest(&drawn("bristol"), "folder");
     for path in [plain.clone(), gzipped(&plain)] {
         assert!(UnpackedArchive::is_archive(&path));
-        let unpacked = UnpackedArchive::open(&path, lab.path()).expect("unpacked");
+        let unpacked = UnpackedArchive::open(&path, lab.path(), &SilentProgress).expect("unpacked");
         let name = path
             .extension()
             .expect("one")
@@ -152,7 +153,7 @@ fn long_names_of_posix_and_gnu_are_read() {
     let about = header(b"short", 2, EntryType::Regular);
     tar.append(&about, &b"y\n"[..]).expect("packed");
     tar.finish().expect("written");
-    let unpacked = UnpackedArchive::open(&path, lab.path()).expect("unpacked");
+    let unpacked = UnpackedArchive::open(&path, lab.path(), &SilentProgress).expect("unpacked");
     assert_eq!(
         std::fs::read(unpacked.folder().join(long)).expect("there"),
         b"x\n"

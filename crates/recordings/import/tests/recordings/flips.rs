@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::SilentProgress;
 use taceva_dataset::{Dataset, Digest};
-use taceva_import::{Decoders, ImportError, ImportMap, ImportPlan};
+use taceva_import::{Decoders, ImportError, ImportMap, ImportPlan, Preset};
+use tempfile::TempDir;
 
 use super::{copy, folder};
 use crate::support::Random;
@@ -17,7 +18,80 @@ const FLIPS: usize = 100;
 /// Bytes at both ends of a file, where headers and indices lie.
 const ENDS: usize = 512;
 /// Forms whose labels and pictures are fully covered by checksums in the file.
-const COVERED: [&str; 2] = ["npz-", "mcap-"];
+const COVERED: [&str; 4] = ["npz-", "mcap-", "bz2.bag", "packed-5.mat"];
+/// Samples of the readers, below `crates/formats`, each with its column of forces. Those without one are recordings of ROS.
+const SAMPLES: [(&str, Option<&str>); 13] = [
+    ("tables/tests/data/bags/bz2.bag", None),
+    ("tables/tests/data/bags/lz4.bag", None),
+    ("tables/tests/data/bags/none.bag", None),
+    ("tables/tests/data/bags/humble.db3", None),
+    ("tables/tests/data/bags/iron.db3", None),
+    ("tables/tests/data/bags/messages.db3", None),
+    ("tables/tests/data/bags/small_pages.db3", None),
+    ("tables/tests/data/arrow/lz4.feather", Some("single")),
+    ("tables/tests/data/arrow/stream.arrow", Some("single")),
+    ("tables/tests/data/arrow/zstd.arrow", Some("single")),
+    ("arrays/tests/data/matlab/packed-5.mat", Some("x_f8[0]")),
+    ("arrays/tests/data/matlab/plain-5.mat", Some("x_f8[0]")),
+    ("arrays/tests/data/matlab/seven-3.mat", Some("x_f8[0]")),
+];
+
+/// A copy of a recording, and its map.
+struct Subject {
+    name: String,
+    lab: TempDir,
+    map: ImportMap,
+}
+
+/// Every recording of `tests/recordings`, and the samples of the readers.
+fn subjects() -> Vec<Subject> {
+    let mut forms: Vec<PathBuf> = std::fs::read_dir(folder(""))
+        .expect("recordings")
+        .flatten()
+        .map(|entry| entry.path())
+        .collect();
+    forms.sort();
+    let mut subjects = Vec::new();
+    for form in forms {
+        let Ok(map) = ImportMap::read(&form.join("map.toml")) else {
+            continue;
+        };
+        let lab = tempfile::tempdir().expect("a folder");
+        copy(&form, lab.path());
+        subjects.push(Subject {
+            name: name_of(&form),
+            lab,
+            map,
+        });
+    }
+    let formats = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../formats");
+    for (sample, column) in SAMPLES {
+        let lab = tempfile::tempdir().expect("a folder");
+        let name = name_of(sample.as_ref());
+        std::fs::copy(formats.join(sample), lab.path().join(&name)).expect("copied");
+        let map = match column {
+            Some(column) => ImportMap::parse("map.toml".as_ref(), &map_of(&name, column)),
+            None => Preset::from_name("rosbag").expect("known").map(lab.path()),
+        };
+        let map = map.unwrap_or_else(|error| panic!("{name}: {error}"));
+        subjects.push(Subject { name, lab, map });
+    }
+    subjects
+}
+
+fn name_of(path: &Path) -> String {
+    let name = path.file_name().expect("a name");
+    name.to_string_lossy().into_owned()
+}
+
+/// Text of the map of `table`, whose forces are in `column`.
+fn map_of(table: &str, column: &str) -> String {
+    format!(
+        "map_version = 2\nsource = \"synthetic\"\ntable = \"{table}\"\n[columns]\nFz = {{ from = \"{column}\", unit = \"N\" }}\n\
+         [time]\nclock = \"unknown\"\n\
+         [sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n"
+    )
+}
 
 /// Result of an import, as far as a flip may change it.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,26 +158,15 @@ fn no_flipped_bit_makes_a_row_or_a_picture_vanish_without_a_word() {
     let wanted = std::env::var("TACEVA_FLIPS").ok();
     let wanted = wanted.and_then(|text| text.parse().ok()).unwrap_or(FLIPS);
     let mut random = Random::new(0x2026_1128);
-    let mut forms: Vec<PathBuf> = std::fs::read_dir(folder(""))
-        .expect("recordings")
-        .flatten()
-        .map(|entry| entry.path())
-        .collect();
-    forms.sort();
     let mut counts: BTreeMap<String, BTreeMap<&str, usize>> = BTreeMap::new();
     let mut wrong = Vec::new();
-    let each = wanted.div_ceil(forms.len());
-    for form in forms {
-        let Ok(map) = ImportMap::read(&form.join("map.toml")) else {
-            continue;
-        };
-        let lab = tempfile::tempdir().expect("a folder");
-        copy(&form, lab.path());
+    let subjects = subjects();
+    let each = wanted.div_ceil(subjects.len());
+    for Subject { name, lab, map } in subjects {
         // Recordings that need a missing decoder are skipped.
         let Ok(whole) = seen(lab.path(), &map) else {
             continue;
         };
-        let name = form.file_name().expect("a name").to_string_lossy();
         let is_covered = COVERED.iter().any(|covered| name.starts_with(covered));
         let mut all = files(lab.path());
         all.retain(|path| path.metadata().is_ok_and(|facts| facts.len() > 0));
@@ -129,7 +192,7 @@ fn no_flipped_bit_makes_a_row_or_a_picture_vanish_without_a_word() {
                 wrong.push(format!("{name}: byte {at} bit {bit} of {file}: {outcome}"));
             }
             *counts
-                .entry(name.to_string())
+                .entry(name.clone())
                 .or_default()
                 .entry(outcome)
                 .or_default() += 1;
@@ -137,6 +200,10 @@ fn no_flipped_bit_makes_a_row_or_a_picture_vanish_without_a_word() {
     }
     for (name, counts) in &counts {
         eprintln!("{name}: {counts:?}");
+    }
+    for (sample, _) in SAMPLES {
+        let name = name_of(sample.as_ref());
+        assert!(counts.contains_key(&name), "{name} was not imported");
     }
     assert!(wrong.is_empty(), "{} silent: {wrong:#?}", wrong.len());
 }

@@ -1,6 +1,7 @@
 //! Damage that a checksum, an index or a size shows is refused, and unwritten data is accepted only by a key of the map.
 
 use super::{FACTS, NO_TIME, case, lab, map_of, planned, summary};
+use taceva_core::SilentProgress;
 use taceva_import::UnpackedArchive;
 
 /// A changed copy of a file of `tests/recordings`, in its own folder.
@@ -115,7 +116,7 @@ fn archives_of_nothing_but_empty_files_or_folders_are_refused_in_words() {
         }
         archive.finish().expect("written");
         drop(archive);
-        let problem = UnpackedArchive::open(&path, folder.path())
+        let problem = UnpackedArchive::open(&path, folder.path(), &SilentProgress)
             .expect_err("refused")
             .to_string();
         assert!(
