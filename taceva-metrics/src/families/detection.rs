@@ -13,7 +13,7 @@ use crate::families::idle::GATE_N;
 use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 use crate::score::{Count, Parameter};
 use limit::{LEAST_PLACES, Limit};
 use sums::LightSums;
@@ -41,8 +41,9 @@ pub(crate) static DETECTION_LIMIT: Metric = Metric {
                     alike: n presses, nᵢ of them at place i, are worth g = n² / Σ nᵢ² independent ones. s is estimated with g − 2 degrees \
                     of freedom, so δ is the factor of the noncentral t distribution, not 3.29. It stands on the forces from \
                     `least_force` to `greatest_force`: it is never below the former, and undefined above the latter, for less than ten \
-                    places, or if predictions do not rise with the force. `critical` is the force that none exceeds in 5 % of cases. It \
-                    has no interval. Untouched pictures do not enter: see noise_equivalent_force.",
+                    places, or if predictions do not rise with the force. `critical` is the force that none exceeds in 5 % of cases. The \
+                    interval leaves out one place at a time; there is none if a limit reaches down to the lightest press. Untouched \
+                    pictures do not enter: see noise_equivalent_force.",
     needs: Needs::new(
         FieldSet::EMPTY
             .with(Field::Truth)
@@ -114,7 +115,8 @@ impl Channelwise for LightPresses {
 
     fn numbers(&self, _metric: &Metric, output: &Output, sums: &LightSums) -> Numbers {
         let range = sums.range.ok_or(UndefinedReason::NoLightPresses);
-        numbers(Limit::of(sums), output.unit)
+        let limit = Limit::of(sums);
+        numbers(limit, limit.map(|limit| limit.value), output.unit)
             .with(
                 "least_force",
                 output.unit,
@@ -129,9 +131,15 @@ impl Channelwise for LightPresses {
             )
     }
 
-    fn resampled(&self, _metric: &Metric, output: &Output, _sums: &LightSums) -> Numbers {
+    fn resampled(&self, _metric: &Metric, output: &Output, sums: &LightSums) -> Numbers {
         let none = Err(UndefinedReason::NoInterval);
-        let numbers = numbers(Err(UndefinedReason::NoInterval), output.unit);
+        let limit = Limit::resampled(sums);
+        let lightest = sums.range.map_or(0.0, |range| range.least);
+        let value = limit.and_then(|limit| match limit.value < lightest {
+            true => Err(UndefinedReason::AtLightestPress),
+            false => Ok(limit.value),
+        });
+        let numbers = numbers(limit, value, output.unit);
         ["least_force", "greatest_force"]
             .into_iter()
             .fold(numbers, |numbers, name| {
@@ -151,8 +159,8 @@ impl Channelwise for LightPresses {
     }
 }
 
-fn numbers(limit: Result<Limit, UndefinedReason>, unit: Unit) -> Numbers {
-    Numbers::of(limit.map(|limit| limit.value)).with(
+fn numbers(limit: Result<Limit, UndefinedReason>, value: Finished, unit: Unit) -> Numbers {
+    Numbers::of(value).with(
         "critical",
         unit,
         Range::Positive,

@@ -3,7 +3,7 @@
 use crate::exact::ExactSum;
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
-use crate::families::cells::Cells;
+use crate::families::cells::{Cells, add_times};
 use crate::pair::Paired;
 
 /// Sums of light presses: x the true force, y the predicted one.
@@ -105,13 +105,17 @@ impl LightSums {
 
 impl Merge for LightSums {
     fn merge(&mut self, other: &LightSums) {
-        self.n = self.n.saturating_add(other.n);
-        self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
-        self.sums.merge(&other.sums);
-        self.range = match (self.range, other.range) {
+        self.merge_times(other, 1);
+    }
+
+    fn merge_times(&mut self, other: &LightSums, times: u32) {
+        add_times(&mut self.n, other.n, times);
+        add_times(&mut self.n_invalid, other.n_invalid, times);
+        self.sums.merge_times(&other.sums, times);
+        self.range = match (self.range, other.range.filter(|_| times > 0)) {
             (Some(own), Some(other)) => Some(own.and(other)),
             (own, other) => own.or(other),
         };
-        self.places.merge(&other.places);
+        self.places.merge_times(&other.places, times);
     }
 }
