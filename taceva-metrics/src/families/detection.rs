@@ -7,6 +7,7 @@ use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::family::{Details, FamilyKind, Numbers, Output, erased};
 use crate::evaluate::metric::{Metric, ScoreUnit};
+use crate::exact::merge::Merge;
 use crate::exact::record::Record;
 use crate::families::channelwise::{ByChannel, Channelwise, each_pair};
 use crate::families::idle::GATE_N;
@@ -16,7 +17,7 @@ use crate::score::theme::Theme;
 use crate::score::value::{Finished, UndefinedReason};
 use crate::score::{Count, Parameter};
 use limit::{LEAST_PLACES, Limit};
-use sums::LightSums;
+use sums::{LightSums, Presses};
 
 /// Greatest normal force of a light press, N: ten times the least force of contact.
 const LIGHT_N: f64 = 0.2;
@@ -84,15 +85,13 @@ impl Channelwise for LightPresses {
         position: usize,
         rows: Option<&[u32]>,
     ) {
-        let points = batch.points();
-        if points.is_none() && batch.rows() > 0 {
-            sums.places.forget_names();
-        }
+        let mut places = sums.places.of_batch(batch);
         each_pair(batch, position, rows, |row, pair| {
             if !pair.is_valid() {
                 sums.n_invalid += 1;
             } else if (GATE_N..=LIGHT_N).contains(&pair.reference) {
-                sums.add(pair, points.and_then(|points| points.get(row)));
+                sums.line.add(pair);
+                places.at(row, 0).merge(&Presses(1));
             }
         });
     }
@@ -106,7 +105,7 @@ impl Channelwise for LightPresses {
     }
 
     fn count(&self, sums: &LightSums) -> u64 {
-        sums.n
+        sums.line.n
     }
 
     fn invalid(&self, sums: &LightSums) -> u64 {
@@ -114,7 +113,7 @@ impl Channelwise for LightPresses {
     }
 
     fn numbers(&self, _metric: &Metric, output: &Output, sums: &LightSums) -> Numbers {
-        let range = sums.range.ok_or(UndefinedReason::NoLightPresses);
+        let range = sums.line.range.ok_or(UndefinedReason::NoLightPresses);
         let limit = Limit::of(sums);
         numbers(limit, limit.map(|limit| limit.value), output.unit)
             .with(
@@ -134,7 +133,7 @@ impl Channelwise for LightPresses {
     fn resampled(&self, _metric: &Metric, output: &Output, sums: &LightSums) -> Numbers {
         let none = Err(UndefinedReason::NoInterval);
         let limit = Limit::resampled(sums);
-        let lightest = sums.range.map_or(0.0, |range| range.least);
+        let lightest = sums.line.range.map_or(0.0, |range| range.least);
         let value = limit.and_then(|limit| match limit.value < lightest {
             true => Err(UndefinedReason::AtLightestPress),
             false => Ok(limit.value),

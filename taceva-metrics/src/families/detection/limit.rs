@@ -20,7 +20,7 @@ pub(super) struct Limit {
 impl Limit {
     /// The limit of at least ten places, within the forces of their presses.
     pub(super) fn of(sums: &LightSums) -> Result<Limit, UndefinedReason> {
-        let range = sums.range.ok_or(UndefinedReason::NoLightPresses)?;
+        let range = sums.line.range.ok_or(UndefinedReason::NoLightPresses)?;
         let limit = Limit::of_line(sums, LEAST_PLACES)?;
         if limit.value > range.greatest {
             return Err(UndefinedReason::BeyondLightPresses);
@@ -44,16 +44,16 @@ impl Limit {
         if !sums.places.are_named() {
             return Err(UndefinedReason::NoClusters);
         }
-        let n = Dyadic::from(sums.n);
+        let n = Dyadic::from(sums.line.n);
         let squares = sums.places.iter().map(|(_, presses)| presses.0);
         let squares = squares.fold(0_u64, |sum, n| sum.saturating_add(n.saturating_mul(n)));
-        let have = sums.n.saturating_mul(sums.n) / squares.max(1);
+        let have = sums.line.n.saturating_mul(sums.line.n) / squares.max(1);
         if have < least {
             return Err(UndefinedReason::TooFewPlaces { have, least });
         }
         let independent = (&n * &n).over(&Dyadic::from(squares));
         let freedom = independent - 2.0;
-        let [x, y, xx, xy, yy] = sums.sums.each_ref().map(|sum| sum.to_dyadic());
+        let [x, y, xx, xy, yy] = sums.line.sums.each_ref().map(|sum| sum.to_dyadic());
         let spread_x = &(&n * &xx) - &(&x * &x);
         let spread_y = &(&n * &yy) - &(&y * &y);
         let shared = &(&n * &xy) - &(&x * &y);
