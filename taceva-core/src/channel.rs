@@ -134,17 +134,29 @@ impl Channel {
         self.period.map(NonZeroU16::get)
     }
 
+    /// Period of the values in their own unit, degrees or radians; `None` like [`period`](Channel::period).
+    ///
+    /// ```
+    /// use taceva_core::{Channel, Unit};
+    /// let yaw = Channel::named("yaw", Unit::Radian)?.with_period(180)?;
+    /// assert_eq!(yaw.period_in_unit(), Some(std::f64::consts::PI));
+    /// # Ok::<(), taceva_core::ChannelError>(())
+    /// ```
+    pub fn period_in_unit(&self) -> Option<f64> {
+        let degrees = f64::from(self.period()?);
+        Some(match self.unit {
+            Unit::Radian => degrees.to_radians(),
+            _ => degrees,
+        })
+    }
+
     /// Number equivalent to `value` that is nearest to `reference`: `value` itself without a period, else `value` plus a multiple of the
     /// period.
     ///
     /// A value at most half a period away is returned unchanged, to the bit.
     pub fn nearest(&self, value: f64, reference: f64) -> f64 {
-        let Some(degrees) = self.period.map(|period| f64::from(period.get())) else {
+        let Some(period) = self.period_in_unit() else {
             return value;
-        };
-        let period = match self.unit {
-            Unit::Radian => degrees.to_radians(),
-            _ => degrees,
         };
         let turns = ((value - reference) / period).round();
         match turns.abs() >= 1.0 && (value - reference).abs() > period / 2.0 {

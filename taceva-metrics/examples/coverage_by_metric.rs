@@ -25,6 +25,12 @@ const REPEATS: u32 = 2;
 const IDLE: u32 = 60;
 /// Metrics of untouched frames.
 const IDLE_METRICS: [&str; 2] = ["noise_equivalent_force", "zero_error"];
+/// Places of the light presses of each study, pressed once each.
+const LIGHT: u32 = 30;
+/// Metric of light presses.
+const LIGHT_METRIC: &str = "detection_limit";
+/// Studies whose mean is the expected score of light presses.
+const LIGHT_STUDIES: u32 = 4000;
 /// Channels that the table shows.
 const LABELS: [&str; 4] = ["Fz", "Pz", "Pxy", "line"];
 
@@ -32,10 +38,11 @@ fn main() {
     let threads = u32::try_from(thread::available_parallelism().map_or(1, |threads| threads.get()))
         .unwrap_or(1);
     println!("Simulated studies, not measurements: {RUNS} runs per column.");
-    let expected: BTreeMap<Name, f64> = evaluated(POINTS_OF_TRUTH, u64::MAX)
+    let mut expected: BTreeMap<Name, f64> = evaluated(POINTS_OF_TRUTH, u64::MAX)
         .into_iter()
         .map(|(name, (value, _))| (name, value))
         .collect();
+    expected.extend(light_means());
     let columns = POINTS.map(|points| in_parallel(threads, points, &expected));
     println!(
         "| score | expected | {} |",
@@ -121,7 +128,7 @@ fn coverage(
 
 /// Value and ends of the interval of every score of a study, by name.
 ///
-/// Untouched frames form a separate recording, because together with presses they would count as one more contact point.
+/// Untouched frames and light presses form separate recordings, because together with presses they would count as more contact points.
 fn evaluated(points: u32, seed: u64) -> BTreeMap<Name, (f64, Option<[f64; 2]>)> {
     let mut study = Study::new(points, seed);
     let mut presses = evaluator();
@@ -134,7 +141,30 @@ fn evaluated(points: u32, seed: u64) -> BTreeMap<Name, (f64, Option<[f64; 2]>)> 
         idle.into_iter()
             .filter(|(name, _)| IDLE_METRICS.iter().any(|metric| name.starts_with(metric))),
     );
+    found.extend(of_light(&mut study));
     found
+}
+
+/// Scores of the light presses of `study`.
+fn of_light(study: &mut Study) -> BTreeMap<Name, (f64, Option<[f64; 2]>)> {
+    let mut light = evaluator();
+    study.light(&mut light);
+    let mut found = scores(&light.finish().expect("the plan's channels"));
+    found.retain(|name, _| name.starts_with(LIGHT_METRIC));
+    found
+}
+
+/// Mean scores of light presses over many studies of the same size. A limit from few places is higher by its definition, because their line
+/// is less certain.
+fn light_means() -> BTreeMap<Name, f64> {
+    let mut means = BTreeMap::<Name, f64>::new();
+    for run in 0..LIGHT_STUDIES {
+        let mut study = Study::new(POINTS_OF_TRUTH, u64::from(run));
+        for (name, (value, _)) in of_light(&mut study) {
+            *means.entry(name).or_default() += value / f64::from(LIGHT_STUDIES);
+        }
+    }
+    means
 }
 
 fn scores(evaluation: &Evaluation) -> BTreeMap<Name, (f64, Option<[f64; 2]>)> {
@@ -222,6 +252,22 @@ impl Study {
                 .with_point_id(frame.to_string())
                 .with_scene_id(SensorFacts::REFERENCE_SCENE.to_owned())
                 .with_truth(Readings::from_values(idle))
+                .with_prediction(Readings::from_values(prediction));
+            sink.accept(&sample).expect("the plan's channels");
+        }
+    }
+
+    /// Light presses at places of their own.
+    fn light(&mut self, sink: &mut Evaluator) {
+        for place in 0..LIGHT {
+            let force_n = self.between(0.02, 0.2);
+            let truth = [0.0, 0.0, 0.1, 0.0, 0.0, force_n];
+            let gain = self.between(0.98, 1.02);
+            let prediction = truth.map(|truth| gain * truth + 0.02 * self.gaussian());
+            let sample = Sample::default()
+                .with_point_id(place.to_string())
+                .with_scene_id(SensorFacts::REFERENCE_SCENE.to_owned())
+                .with_truth(Readings::from_values(truth))
                 .with_prediction(Readings::from_values(prediction));
             sink.accept(&sample).expect("the plan's channels");
         }

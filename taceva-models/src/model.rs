@@ -8,7 +8,7 @@ mod input;
 
 use taceva_core::{
     Channel, Channels, ErrorKind, Features, Input, InputInfo, ModelError, Progress, Regressor,
-    Targets, TrainingSet, Unit,
+    Targets, TrainingSet,
 };
 
 pub(crate) use self::angles::LearntChannels;
@@ -326,7 +326,7 @@ pub(crate) fn learnt_channels_of(
     let angles = card
         .angles
         .iter()
-        .map(|angle| Channel::named(&angle.name, Unit::Degree)?.with_period(angle.period));
+        .map(|angle| Channel::named(&angle.name, angle.unit)?.with_period(angle.period));
     let asked: Result<Vec<Channel>, _> = plain.chain(angles).collect();
     let asked = asked.and_then(Channels::new).map_err(refuse)?;
     let channels = LearntChannels::new(&asked, &card.angles).map_err(refuse)?;

@@ -120,6 +120,32 @@ fn angles_from_0_to_360_come_back_so_and_a_model_file_keeps_the_period() {
 }
 
 #[test]
+fn an_angle_in_radians_is_learnt_by_its_own_period_and_a_model_file_keeps_the_unit() {
+    let radians = |values: &[f64]| -> Vec<f64> {
+        let rows = values.chunks(2);
+        rows.flat_map(|row| [row[0], row[1].to_radians()]).collect()
+    };
+    let (features, labels) = drawn(around(0.0));
+    let (test, truth) = drawn(around(11.0));
+    let truth = radians(&truth);
+    let yaw = Channel::named("yaw", Unit::Radian).expect("plain");
+    let yaw = yaw.with_period(360).expect("an angle");
+    let channels = Channels::new([Channel::FZ, yaw]).expect("distinct");
+    for name in ["ridge", "pls"] {
+        let model = fitted(name, &channels, &features, &radians(&labels));
+        let found = model.predict(&test).expect("predicted");
+        let [force, yaw] = errors(&channels, &found, &truth);
+        assert!(
+            force < 0.1 && yaw < 3.0_f64.to_radians(),
+            "{name}: {force} N, {yaw} rad"
+        );
+        let read = Model::from_bytes(&model.to_bytes().expect("written")).expect("read");
+        assert_eq!(read.channels(), &channels);
+        assert_eq!(read.predict(&test).expect("predicted"), found);
+    }
+}
+
+#[test]
 fn a_model_without_periods_is_as_it_was() {
     let (features, labels) = drawn(around(0.0).map(|yaw| yaw / 10.0));
     let model = fitted("ridge", &channels(None), &features, &labels);

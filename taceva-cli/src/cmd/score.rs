@@ -10,8 +10,11 @@ use super::{Context, Usage};
 use crate::args::{Format, Score};
 use crate::{exit, output, report};
 
-/// Note on a column without a stated unit.
-const UNIT_OF_ONE: &str = "taken as a channel of unit 1";
+/// Notes on columns without a stated unit.
+const UNSTATED: [&str; 2] = [
+    "taken as a channel of unit 1",
+    "as angles in radians do, but are scored as degrees",
+];
 
 pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     let asked = &args.scoring;
@@ -72,7 +75,7 @@ fn say_units(args: &Score, scored: &Scored, context: &Context) {
         return;
     }
     let notes = scored.report.provenance.notes.iter();
-    for note in notes.filter(|note| note.contains(UNIT_OF_ONE)) {
+    for note in notes.filter(|note| UNSTATED.iter().any(|words| note.contains(words))) {
         context.say(format_args!("{}", taceva_report::escape_terminal(note)));
     }
 }

@@ -23,6 +23,36 @@ fn a_column_whose_unit_nobody_states_is_named_with_the_remedy() {
 }
 
 #[test]
+fn an_angle_that_may_be_in_radians_is_warned_of_in_every_output_and_a_stated_unit_ends_it() {
+    let bench = Bench::new();
+    let table = |off: f64| {
+        let rows = (0..12_u32).map(|row| format!("{row},{}\n", f64::from(row) * 0.5 - 3.0 + off));
+        format!("sample,yaw\n{}", rows.collect::<String>())
+    };
+    bench.write("t.csv", &table(0.1));
+    bench.write("p.csv", &table(0.2));
+    let note = "yaw: all values lie within ±6.28, as angles in radians do, but are scored as degrees with a period of 360";
+    let score = "score --truth t.csv --pred p.csv";
+    for form in ["text", "json", "md", "csv"] {
+        let ran = bench.run(&format!("{score} --periods yaw=360 --format {form}"));
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        let said = format!("{}{}", ran.out, ran.err);
+        assert!(said.contains(note), "{form}: {said}");
+    }
+    for stated in ["--periods yaw=2pi", "--periods yaw=360 --units yaw=deg"] {
+        let ran = bench.run(&format!("{score} {stated} --format json"));
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        let said = format!("{}{}", ran.out, ran.err);
+        assert!(!said.contains("as angles in radians do"), "{said}");
+    }
+    bench.refused(
+        &format!("{score} --periods yaw=6.283 --units yaw=deg"),
+        2,
+        "write yaw=360 for degrees, or --units yaw=rad",
+    );
+}
+
+#[test]
 fn a_table_and_a_channel_in_the_wrong_place_are_led_to_the_right_one() {
     let bench = Bench::new();
     bench.write("p.csv", "sample,Fz\n0,1\n");

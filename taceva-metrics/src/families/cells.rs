@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use taceva_core::{Batch, Labels};
+
 use crate::exact::merge::{Merge, keyed};
 use crate::exact::record::Record;
 use crate::exact::sorted_map::SortedMap;
@@ -63,7 +65,33 @@ impl<V> Default for Cells<V> {
     }
 }
 
+/// The cells of the rows of a batch.
+pub(crate) struct BatchCells<'a, V> {
+    cells: &'a mut Cells<V>,
+    points: Option<&'a Labels>,
+}
+
+impl<V: Merge + Clone + Default> BatchCells<'_, V> {
+    /// The summary of the cell of `row`, to be added to.
+    pub(crate) fn at(&mut self, row: usize, step: u32) -> &mut V {
+        let point = self.points.and_then(|points| points.get(row));
+        self.cells.at(point, step)
+    }
+}
+
 impl<V: Merge + Clone + Default> Cells<V> {
+    /// The cells for the rows of `batch`. A batch of rows without locations merges all cells into one, whichever of its rows count.
+    pub(crate) fn of_batch<'a>(&'a mut self, batch: &'a Batch) -> BatchCells<'a, V> {
+        let points = batch.points();
+        if points.is_none() && batch.rows() > 0 {
+            self.forget_names();
+        }
+        BatchCells {
+            cells: self,
+            points,
+        }
+    }
+
     /// True if every row so far named its location.
     pub(crate) fn are_named(&self) -> bool {
         self.named
@@ -80,7 +108,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
     }
 
     /// The summary of a cell, to be added to.
-    pub(crate) fn at(&mut self, point: Option<&str>, step: u32) -> &mut V {
+    fn at(&mut self, point: Option<&str>, step: u32) -> &mut V {
         let key = match point {
             Some(point) if self.named => CellKey {
                 point: Some(point.into()),
@@ -97,7 +125,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
     }
 
     /// Merges all cells into one.
-    pub(crate) fn forget_names(&mut self) {
+    fn forget_names(&mut self) {
         if !self.named {
             return;
         }
@@ -175,6 +203,8 @@ pub(crate) fn add_times(count: &mut u64, other: u64, times: u32) {
 
 #[cfg(test)]
 mod tests {
+    use taceva_core::{Channel, Channels, Column};
+
     use super::*;
     use crate::exact::moments::Moments;
 
@@ -200,6 +230,20 @@ mod tests {
         let mut other_way = cells(&rows[2..]);
         other_way.merge(&cells(&rows[..2]));
         assert_eq!(other_way, first);
+    }
+
+    #[test]
+    fn a_batch_without_locations_makes_all_cells_one_even_if_none_of_its_rows_count() {
+        let channels = Channels::new([Channel::FZ]).expect("one");
+        let batch = |rows: usize| {
+            let [truth, prediction] = [0, 1].map(|_| Column::full(vec![0.5; rows]));
+            Batch::from_columns(channels.clone(), vec![truth], vec![prediction], None)
+        };
+        let mut named = cells(&[(Some("a"), 0, 1.0), (Some("b"), 2, 2.0)]);
+        let _ = named.of_batch(&batch(0));
+        assert_eq!((named.len(), named.are_named()), (2, true));
+        let _ = named.of_batch(&batch(3));
+        assert_eq!((named.len(), named.are_named()), (1, false));
     }
 
     #[test]

@@ -7,16 +7,17 @@ use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::family::{Details, FamilyKind, Numbers, Output, erased};
 use crate::evaluate::metric::{Metric, ScoreUnit};
+use crate::exact::merge::Merge;
 use crate::exact::record::Record;
 use crate::families::channelwise::{ByChannel, Channelwise, each_pair};
 use crate::families::idle::GATE_N;
 use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
-use crate::score::value::UndefinedReason;
+use crate::score::value::{Finished, UndefinedReason};
 use crate::score::{Count, Parameter};
 use limit::{LEAST_PLACES, Limit};
-use sums::LightSums;
+use sums::{LightSums, Presses};
 
 /// Greatest normal force of a light press, N: ten times the least force of contact.
 const LIGHT_N: f64 = 0.2;
@@ -41,8 +42,9 @@ pub(crate) static DETECTION_LIMIT: Metric = Metric {
                     alike: n presses, nᵢ of them at place i, are worth g = n² / Σ nᵢ² independent ones. s is estimated with g − 2 degrees \
                     of freedom, so δ is the factor of the noncentral t distribution, not 3.29. It stands on the forces from \
                     `least_force` to `greatest_force`: it is never below the former, and undefined above the latter, for less than ten \
-                    places, or if predictions do not rise with the force. `critical` is the force that none exceeds in 5 % of cases. It \
-                    has no interval. Untouched pictures do not enter: see noise_equivalent_force.",
+                    places, or if predictions do not rise with the force. `critical` is the force that none exceeds in 5 % of cases. The \
+                    interval leaves out one place at a time; there is none if a limit reaches down to the lightest press. Untouched \
+                    pictures do not enter: see noise_equivalent_force.",
     needs: Needs::new(
         FieldSet::EMPTY
             .with(Field::Truth)
@@ -83,15 +85,13 @@ impl Channelwise for LightPresses {
         position: usize,
         rows: Option<&[u32]>,
     ) {
-        let points = batch.points();
-        if points.is_none() && batch.rows() > 0 {
-            sums.places.forget_names();
-        }
+        let mut places = sums.places.of_batch(batch);
         each_pair(batch, position, rows, |row, pair| {
             if !pair.is_valid() {
                 sums.n_invalid += 1;
             } else if (GATE_N..=LIGHT_N).contains(&pair.reference) {
-                sums.add(pair, points.and_then(|points| points.get(row)));
+                sums.line.add(pair);
+                places.at(row, 0).merge(&Presses(1));
             }
         });
     }
@@ -105,7 +105,7 @@ impl Channelwise for LightPresses {
     }
 
     fn count(&self, sums: &LightSums) -> u64 {
-        sums.n
+        sums.line.n
     }
 
     fn invalid(&self, sums: &LightSums) -> u64 {
@@ -113,8 +113,9 @@ impl Channelwise for LightPresses {
     }
 
     fn numbers(&self, _metric: &Metric, output: &Output, sums: &LightSums) -> Numbers {
-        let range = sums.range.ok_or(UndefinedReason::NoLightPresses);
-        numbers(Limit::of(sums), output.unit)
+        let range = sums.line.range.ok_or(UndefinedReason::NoLightPresses);
+        let limit = Limit::of(sums);
+        numbers(limit, limit.map(|limit| limit.value), output.unit)
             .with(
                 "least_force",
                 output.unit,
@@ -129,9 +130,15 @@ impl Channelwise for LightPresses {
             )
     }
 
-    fn resampled(&self, _metric: &Metric, output: &Output, _sums: &LightSums) -> Numbers {
+    fn resampled(&self, _metric: &Metric, output: &Output, sums: &LightSums) -> Numbers {
         let none = Err(UndefinedReason::NoInterval);
-        let numbers = numbers(Err(UndefinedReason::NoInterval), output.unit);
+        let limit = Limit::resampled(sums);
+        let lightest = sums.line.range.map_or(0.0, |range| range.least);
+        let value = limit.and_then(|limit| match limit.value < lightest {
+            true => Err(UndefinedReason::AtLightestPress),
+            false => Ok(limit.value),
+        });
+        let numbers = numbers(limit, value, output.unit);
         ["least_force", "greatest_force"]
             .into_iter()
             .fold(numbers, |numbers, name| {
@@ -151,8 +158,8 @@ impl Channelwise for LightPresses {
     }
 }
 
-fn numbers(limit: Result<Limit, UndefinedReason>, unit: Unit) -> Numbers {
-    Numbers::of(limit.map(|limit| limit.value)).with(
+fn numbers(limit: Result<Limit, UndefinedReason>, value: Finished, unit: Unit) -> Numbers {
+    Numbers::of(value).with(
         "critical",
         unit,
         Range::Positive,

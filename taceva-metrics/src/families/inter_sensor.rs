@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
-use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, each_row, erased};
+use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, erased};
 use crate::evaluate::metric::{Metric, ScoreUnit};
 use crate::evaluate::plan::MetricPlan;
 use crate::exact::record::Record;
@@ -77,21 +77,9 @@ impl Family for InterSensor {
     }
 
     fn deposit(&mut self, sums: &mut [SurfaceClouds], batch: &Batch, rows: Option<&[u32]>) {
-        let [sums] = sums else { return };
-        let points = batch.points();
-        if points.is_none() && batch.rows() > 0 {
-            sums.forget_names();
+        if let [sums] = sums {
+            sums.deposit(batch, self.axes, rows);
         }
-        let Some(units) = batch.labels(Field::UnitId) else {
-            return;
-        };
-        each_row(batch, rows, |row| {
-            let [x, y, z] = self.axes.map(|axis| batch.truth(axis).get(row));
-            if let (Some(unit), Some(x), Some(y), Some(z)) = (units.get(row), x, y, z) {
-                let point = points.and_then(|points| points.get(row));
-                sums.add(unit, point, [x, y, z]);
-            }
-        });
     }
 
     fn to_record(&self, sums: &SurfaceClouds) -> Record {

@@ -96,11 +96,8 @@ impl Channelwise for Repeats {
         position: usize,
         rows: Option<&[u32]>,
     ) {
-        let (predictions, points) = (batch.prediction(position), batch.points());
-        let truths = batch.truth(position);
-        if points.is_none() && batch.rows() > 0 {
-            sums.cells.forget_names();
-        }
+        let (predictions, truths) = (batch.prediction(position), batch.truth(position));
+        let mut cells = sums.cells.of_batch(batch);
         let Some(steps) = batch.numbers(Field::DepthStep) else {
             return;
         };
@@ -113,9 +110,7 @@ impl Channelwise for Repeats {
                 return;
             };
             // A press without usable values still counts as a cell.
-            let cell = sums
-                .cells
-                .at(points.and_then(|points| points.get(row)), step);
+            let cell = cells.at(row, step);
             if is_valid(prediction) {
                 cell.add(prediction);
                 sums.n += 1;

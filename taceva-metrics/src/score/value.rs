@@ -163,6 +163,8 @@ pub enum UndefinedReason {
     NoRise,
     /// The limit exceeds every force that it would rest on.
     BeyondLightPresses,
+    /// The limit without one place is below the lightest press, so the limit has no interval.
+    AtLightestPress,
     /// No sample is in contact and has a place.
     NoContact,
     /// Only one channel; a comparison needs two.
@@ -261,6 +263,9 @@ impl fmt::Display for UndefinedReason {
             }
             UndefinedReason::BeyondLightPresses => {
                 f.write_str("the limit exceeds the force of every light press")
+            }
+            UndefinedReason::AtLightestPress => {
+                f.write_str("the limit reaches down to the lightest press: press lighter")
             }
             UndefinedReason::NoContact => f.write_str("no sample in contact has a place"),
             UndefinedReason::OneChannel => f.write_str("one channel, two are needed"),

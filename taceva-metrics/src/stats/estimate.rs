@@ -198,6 +198,20 @@ impl Estimate {
         }
     }
 
+    /// Ends of its 95 % interval.
+    ///
+    /// ```
+    /// use taceva_metrics::{Estimate, StatedInterval};
+    /// let estimate = Estimate::try_from_interval(0.5, StatedInterval::new([0.25, 0.75], 31.0, 32))?;
+    /// let [low, high] = estimate.ends();
+    /// assert!((low - 0.25).abs() < 1e-12 && (high - 0.75).abs() < 1e-12);
+    /// # Ok::<(), taceva_metrics::ComparisonError>(())
+    /// ```
+    pub fn ends(&self) -> [f64; 2] {
+        let [below, above] = self.distances(quantile(COVERAGE, self.freedom));
+        [self.value - below, self.value + above]
+    }
+
     /// The score.
     pub(super) fn value(&self) -> f64 {
         self.value

@@ -247,7 +247,7 @@ fn every_metric_that_can_have_an_interval_is_among_those_tried() {
     }
     let metrics = catalogue::ALL.iter().map(|metric| metric.id);
     let absent: Vec<&str> = metrics.filter(|metric| !found.contains(*metric)).collect();
-    // Maxima, limits and scores of all times together have no interval. These samples lack the surfaces that units are compared by.
+    // Maxima and scores of all times together have no interval. These samples lack light presses, and the surfaces that units are compared by.
     let expected = [
         "linearity",
         "crosstalk",

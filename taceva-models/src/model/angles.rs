@@ -23,7 +23,7 @@ enum LearntAs {
     Angle {
         sine: usize,
         cosine: usize,
-        /// Period, degrees.
+        /// Period, in the unit of the angle.
         period: f64,
         /// True for labels from 0 to the period, false for labels around 0.
         from_zero: bool,
@@ -34,17 +34,20 @@ impl LearntChannels {
     /// Learnt channels for `asked`, with `angles` as sine and cosine.
     ///
     /// # Errors
-    /// [`ChannelError`] if an angle is not a channel in degrees, or the name of a sine or cosine is too long or taken.
+    /// [`ChannelError`] if the name of a sine or cosine is too long or taken.
     pub(crate) fn new(
         asked: &Channels,
         angles: &[AngleCard],
     ) -> Result<LearntChannels, ChannelError> {
-        let of = |channel: &Channel| angles.iter().find(|angle| angle.name == channel.name());
+        let of = |channel: &Channel| {
+            let angle = angles.iter().find(|angle| angle.name == channel.name())?;
+            Some((angle, channel.period_in_unit()?))
+        };
         let mut list = Vec::new();
         for channel in asked {
             match of(channel) {
                 None => list.push(*channel),
-                Some(angle) => {
+                Some((angle, _)) => {
                     list.push(Channel::named(&angle.sine(), Unit::One)?);
                     list.push(Channel::named(&angle.cosine(), Unit::One)?);
                 }
@@ -54,10 +57,10 @@ impl LearntChannels {
         let at = |name: &str| learnt.position(name).unwrap_or_default();
         let sources = asked.iter().map(|channel| match of(channel) {
             None => LearntAs::Itself(at(channel.name())),
-            Some(angle) => LearntAs::Angle {
+            Some((angle, period)) => LearntAs::Angle {
                 sine: at(&angle.sine()),
                 cosine: at(&angle.cosine()),
-                period: f64::from(angle.period),
+                period,
                 from_zero: angle.from_zero,
             },
         });
@@ -150,17 +153,18 @@ impl AngleCard {
         let width = channels.len();
         let all = channels.iter().enumerate();
         let cards = all.filter_map(|(position, channel)| {
-            let period = channel.period()?;
+            let period = channel.period_in_unit()?;
             let own = values.iter().skip(position).step_by(width.max(1));
-            let phase = |value: &f64| std::f64::consts::TAU * value / f64::from(period);
+            let phase = |value: &f64| std::f64::consts::TAU * value / period;
             let sine: f64 = own.clone().map(|value| phase(value).sin()).sum();
             let cosine: f64 = own.clone().map(|value| phase(value).cos()).sum();
             let from_zero = own.clone().all(|value| *value >= 0.0);
             Some(AngleCard {
                 name: channel.name().to_owned(),
-                period,
+                unit: channel.unit(),
+                period: channel.period()?,
                 from_zero,
-                mean: angle(sine, cosine, f64::from(period), from_zero),
+                mean: angle(sine, cosine, period, from_zero),
             })
         });
         cards.collect()
@@ -224,6 +228,24 @@ mod tests {
         let found = learnt.deviations(&[0.5, 0.3, 0.01], &predicted);
         assert!((found[0] - 0.5).abs() < 1e-12);
         assert!((found[1] - 0.01_f64.to_degrees()).abs() < 1e-9, "{found:?}");
+    }
+
+    #[test]
+    fn an_angle_in_radians_is_learnt_in_its_own_period() {
+        let half = Channel::named("yaw", Unit::Radian).and_then(|yaw| yaw.with_period(180));
+        let channels = Channels::new([half.expect("an angle")]).expect("one");
+        let values = [0.25, 0.5, 3.0];
+        let cards = AngleCard::of_labels(&channels, &values);
+        assert_eq!((cards[0].unit, cards[0].period), (Unit::Radian, 180));
+        let learnt = LearntChannels::new(&channels, &cards).expect("names");
+        let labels = learnt.labels(&values);
+        assert!((labels[0] - 0.5_f64.cos()).abs() < 1e-12, "{labels:?}");
+        assert!((labels[1] - 0.5_f64.sin()).abs() < 1e-12, "{labels:?}");
+        for (answer, value) in learnt.answers(&labels).iter().zip(values) {
+            assert!((answer - value).abs() < 1e-12, "{answer} for {value}");
+        }
+        let found = learnt.deviations(&[0.3, 0.02], &[1.0, 0.0]);
+        assert!((found[0] - 0.01).abs() < 1e-12, "{found:?}");
     }
 
     #[test]

@@ -143,12 +143,24 @@ pub struct ChannelCard {
 pub struct AngleCard {
     /// Name.
     pub name: String,
+    /// Unit of predictions, degrees or radians.
+    #[serde(default = "degree", skip_serializing_if = "is_degree")]
+    pub unit: Unit,
     /// Period, degrees.
     pub period: u16,
     /// True for predictions from 0 to the period, like the labels; false for predictions around 0.
     pub from_zero: bool,
-    /// Mean direction of the training part, degrees.
+    /// Mean direction of the training part, in `unit`.
     pub mean: f64,
+}
+
+fn degree() -> Unit {
+    Unit::Degree
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
+fn is_degree(unit: &Unit) -> bool {
+    *unit == Unit::Degree
 }
 
 /// Number of samples of each part.

@@ -1,5 +1,6 @@
 //! Checks results against limits.
 
+mod interval;
 mod sheet;
 mod template;
 
@@ -11,9 +12,10 @@ use taceva_core::Unit;
 use taceva_core::shown;
 use taceva_metrics::Standing;
 
+use self::interval::LimitInterval;
 use crate::number::numeral;
 use crate::results::Study;
-use taceva_results::Interval;
+use taceva_results::Score;
 
 /// Only accepted version of limit files.
 const LIMITS_VERSION: u32 = 1;
@@ -78,6 +80,8 @@ pub struct LimitCheck {
     pub value: Option<f64>,
     /// Both ends of its interval.
     pub ends: Option<[f64; 2]>,
+    /// Number of trainings of the model whose variance the interval contains; 0 without any.
+    pub trainings: usize,
     /// Number of samples behind the score.
     pub n: u64,
     /// True if the limit is met.
@@ -149,6 +153,8 @@ impl LimitsFile {
 }
 
 /// Checks each limit on the scores of `study`, in the order of the limits. A limit on a missing score or value counts as not met.
+///
+/// If the model was trained several times, an interval contains the variance between trainings beside that between clusters.
 pub fn accept(study: &Study, limits: &LimitsFile) -> Vec<LimitCheck> {
     limits
         .limits
@@ -162,6 +168,7 @@ fn hold(study: &Study, limit: &Limit) -> LimitCheck {
         limit: limit.clone(),
         value: None,
         ends: None,
+        trainings: 0,
         n: 0,
         is_kept: false,
         reason: None,
@@ -180,26 +187,32 @@ fn hold(study: &Study, limit: &Limit) -> LimitCheck {
     let variant = variant.or(decided_by);
     finding.n = score.n;
     finding.standing = score.standing_of(variant);
-    let (value, unit, interval) = match variant {
-        None => (&score.value, score.unit, &score.interval),
-        Some(name) => match score.variant(name) {
-            Some(variant) => (&variant.value, variant.unit, &variant.interval),
-            None => {
-                finding.reason = Some("there is no such variant".to_owned());
-                return finding;
-            }
+    let asked = match variant.map(|name| score.variant(name)) {
+        None => score.clone(),
+        Some(Some(variant)) => Score {
+            value: variant.value.clone(),
+            unit: variant.unit,
+            interval: variant.interval.clone(),
+            ..score.clone()
         },
+        Some(None) => {
+            finding.reason = Some("there is no such variant".to_owned());
+            return finding;
+        }
     };
-    let Some(number) = value.number() else {
-        finding.reason = value
+    let Some(number) = asked.value.number() else {
+        finding.reason = asked
+            .value
             .reason()
             .or_else(|| Some("not a single number".to_owned()));
         return finding;
     };
     finding.value = Some(number);
-    finding.ends = interval.as_ref().and_then(Interval::ends);
+    let interval = LimitInterval::of(study, &asked, variant);
+    finding.ends = interval.ends;
+    finding.trainings = interval.trainings;
     let barred = finding.standing.reason().map(str::to_owned);
-    finding.reason = barred.or_else(|| broken(limit, unit, number, finding.ends));
+    finding.reason = barred.or_else(|| broken(limit, asked.unit, number, finding.ends));
     finding.is_kept = finding.reason.is_none();
     if finding.is_kept && finding.ends.is_none() {
         finding.reason = Some("met by the value only: there is no interval".to_owned());

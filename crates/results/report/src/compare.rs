@@ -9,6 +9,7 @@ mod render;
 mod request;
 mod ties;
 
+pub(crate) use estimate::estimate as estimate_of;
 pub(crate) use overview::QUESTIONS;
 pub use overview::{Decision, OVERVIEW_LINES, OVERVIEW_WIDTH};
 pub use render::COMPARISON_SCHEMA;

@@ -150,14 +150,26 @@ impl Study {
 
     /// Spread of `score`, one of [`deciding`](Study::deciding), between the trainings of its model; `None` with fewer than two values.
     pub(crate) fn trainings(&self, score: &Score) -> Option<TrainingSpread> {
-        let name = match score.decided_by() {
-            Some(variant) => format!("{}.{}", score.metric, variant.name),
-            None => score.metric.clone(),
+        let variant = score.decided_by().map(|variant| variant.name.as_str());
+        let values = self.values_of_trainings(&score.metric, variant, &score.channel);
+        TrainingSpread::of_one(&values)
+    }
+
+    /// Values of a metric or its variant for each training of the model; empty for a single training.
+    pub(crate) fn values_of_trainings(
+        &self,
+        metric: &str,
+        variant: Option<&str>,
+        channel: &str,
+    ) -> Vec<f64> {
+        let name = match variant {
+            Some(variant) => format!("{metric}.{variant}"),
+            None => metric.to_owned(),
         };
-        let mut scores = self.over_seeds.as_ref()?.scores.iter();
-        let found = scores.find(|of| of.metric == name && of.channel == score.channel)?;
-        let known: Vec<f64> = found.values.iter().copied().flatten().collect();
-        TrainingSpread::of_one(&known)
+        let mut scores = self.over_seeds.iter().flat_map(|over| &over.scores);
+        let found = scores.find(|of| of.metric == name && of.channel == channel);
+        let values = found.map(|found| found.values.iter().copied().flatten());
+        values.into_iter().flatten().collect()
     }
 
     /// True if `score` depends on a single training of a model with a random seed.

@@ -158,6 +158,13 @@ pub enum Note {
     Paired(PairedBy),
     /// Columns of tables that are taken as channels of unit 1, because no unit is stated.
     UnitOfOne(Vec<String>),
+    /// An angle without a stated unit whose values all lie within its period in radians.
+    LikelyRadians {
+        /// The channel.
+        channel: String,
+        /// Its period as it was taken, in degrees.
+        period: u16,
+    },
     /// Byte-identical tables of truth and predictions.
     SameBytes,
     /// An item that a plan leaves out.

@@ -5,6 +5,7 @@ mod fields;
 mod key_order;
 mod key_parts;
 mod likely_key;
+mod likely_radians;
 mod one_pass;
 mod parquet_parts;
 mod period;
@@ -15,6 +16,7 @@ mod shard;
 mod shard_scores;
 mod table_parts;
 mod tables;
+mod whole_columns;
 
 use std::collections::BTreeMap;
 
@@ -69,6 +71,8 @@ pub struct Scoring {
     plan: ScorePlan,
     pairing: Pairing,
     matching: Matching,
+    /// Notes on angles that are probably in radians.
+    angles: Vec<Note>,
 }
 
 /// Metrics, fields and keys of both tables.
@@ -96,7 +100,8 @@ impl Scoring {
         tables::check_rows(&prediction)?;
         let digests = [("truth", of_truth), ("prediction", of_prediction)];
         let plan = planned(&request, &truth, &prediction)?;
-        likely_key::check_tables(&request, &plan, [&truth, &prediction])?;
+        likely_key::check(&request, &plan, [&truth, &prediction])?;
+        let angles = likely_radians::notes(&request, &plan, [&truth, &prediction])?;
         let (pairing, key) = tables::pair(&truth, &prediction, &plan.keys)?;
         let matching = Matching::of([&truth, &prediction], &plan.keys, key)?;
         Ok(Scoring {
@@ -109,6 +114,7 @@ impl Scoring {
             plan,
             pairing,
             matching,
+            angles,
         })
     }
 
@@ -212,6 +218,7 @@ impl Scoring {
                 is_independent: self.request.is_independent,
                 paired: self.matching.by.clone(),
                 unit_of_one: tables::unit_of_one(&self.request, self.plan.metrics.channels()),
+                angles: self.angles.clone(),
                 shard: None,
             },
         )
@@ -257,6 +264,8 @@ struct Said {
     paired: PairedBy,
     /// Columns that are taken as channels of unit 1.
     unit_of_one: Option<Note>,
+    /// Angles that are probably in radians.
+    angles: Vec<Note>,
     /// The shard, which only the report states.
     shard: Option<Note>,
 }
@@ -287,6 +296,7 @@ fn finished(
         notes: std::iter::once(Note::Paired(said.paired))
             .chain(independence)
             .chain(said.unit_of_one)
+            .chain(said.angles)
             .chain(same_bytes.then_some(Note::SameBytes))
             .collect(),
         fit: FitFacts {

@@ -12,14 +12,25 @@ pub(crate) use table::table;
 #[derive(Clone, Debug)]
 pub(crate) struct Choice {
     pub(crate) channel: String,
-    /// Positions among the groups: the chosen one, and all candidates.
+    /// Position among the groups.
     pub(crate) chosen: usize,
+    /// Number of candidates.
+    pub(crate) among: usize,
+    /// Positions of all others with results: the other candidates, and those that lack some seeds.
     pub(crate) others: Vec<usize>,
     rmse: f64,
     unit: String,
 }
 
-/// Choice for each recording, split and channel. Configurations without a result for every seed are skipped.
+/// A configuration with a validation error, at its position among the groups.
+struct Known<'a> {
+    at: usize,
+    rmse: f64,
+    unit: &'a str,
+    seeds: Vec<u64>,
+}
+
+/// Choice for each recording, split and channel, among configurations with results for the same seeds: the most that any of them has.
 pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> {
     let mut places: Vec<(&str, Option<&str>)> = Vec::new();
     for group in groups {
@@ -31,25 +42,35 @@ pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> 
     for place in places {
         for channel in channels {
             let of_place = groups.iter().enumerate();
-            let known: Vec<(usize, f64, &str)> = of_place
-                .filter(|(_, group)| group.place() == place && group.is_whole)
+            let known: Vec<Known<'_>> = of_place
+                .filter(|(_, group)| group.place() == place)
                 .filter_map(|(at, group)| {
                     let (rmse, unit) = group.validation(channel)?;
-                    Some((at, rmse, unit))
+                    Some(Known {
+                        at,
+                        rmse,
+                        unit,
+                        seeds: group.results.iter().map(|(seed, _)| *seed).collect(),
+                    })
                 })
                 .collect();
             // Of equals, the first in the file.
-            let best = known
+            let most = known.iter().rev().max_by_key(|of| of.seeds.len());
+            let candidates = known
                 .iter()
-                .min_by(|left, right| left.1.total_cmp(&right.1));
-            if let Some(&(chosen, rmse, unit)) = best {
-                let others = known.iter().map(|(at, ..)| *at);
+                .filter(|of| most.is_some_and(|most| of.seeds == most.seeds));
+            let best = candidates
+                .clone()
+                .min_by(|left, right| left.rmse.total_cmp(&right.rmse));
+            if let Some(best) = best {
+                let others = known.iter().map(|of| of.at);
                 choices.push(Choice {
                     channel: channel.clone(),
-                    chosen,
-                    others: others.filter(|at| *at != chosen).collect(),
-                    rmse,
-                    unit: unit.to_owned(),
+                    chosen: best.at,
+                    among: candidates.count(),
+                    others: others.filter(|at| *at != best.at).collect(),
+                    rmse: best.rmse,
+                    unit: best.unit.to_owned(),
                 });
             }
         }

@@ -1,66 +1,99 @@
 //! Tests of each choice against the other configurations. All tests of the sweep form one family.
 
+#[cfg(test)]
+mod example_groups;
 mod reach;
+mod shared_seeds;
 mod trainings;
-
-use std::collections::BTreeMap;
 
 use taceva_core::Unit;
 use taceva_metrics::{
-    Better, ClusterSums, ComparisonError, Difference, Question, Sides, SignFlip, Verdict, decide,
-    paired_over_trainings,
+    Better, Difference, Question, Sides, SignFlip, Verdict, decide, paired_over_trainings,
 };
 use taceva_report::{Cell, Column, Table};
 
 use crate::analysis::Group;
 use crate::choices::Choice;
 use reach::{flips_of, out_of_reach};
+use shared_seeds::SharedSeeds;
 use trainings::between_seeds;
+
+/// A chosen configuration and another one.
+struct Pair<'a> {
+    choice: &'a Choice,
+    other: usize,
+    seeds: String,
+    tested: Result<Difference, String>,
+}
 
 /// Compares each chosen configuration with each other of the same recording, split and channel.
 pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
-    let columns = ["recording", "split", "channel", "chosen", "other", "answer"];
+    let columns = [
+        "recording",
+        "split",
+        "channel",
+        "chosen",
+        "other",
+        "seeds",
+        "answer",
+    ];
     let mut table = Table::new("Chosen against every other", columns.map(Column::new));
     let mut pairs = Vec::new();
     let asked = choices.iter().map(|choice| choice.others.len()).sum();
     let test = SignFlip::default().with_flips(flips_of(asked));
     for choice in choices {
-        let sums = |at: usize| pooled(&groups[at], &choice.channel);
-        let chosen = sums(choice.chosen);
         for &other in &choice.others {
+            let groups = Sides {
+                a: &groups[choice.chosen],
+                b: &groups[other],
+            };
+            let seeds = SharedSeeds::of(groups, &choice.channel);
             let both = Sides {
-                a: &chosen,
-                b: &sums(other),
+                a: &seeds.sums.a,
+                b: &seeds.sums.b,
             };
-            let spread = between_seeds(&groups[choice.chosen], &groups[other], &choice.channel);
-            let tested = match spread {
-                Some(spread) => paired_over_trainings(both, &[spread]),
-                None => test.test(both),
+            let spread = between_seeds(groups.a, groups.b, &choice.channel);
+            let tested = match (seeds.count, spread) {
+                (0, _) => Err("no seed has a result on both sides".to_owned()),
+                (_, Some(spread)) => {
+                    paired_over_trainings(both, &[spread]).map_err(|error| error.to_string())
+                }
+                (_, None) => test.test(both).map_err(|error| error.to_string()),
             };
-            pairs.push((choice, other, tested));
+            pairs.push(Pair {
+                choice,
+                other,
+                seeds: seeds.words(),
+                tested,
+            });
         }
     }
     let mut family: Vec<Difference> = pairs
         .iter()
-        .filter_map(|(.., tested)| tested.as_ref().ok().cloned())
+        .filter_map(|pair| pair.tested.as_ref().ok().cloned())
         .collect();
     decide(&mut family);
     let count = family.len();
     let out_of_reach = out_of_reach(&family);
     let mut decided = family.into_iter();
-    for (choice, other, tested) in pairs {
-        let tested: Result<Difference, ComparisonError> = match tested {
-            Ok(before) => Ok(decided.next().unwrap_or(before)),
-            Err(error) => Err(error),
-        };
+    for Pair {
+        choice,
+        other,
+        seeds,
+        tested,
+    } in pairs
+    {
         let (group, against) = (&groups[choice.chosen], &groups[other]);
         let unit = Unit::from_symbol(unit_of(group, &choice.channel)).unwrap_or(Unit::One);
-        let answer = match &tested {
+        let answer = match tested {
             Err(error) => format!("no answer: {error}"),
-            Ok(_) => Verdict::of(tested, Question::new(unit, Better::Lower)).words(Sides {
-                a: "chosen",
-                b: "other",
-            }),
+            Ok(before) => {
+                let tested = decided.next().unwrap_or(before);
+                Verdict::of(Ok(tested), Question::new(unit, Better::Lower)).words(Sides {
+                    a: "chosen",
+                    b: "other",
+                })
+            }
         };
         table.push([
             Cell::text(group.dataset),
@@ -68,13 +101,14 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
             Cell::text(choice.channel.as_str()),
             Cell::text(group.configuration.as_str()),
             Cell::text(against.configuration.as_str()),
+            Cell::text(seeds),
             Cell::text(answer),
         ]);
     }
     table.note(format!(
-        "Tests of mean absolute errors on test parts, paired by sample and summed by contact point over all seeds: by sign flips for one \
-         seed and where no seed changes the difference, else by Student's t with the variance between seeds. All {count} tests of the \
-         sweep form one family of Holm's procedure, at a level of 5 %."
+        "Tests of mean absolute errors on test parts, paired by sample and summed by contact point over the seeds with results on both \
+         sides: by sign flips for one seed and where no seed changes the difference, else by Student's t with the variance between \
+         seeds. All {count} tests of the sweep form one family of Holm's procedure, at a level of 5 %."
     ));
     if let Some(words) = out_of_reach {
         table.note(words);
@@ -88,17 +122,59 @@ fn unit_of(group: &Group<'_>, channel: &str) -> &'static str {
     score.map_or("", |score| score.unit.symbol())
 }
 
-/// Errors of all seeds by contact point. A press counts once, however often it was in a test part.
-fn pooled(group: &Group<'_>, channel: &str) -> ClusterSums {
-    let mut all: BTreeMap<u64, ClusterSums> = BTreeMap::new();
-    for (seed, result) in &group.results {
-        if let Some(sums) = result.sums(channel) {
-            all.insert(*seed, sums);
-        }
+#[cfg(test)]
+mod tests {
+    use super::example_groups::{group, result};
+    use super::*;
+    use crate::choices::choices;
+
+    /// Rows of the table, each with the chosen configuration, the other one, the seeds and the answer.
+    fn rows(groups: &[Group<'_>]) -> Vec<[String; 4]> {
+        let choices = choices(groups, &["Fz".to_owned()]);
+        let csv = table(groups, &choices).csv();
+        let mut reader = csv::Reader::from_reader(csv.as_bytes());
+        let rows = reader.records().map(|row| {
+            let row = row.expect("a row");
+            [3, 4, 5, 6].map(|at: usize| row[at].to_owned())
+        });
+        rows.collect()
     }
-    let mut sums = ClusterSums::default();
-    for of_seed in all.values() {
-        sums.merge(of_seed);
+
+    #[test]
+    fn a_seed_without_a_result_on_one_side_is_left_out_on_both_and_counted() {
+        let (one, other) = ([0.5, 0.6, 0.7].map(result), [0.1, 0.2].map(result));
+        let first = Group {
+            configuration: "ridge".to_owned(),
+            ..group(&[1, 2, 3], &one)
+        };
+        // Only the first has all seeds: it is chosen, although the other has smaller errors.
+        let partial = group(&[1, 3], &other);
+        let found = rows(&[first.clone(), partial]);
+        let [[chosen, against, seeds, answer]] = &found[..] else {
+            panic!("{found:?}");
+        };
+        assert_eq!((chosen.as_str(), against.as_str()), ("ridge", "cnn"));
+        assert_eq!(seeds, "2 of both (chosen 3, other 2)");
+        assert!(!answer.contains("no answer"), "{answer}");
+        let whole = [0.1, 0.2, 0.3].map(result);
+        let found = rows(&[first.clone(), group(&[1, 2, 3], &whole)]);
+        assert_eq!(found[0][..3], ["cnn", "ridge", "3"]);
+        let none = group(&[4], &whole[..1]);
+        let found = rows(&[first, none]);
+        assert_eq!(found[0][2], "0 of both (chosen 3, other 1)");
+        assert_eq!(found[0][3], "no answer: no seed has a result on both sides");
     }
-    sums
+
+    #[test]
+    fn a_seed_that_failed_everywhere_leaves_a_choice_among_the_others() {
+        let (one, other) = ([0.5, 0.7].map(result), [0.1, 0.2].map(result));
+        let groups = [group(&[1, 3], &one), group(&[1, 3], &other)];
+        let groups = groups.map(|group| Group {
+            is_whole: false,
+            ..group
+        });
+        let choices = choices(&groups, &["Fz".to_owned()]);
+        assert_eq!((choices[0].chosen, choices[0].among), (1, 2));
+        assert_eq!(rows(&groups)[0][2], "2");
+    }
 }

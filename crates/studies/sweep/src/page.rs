@@ -27,7 +27,8 @@ pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collec
     let mut best = vec![PagePart::Table(choices::table(&groups, &choices))];
     if partial > 0 {
         best.push(PagePart::Words(format!(
-            "{partial} of {} configurations lack a result for some seed and are excluded from the choice.",
+            "{partial} of {} configurations lack a result for some seed. A choice is made among configurations with results for the same \
+             seeds; the others are compared with it on the seeds of both.",
             groups.len()
         )));
     }

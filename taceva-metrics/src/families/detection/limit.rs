@@ -7,6 +7,8 @@ use crate::stats::noncentral::{critical_factor, detection_factor};
 
 /// Least number of independent places for a limit.
 pub(super) const LEAST_PLACES: u64 = 10;
+/// Least number of places for the line of a limit without some of its places.
+const LEAST_LEFT: u64 = 3;
 
 /// Detection limit and its threshold, N of true force.
 #[derive(Clone, Copy, Debug)]
@@ -16,28 +18,42 @@ pub(super) struct Limit {
 }
 
 impl Limit {
+    /// The limit of at least ten places, within the forces of their presses.
+    pub(super) fn of(sums: &LightSums) -> Result<Limit, UndefinedReason> {
+        let range = sums.line.range.ok_or(UndefinedReason::NoLightPresses)?;
+        let limit = Limit::of_line(sums, LEAST_PLACES)?;
+        if limit.value > range.greatest {
+            return Err(UndefinedReason::BeyondLightPresses);
+        }
+        Ok(Limit {
+            value: limit.value.max(range.least),
+            ..limit
+        })
+    }
+
+    /// The limit of the line for another choice of places, of which there may be fewer.
+    pub(super) fn resampled(sums: &LightSums) -> Result<Limit, UndefinedReason> {
+        Limit::of_line(sums, LEAST_LEFT)
+    }
+
     /// The limit of ISO 11843-2 for one prediction a press and g = n² / Σ nᵢ² independent presses.
     ///
     /// With S_xx = n Σ x² − (Σ x)², S_yy and S_xy alike and R = S_xx S_yy − S_xy² it is s / b = √(R S_xx) / (n S_xy) × √(g / (g − 2)).
     /// R, S_xx and S_xy are exact; each root and quotient is rounded once.
-    pub(super) fn of(sums: &LightSums) -> Result<Limit, UndefinedReason> {
-        let range = sums.range.ok_or(UndefinedReason::NoLightPresses)?;
+    fn of_line(sums: &LightSums, least: u64) -> Result<Limit, UndefinedReason> {
         if !sums.places.are_named() {
             return Err(UndefinedReason::NoClusters);
         }
-        let n = Dyadic::from(sums.n);
+        let n = Dyadic::from(sums.line.n);
         let squares = sums.places.iter().map(|(_, presses)| presses.0);
         let squares = squares.fold(0_u64, |sum, n| sum.saturating_add(n.saturating_mul(n)));
-        let have = sums.n.saturating_mul(sums.n) / squares.max(1);
-        if have < LEAST_PLACES {
-            return Err(UndefinedReason::TooFewPlaces {
-                have,
-                least: LEAST_PLACES,
-            });
+        let have = sums.line.n.saturating_mul(sums.line.n) / squares.max(1);
+        if have < least {
+            return Err(UndefinedReason::TooFewPlaces { have, least });
         }
         let independent = (&n * &n).over(&Dyadic::from(squares));
         let freedom = independent - 2.0;
-        let [x, y, xx, xy, yy] = sums.sums.each_ref().map(|sum| sum.to_dyadic());
+        let [x, y, xx, xy, yy] = sums.line.sums.each_ref().map(|sum| sum.to_dyadic());
         let spread_x = &(&n * &xx) - &(&x * &x);
         let spread_y = &(&n * &yy) - &(&y * &y);
         let shared = &(&n * &xy) - &(&x * &y);
@@ -57,12 +73,8 @@ impl Limit {
             * (independent / freedom).sqrt();
         let leverage = (1.0 + (&x * &x).over(&spread_x)) / independent;
         let deviation = deviation * (1.0 + leverage).sqrt();
-        let limit = detection_factor(freedom) * deviation;
-        if limit > range.greatest {
-            return Err(UndefinedReason::BeyondLightPresses);
-        }
         Ok(Limit {
-            value: limit.max(range.least),
+            value: detection_factor(freedom) * deviation,
             critical: threshold * deviation,
         })
     }

@@ -3,20 +3,25 @@
 use crate::exact::ExactSum;
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
-use crate::families::cells::Cells;
+use crate::families::cells::{Cells, add_times};
 use crate::pair::Paired;
 
-/// Sums of light presses: x the true force, y the predicted one.
+/// Sums of light presses, and their number at each place.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LightSums {
-    pub(super) n: u64,
     pub(super) n_invalid: u64,
+    pub(super) line: LineSums,
+    pub(super) places: Cells<Presses>,
+}
+
+/// Sums of a line through light presses: x the true force, y the predicted one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct LineSums {
+    pub(super) n: u64,
     /// Σ x, Σ y, Σ x², Σ x y, Σ y².
     pub(super) sums: [ExactSum; 5],
     /// Least and greatest x; `None` for no press.
     pub(super) range: Option<Forces>,
-    /// Presses of each place.
-    pub(super) places: Cells<Presses>,
 }
 
 /// Least and greatest true force.
@@ -45,9 +50,9 @@ impl Forces {
     }
 }
 
-impl LightSums {
-    /// Adds a press at the place `point`.
-    pub(super) fn add(&mut self, pair: Paired<f64>, point: Option<&str>) {
+impl LineSums {
+    /// Adds a press.
+    pub(super) fn add(&mut self, pair: Paired<f64>) {
         let Paired {
             estimate: y,
             reference: x,
@@ -64,15 +69,17 @@ impl LightSums {
             greatest: x,
         };
         self.range = Some(self.range.map_or(own, |range| range.and(own)));
-        self.places.at(point, 0).merge(&Presses(1));
     }
+}
 
+impl LightSums {
     /// Converts the sums to the record of a state.
     pub(super) fn to_record(&self) -> Record {
-        let range = self.range.map(|range| vec![range.least, range.greatest]);
+        let line = &self.line;
+        let range = line.range.map(|range| vec![range.least, range.greatest]);
         Record {
-            counts: vec![self.n, self.n_invalid, u64::from(self.places.are_named())],
-            sums: self.sums.to_vec(),
+            counts: vec![line.n, self.n_invalid, u64::from(self.places.are_named())],
+            sums: line.sums.to_vec(),
             values: range.unwrap_or_default(),
             cells: self.places.to_records(|presses| Record {
                 counts: vec![presses.0],
@@ -94,10 +101,12 @@ impl LightSums {
             Ok(Presses(presses))
         };
         Ok(LightSums {
-            n,
             n_invalid,
-            sums: sums.clone(),
-            range,
+            line: LineSums {
+                n,
+                sums: sums.clone(),
+                range,
+            },
             places: Cells::from_record(record, named == 1, read)?,
         })
     }
@@ -105,13 +114,23 @@ impl LightSums {
 
 impl Merge for LightSums {
     fn merge(&mut self, other: &LightSums) {
+        self.merge_times(other, 1);
+    }
+
+    fn merge_times(&mut self, other: &LightSums, times: u32) {
+        add_times(&mut self.n_invalid, other.n_invalid, times);
+        self.line.merge_times(&other.line, times);
+        self.places.merge_times(&other.places, times);
+    }
+}
+
+impl Merge for LineSums {
+    fn merge(&mut self, other: &LineSums) {
         self.n = self.n.saturating_add(other.n);
-        self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
         self.sums.merge(&other.sums);
         self.range = match (self.range, other.range) {
             (Some(own), Some(other)) => Some(own.and(other)),
             (own, other) => own.or(other),
         };
-        self.places.merge(&other.places);
     }
 }

@@ -77,10 +77,7 @@ impl Family for Loops {
 
     fn deposit(&mut self, sums: &mut [LoopSums], batch: &Batch, rows: Option<&[u32]>) {
         let [sums] = sums else { return };
-        let points = batch.points();
-        if points.is_none() && batch.rows() > 0 {
-            sums.cells.forget_names();
-        }
+        let mut cells = sums.cells.of_batch(batch);
         let Some(phases) = batch.labels(Field::Phase) else {
             return;
         };
@@ -95,8 +92,7 @@ impl Family for Loops {
                 sums.n_invalid += 1;
                 return;
             }
-            let point = points.and_then(|points| points.get(row));
-            let cell = sums.cells.at(point, 0);
+            let cell = cells.at(row, 0);
             cell.add(phase, depth, force);
             if let Some(place) = self.place_mm(batch, row) {
                 cell.add_place(place);

@@ -1,5 +1,8 @@
 //! Surfaces of units: the places of first contact.
 
+use taceva_core::{Batch, Field};
+
+use crate::evaluate::family::each_row;
 use crate::exact::level::millionths;
 use crate::exact::merge::{Merge, keyed};
 use crate::exact::number_key::Ordered;
@@ -38,25 +41,32 @@ pub(super) struct Cloud {
 }
 
 impl SurfaceClouds {
-    /// Adds a place on the surface of `unit`, mm; a place with an unusable coordinate is counted and skipped.
-    pub(super) fn add(&mut self, unit: &str, point: Option<&str>, place_mm: Point) {
-        if !place_mm.iter().all(|length| millionths(*length).is_some()) {
-            self.n_invalid += 1;
+    /// Adds the places of `rows` of `batch` on the surfaces of units. `axes` are the channels of x, y and z, mm. A place with an unusable
+    /// coordinate is counted and skipped.
+    pub(super) fn deposit(&mut self, batch: &Batch, axes: [usize; 3], rows: Option<&[u32]>) {
+        let mut cells = self.cells.of_batch(batch);
+        let Some(units) = batch.labels(Field::UnitId) else {
             return;
-        }
-        self.n += 1;
-        let units = &mut self.cells.at(point, 0).units;
-        if units.get(unit).is_none() {
-            units.insert(unit.to_owned(), PlaceSet::default());
-        }
-        if let Some(places) = units.get_mut(unit) {
-            places.insert(place_mm.map(Ordered::new), ());
-        }
-    }
-
-    /// Records that some sample names no location.
-    pub(super) fn forget_names(&mut self) {
-        self.cells.forget_names();
+        };
+        each_row(batch, rows, |row| {
+            let [x, y, z] = axes.map(|axis| batch.truth(axis).get(row));
+            let (Some(unit), Some(x), Some(y), Some(z)) = (units.get(row), x, y, z) else {
+                return;
+            };
+            let place_mm: Point = [x, y, z];
+            if !place_mm.iter().all(|length| millionths(*length).is_some()) {
+                self.n_invalid += 1;
+                return;
+            }
+            self.n += 1;
+            let units = &mut cells.at(row, 0).units;
+            if units.get(unit).is_none() {
+                units.insert(unit.to_owned(), PlaceSet::default());
+            }
+            if let Some(places) = units.get_mut(unit) {
+                places.insert(place_mm.map(Ordered::new), ());
+            }
+        });
     }
 
     /// Number of samples.

@@ -48,8 +48,31 @@ fn the_limit_of_light_presses_is_that_of_a_calculation_by_hand() {
     let counts = score.counts.iter();
     let counts: Vec<(&str, u64)> = counts.map(|count| (count.name, count.value)).collect();
     assert_eq!(counts, [("places", 11)]);
-    let why = taceva_metrics::UndefinedReason::NoInterval;
-    assert_eq!(score.interval, Interval::Undefined(why));
+}
+
+#[test]
+fn the_interval_of_a_limit_is_that_of_limits_without_one_place_each() {
+    let evaluation = limit(&eleven_places(2.0 / 128.0));
+    let found = score(&evaluation, "detection_limit", "Fz");
+    close(
+        scalar(&evaluation, "detection_limit", "Fz"),
+        0.076_236_483_389_487_69,
+    );
+    // By exact rational arithmetic: eleven logarithms with a standard error of 0.12933 and t = 2.22814 for ten degrees of freedom.
+    let [low, high] = found.interval.ends().expect("eleven places");
+    assert!((low - 0.057_149_235_4).abs() < 1e-8, "{low}");
+    assert!((high - 0.101_698_672_9).abs() < 1e-8, "{high}");
+    let critical = found.variant("critical").expect("a variant");
+    let critical = critical.interval.and_then(|interval| interval.ends());
+    assert!(
+        critical.is_some_and(|[low, high]| low < high),
+        "{critical:?}"
+    );
+    // Without the lightest place, the limit of smaller errors is below the lightest press.
+    let evaluation = limit(&eleven_places(1.0 / 128.0));
+    let why = taceva_metrics::UndefinedReason::AtLightestPress;
+    let found = score(&evaluation, "detection_limit", "Fz");
+    assert_eq!(found.interval, Interval::Undefined(why));
 }
 
 #[test]

@@ -13,8 +13,8 @@ use crate::short_digests::short_digests;
 use crate::table::{Cell, Column, Table};
 use taceva_results::{SampleChannel, not_measured};
 
-/// Schema of an acceptance as JSON. 1.1: each finding states the better direction.
-pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.1";
+/// Schema of an acceptance as JSON. 1.1: each finding states the better direction. 1.2: the number of trainings in its interval.
+pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.2";
 
 /// Findings of one sensor unit, with the facts of its data sheet.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +59,12 @@ impl Acceptance<'_> {
         for finding in self.findings {
             table.push(row(finding));
         }
+        let trainings = self.findings.iter().map(|finding| finding.trainings);
+        if let Some(trainings) = trainings.max().filter(|trainings| *trainings > 0) {
+            table.note(format!(
+                "Intervals of scores that differ between {trainings} trainings of the model contain that variance."
+            ));
+        }
         if let Some(words) = not_measured([self.study.source.as_str()]) {
             table.note(words);
         }
@@ -77,6 +83,7 @@ impl Acceptance<'_> {
                 "least": finding.limit.least,
                 "value": finding.value,
                 "ci95": finding.ends,
+                "trainings": finding.trainings,
                 "n": finding.n,
                 "kept": finding.is_kept,
                 "standing": finding.standing.words(),

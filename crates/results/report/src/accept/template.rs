@@ -3,11 +3,12 @@
 use taceva_metrics::{Better, Range};
 
 use super::LIMITS_VERSION;
+use super::interval::LimitInterval;
 use crate::escape::terminal;
 use crate::number::{FormattedValue, spaced};
 use crate::results::Study;
 use crate::scores::ScoreTable;
-use taceva_results::{Interval, Score, not_measured};
+use taceva_results::{Score, not_measured};
 
 /// Distance of a limit from the result, as a share of the value.
 const MARGIN: f64 = 0.2;
@@ -38,7 +39,7 @@ pub fn limits_template(study: &Study) -> String {
         .into_iter()
         .partition(|score| score.standing.takes_part());
     let kept = kept.into_iter().map(Score::deciding);
-    let limits: String = kept.filter_map(|score| limit(&score)).collect();
+    let limits: String = kept.filter_map(|score| limit(study, &score)).collect();
     let name = toml::Value::String(format!("limits made from a result of {}", study.sensor));
     let mut out = format!(
         "# Limits made from a result of {}, serial {}, samples {}.\n\
@@ -86,10 +87,12 @@ fn left_out(barred: &[&Score]) -> String {
 }
 
 /// Limit with the value of the result; `None` for descriptive scores and absent values.
-fn limit(score: &Score) -> Option<String> {
+fn limit(study: &Study, score: &Score) -> Option<String> {
     let value = score.value.number()?;
-    let ends = score.interval.as_ref().and_then(Interval::ends);
-    let [low, high] = ends.unwrap_or([value; 2]);
+    let variant = score.decided_by().map(|variant| variant.name.as_str());
+    let [low, high] = LimitInterval::of(study, score, variant)
+        .ends
+        .unwrap_or([value; 2]);
     let room = value.abs() * MARGIN;
     let bounds = match score.better() {
         Better::Lower => format!("most = {:?}\n", upwards((value + room).max(high))),

@@ -37,7 +37,7 @@ pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> 
 }
 
 /// Estimate of a score with its interval. If an older result states no degrees of freedom, they are the number of clusters minus one.
-fn estimate(score: &Score) -> Result<Estimate, String> {
+pub(crate) fn estimate(score: &Score) -> Result<Estimate, String> {
     let Some(value) = score.value.number() else {
         let reason = score.value.reason();
         return Err(reason.unwrap_or_else(|| "not a single number".to_owned()));

@@ -1,8 +1,10 @@
 //! Tests that a value on the limit meets it and the next binary64 number beyond does not: by value and by interval, above and below.
 
+use crate::compare;
+use crate::compare::trainings::over_seeds;
 use crate::support;
 use serde_json::{Value, json};
-use taceva_report::{LimitCheck, LimitsFile, Study, accept};
+use taceva_report::{LimitCheck, LimitsFile, Study, accept, limits_template};
 
 /// Score of every test, and the ends of its interval: dyadic fractions, so that a limit can equal them.
 const VALUE: f64 = 0.5;
@@ -215,4 +217,47 @@ fn a_value_without_an_interval_is_kept_by_itself_and_that_is_said() {
     assert_eq!(finding.reason.as_deref(), Some(reason));
     let finding = held("mae", "Fx", "N", "most = 0.75\nwhole_interval = true");
     assert!(!finding.is_kept);
+}
+
+#[test]
+fn a_limit_is_judged_by_the_interval_that_contains_the_variance_between_seeds() {
+    let score = compare::score(0.5, 0.01, "N");
+    let mut study = compare::study("drawn", &[("mae", "Fz", score)], &["Fz"]);
+    let limits = "[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 0.5625\n";
+    let checked = |study: &Study, more: &str| {
+        let limits = LimitsFile::read(&format!("{limits}{more}")).expect("limits");
+        accept(study, &limits).remove(0)
+    };
+    let whole = "whole_interval = true\n";
+    let one = checked(&study, whole);
+    assert_eq!((one.ends, one.trainings), (Some([0.48, 0.52]), 0));
+    assert!(one.is_kept, "{one:?}");
+    // Trainings that agree, and those of another metric, change no bit.
+    for other in [
+        over_seeds("mae", [0.5; 3]),
+        over_seeds("rmse", [0.5, 0.54, 0.46]),
+    ] {
+        study.over_seeds = Some(other);
+        assert_eq!(checked(&study, whole), one);
+    }
+    study.over_seeds = Some(over_seeds("mae", [0.5, 0.54, 0.46]));
+    let several = checked(&study, whole);
+    assert_eq!((several.value, several.trainings), (one.value, 3));
+    let [low, high] = several.ends.expect("an interval");
+    // √(0.0096² + 0.04²) times Student's t of 2.23 degrees of freedom.
+    assert!((0.15..0.18).contains(&(high - 0.5)), "{high}");
+    assert!((0.5 - low - (high - 0.5)).abs() < 1e-12, "{low} {high}");
+    assert!(!several.is_kept, "{several:?}");
+    let reason = several.reason.expect("a reason");
+    assert!(reason.starts_with("interval reaches 0.6"), "{reason}");
+    let by_value = checked(&study, "");
+    assert!(by_value.is_kept);
+    assert_eq!(by_value.reason.as_deref(), Some(BY_VALUE));
+    // A template allows the whole interval of its own result.
+    let text = limits_template(&study);
+    let text = text.replace("[[limit]]", "[[limit]]\nwhole_interval = true");
+    let findings = accept(&study, &LimitsFile::read(&text).expect("limits"));
+    let mut findings = findings.iter();
+    let own = findings.find(|finding| finding.limit.metric == "mae");
+    assert!(own.expect("a limit").is_kept, "{own:?}");
 }

@@ -2,7 +2,7 @@
 
 mod asked;
 mod pairs;
-mod trainings;
+pub(crate) mod trainings;
 mod variants;
 
 use crate::support;

@@ -183,6 +183,14 @@ impl fmt::Display for Note {
             } => write!(f, "shard {shard}: rows {first} (from 0) up to but excluding {end}, of {of}"),
             Note::Paired(by) => write!(f, "rows were paired {by}"),
             Note::UnitOfOne(names) => unit_of_one(names, f),
+            Note::LikelyRadians { channel, period } => write!(
+                f,
+                "{0}: all values lie within ±{1:.2}, as angles in radians do, but are scored as degrees with a period of {period}, because no \
+                 unit is stated; give --periods {0}={2}pi for radians, or --units {0}=deg for degrees",
+                shown(channel),
+                f64::from(*period).to_radians(),
+                f64::from(*period) / 180.0
+            ),
             Note::SameBytes => f.write_str(
                 "truth and predictions are byte-identical files: every error is 0, which no sensor reaches",
             ),

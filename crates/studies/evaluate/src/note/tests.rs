@@ -36,6 +36,20 @@ fn a_column_of_unit_one_is_named_with_the_channel_that_it_may_be() {
 }
 
 #[test]
+fn an_angle_that_may_be_in_radians_is_named_with_both_remedies() {
+    let note = |period| {
+        let channel = "yaw".to_owned();
+        Note::LikelyRadians { channel, period }.to_string()
+    };
+    assert_eq!(
+        note(360),
+        "yaw: all values lie within ±6.28, as angles in radians do, but are scored as degrees with a period of 360, because no unit is \
+         stated; give --periods yaw=2pi for radians, or --units yaw=deg for degrees"
+    );
+    assert!(note(90).contains("--periods yaw=0.5pi"), "{}", note(90));
+}
+
+#[test]
 fn depths_state_the_uncertainty_of_their_zero_and_how_many_have_none() {
     let note = |without| {
         let note = Note::DepthZeros {

@@ -14,15 +14,17 @@ use super::agreement::Matching;
 use super::key_order::KeyOrder;
 use super::row_pairs::PairedRows;
 use super::tables::Pairing;
+use super::whole_columns::WholeColumns;
 use super::{
-    Said, ScorePlan, ScoreRequest, Scored, finished, likely_key, parquet_parts, planned, tables,
+    Said, ScorePlan, ScoreRequest, Scored, finished, likely_key, likely_radians, parquet_parts,
+    planned, tables,
 };
 use crate::accumulate::{BATCH_ROWS, Rows};
 use crate::error::EvaluateError;
 use crate::row_ledger::Taken;
 
 /// Scores the tables of `request` in one pass, to the same bytes as [`Scoring`](super::Scoring). Returns `None` if that is impossible: keys that do
-/// not ascend alike in both tables, quoted cells, Parquet, possible key columns, and any error. [`Scoring`](super::Scoring) then reads the tables
+/// not ascend alike in both tables, quoted cells, Parquet, possible key columns, angles that may be in radians, and any error. [`Scoring`](super::Scoring) then reads the tables
 /// again and reports the error.
 ///
 /// # Errors
@@ -82,6 +84,7 @@ pub fn score_in_one_pass(
         is_independent: request.is_independent,
         paired: matching.by,
         unit_of_one: tables::unit_of_one(request, plan.metrics.channels()),
+        angles: Vec::new(),
         shard: None,
     };
     finished(evaluator, &plan.sensor, digests, taken, said).map(Some)
@@ -167,13 +170,20 @@ impl Pass<'_> {
 
     /// Scores a block; returns false if that is impossible.
     fn take(&self, number: u64, tables: [&CsvTable; 2], evaluator: &mut Evaluator) -> bool {
-        // The first block shows possible key columns; the whole tables decide.
-        if number == 0 && likely_key::check_tables(self.request, self.plan, tables).is_err() {
+        // The first block shows possible key columns and radians; the whole tables decide.
+        if number == 0 && !self.is_plain([tables[0], tables[1]]) {
             return false;
         }
         let mut order = self.order.iter();
         order.all(|order| order.is_kept_in(number, tables))
             && self.update(tables, evaluator).is_ok()
+    }
+
+    /// True if the columns of these tables are neither possible keys nor angles that may be in radians.
+    fn is_plain(&self, tables: [&dyn WholeColumns; 2]) -> bool {
+        let has_no_key = likely_key::check(self.request, self.plan, tables).is_ok();
+        let angles = likely_radians::notes(self.request, self.plan, tables);
+        has_no_key && angles.is_ok_and(|notes| notes.is_empty())
     }
 
     fn update(

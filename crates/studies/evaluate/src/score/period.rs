@@ -26,19 +26,17 @@ pub struct Period {
     is_of_pi: bool,
 }
 
-/// Greatest difference of a period in radians from whole degrees, in degrees. It allows for four decimals.
-const ROUNDED_DEG: f64 = 0.01;
+/// Greatest difference of a period in radians from whole degrees, in degrees. It allows for three decimals.
+const ROUNDED_DEG: f64 = 0.03;
 
 impl Period {
-    /// Unit of a column if neither its name nor the caller states one.
-    pub(super) fn own_unit(self, name: &str) -> Unit {
+    /// Unit that the name of a column or a multiple of π states.
+    pub(super) fn stated_unit(self, name: &str) -> Option<Unit> {
         let by_name = [("_rad", Unit::Radian), ("_deg", Unit::Degree)];
         let by_name = by_name.iter().find(|(end, _)| name.ends_with(end));
-        match (by_name, self.is_of_pi) {
-            (Some((_, unit)), _) => *unit,
-            (None, true) => Unit::Radian,
-            (None, false) => Unit::Degree,
-        }
+        by_name
+            .map(|(_, unit)| *unit)
+            .or(self.is_of_pi.then_some(Unit::Radian))
     }
 
     /// Period of the column `name` in `unit`, in whole degrees.
@@ -46,16 +44,24 @@ impl Period {
     /// # Errors
     /// A message with the remedy if the period does not fit the unit, or is not a whole number of degrees.
     pub fn degrees(self, name: &str, unit: Unit) -> Result<u16, String> {
+        let of_radians = match self.is_of_pi {
+            true => self.number * 180.0,
+            false => self.number.to_degrees(),
+        };
+        let is_whole = (of_radians - of_radians.round()).abs() <= ROUNDED_DEG;
+        // 6.283 degrees is no period that anyone means.
+        let is_of_radians = is_whole && of_radians <= 360.0 + ROUNDED_DEG;
         let degrees = match (unit, self.is_of_pi) {
-            (Unit::Degree, true) => {
+            (Unit::Degree, is_of_pi)
+                if is_of_pi || (is_of_radians && self.number.fract() != 0.0) =>
+            {
                 return Err(format!(
                     "a period of {self} is given for `{name}`, whose unit is {unit}: write {name}={} for degrees, or --units {name}=rad",
-                    self.number * 180.0
+                    of_radians.round()
                 ));
             }
             // The channel refuses a period of a length or a force.
-            (_, true) => self.number * 180.0,
-            (Unit::Radian, false) => self.number.to_degrees(),
+            (_, true) | (Unit::Radian, false) => of_radians,
             (_, false) => self.number,
         };
         let rounding = if unit == Unit::Radian {
@@ -146,6 +152,7 @@ mod tests {
             ("2π", Unit::Radian, 360),
             ("6.283185307179586", Unit::Radian, 360),
             ("6.2832", Unit::Radian, 360),
+            ("6.283", Unit::Radian, 360),
             ("3.1416", Unit::Radian, 180),
             ("2pi", Unit::Millimetre, 360),
         ] {
@@ -158,6 +165,12 @@ mod tests {
         for (text, unit, remedy) in [
             ("360", Unit::Radian, "write yaw=2pi"),
             ("2pi", Unit::Degree, "write yaw=360"),
+            (
+                "6.283",
+                Unit::Degree,
+                "write yaw=360 for degrees, or --units yaw=rad",
+            ),
+            ("3.1416", Unit::Degree, "write yaw=180 for degrees"),
             ("90.5", Unit::Degree, "a whole number of degrees"),
             ("1", Unit::Radian, "a whole number of degrees"),
             ("-360", Unit::Degree, "a whole number of degrees"),
@@ -166,11 +179,13 @@ mod tests {
             let problem = degrees(text, unit).expect_err(text);
             assert!(problem.contains(remedy), "{problem}");
         }
-        assert_eq!(Period::from(2).own_unit("yaw_rad"), Unit::Radian);
-        assert_eq!(Period::from(2).own_unit("yaw"), Unit::Degree);
+        let two = Period::from(2);
+        assert_eq!(two.stated_unit("yaw_rad"), Some(Unit::Radian));
+        assert_eq!(two.stated_unit("yaw_deg"), Some(Unit::Degree));
+        assert_eq!(two.stated_unit("yaw"), None);
         assert_eq!(
-            "pi".parse::<Period>().map(|pi| pi.own_unit("yaw")),
-            Ok(Unit::Radian)
+            "pi".parse::<Period>().map(|pi| pi.stated_unit("yaw")),
+            Ok(Some(Unit::Radian))
         );
     }
 }

@@ -20,8 +20,10 @@ use super::row_pairs::PairedRows;
 use super::shard::Shard;
 use super::table_parts::{Reader, TableParts};
 use super::tables::Pairing;
+use super::whole_columns::Parts;
 use super::{
-    Said, ScorePlan, ScoreRequest, Scored, finished, likely_key, parquet_parts, planned, tables,
+    Said, ScorePlan, ScoreRequest, Scored, finished, likely_key, likely_radians, parquet_parts,
+    planned, tables,
 };
 use crate::accumulate::{BATCH_ROWS, Rows};
 use crate::error::EvaluateError;
@@ -42,6 +44,8 @@ struct Understood<'a> {
     truth: Reader<'a>,
     prediction: Reader<'a>,
     plan: ScorePlan,
+    /// Notes on angles that are probably in radians.
+    angles: Vec<Note>,
 }
 
 /// Rows of a shard with their predictions.
@@ -196,6 +200,7 @@ impl ScoreTables {
             is_independent: request.is_independent,
             paired,
             unit_of_one: tables::unit_of_one(request, understood.plan.metrics.channels()),
+            angles: understood.angles.clone(),
             shard: note,
         };
         finished(evaluator, &understood.plan.sensor, digests, taken, said)
@@ -214,16 +219,17 @@ impl ScoreTables {
             predicted.has(name) || NOT_CHANNELS.contains(&name) || is_key(name) || is_six(name)
         });
         let plan = planned(request, &truth.header()?, &predicted)?;
-        let parts = |rows: u64| rows.div_ceil(CsvParts::ROWS);
-        let tables = [
-            (&truth, parts(self.truth.rows())),
-            (&prediction, parts(self.prediction.rows())),
+        let parts = [
+            Parts::new(&truth, self.truth.rows()),
+            Parts::new(&prediction, self.prediction.rows()),
         ];
-        likely_key::check_parts(request, &plan, tables)?;
+        likely_key::check(request, &plan, [&parts[0], &parts[1]])?;
+        let angles = likely_radians::notes(request, &plan, [&parts[0], &parts[1]])?;
         Ok(Understood {
             truth,
             prediction,
             plan,
+            angles,
         })
     }
 

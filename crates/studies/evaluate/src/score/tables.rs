@@ -140,7 +140,8 @@ pub(super) fn channels(
         let declared = declared.or_else(|| six(name).map(|channel| channel.unit()));
         let channel = match periods.iter().find(|(known, _)| known == name) {
             Some((_, period)) => {
-                let unit = declared.unwrap_or_else(|| period.own_unit(name));
+                let unit = declared.or_else(|| period.stated_unit(name));
+                let unit = unit.unwrap_or(Unit::Degree);
                 let degrees = period.degrees(name, unit);
                 let degrees = degrees.map_err(EvaluateError::Request)?;
                 Channel::named(name, unit).and_then(|channel| channel.with_period(degrees))

@@ -78,7 +78,7 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
             Cell::text(question(&choice.channel)),
             Cell::text(choice.channel.as_str()),
             Cell::text(group.configuration.as_str()),
-            Cell::Number((choice.others.len() + 1).to_string()),
+            Cell::Number(choice.among.to_string()),
             number(choice.rmse),
             if values.is_empty() {
                 Cell::text("none")

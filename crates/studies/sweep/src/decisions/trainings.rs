@@ -28,43 +28,8 @@ pub(super) fn between_seeds(
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeMap;
-
-    use taceva_core::Unit;
-    use taceva_dataset::Digest;
-    use taceva_results::Score;
-
+    use super::super::example_groups::{group, result};
     use super::*;
-    use crate::key::{KeyParts, TaskKey};
-    use crate::result::TaskResult;
-
-    fn result(error: f64) -> TaskResult {
-        let key = TaskKey::of(KeyParts {
-            dataset: Digest::of(b"data"),
-            model: "cnn",
-            settings: &BTreeMap::new(),
-            split: None,
-            seed: 1,
-            metrics: &[],
-            sensor: None,
-            plugin: None,
-        });
-        let mut result = TaskResult::new(key);
-        result
-            .scores
-            .push(Score::of_number("mae", "Fz", error, Unit::Newton));
-        result
-    }
-
-    fn group<'a>(seeds: &[u64], results: &'a [TaskResult]) -> Group<'a> {
-        Group {
-            dataset: "monday",
-            split: None,
-            configuration: "cnn".to_owned(),
-            results: seeds.iter().copied().zip(results).collect(),
-            is_whole: true,
-        }
-    }
 
     #[test]
     fn differences_are_formed_seed_by_seed_and_vary_as_their_mean_does() {

@@ -8,7 +8,7 @@ use taceva_report::Study;
 use taceva_results::{OverSeeds, SeedScore};
 
 /// Scores of `metric` on Fz for three seeds; the first is that of the report.
-fn over_seeds(metric: &str, values: [f64; 3]) -> OverSeeds {
+pub(crate) fn over_seeds(metric: &str, values: [f64; 3]) -> OverSeeds {
     OverSeeds {
         seeds: vec![11, 12, 13],
         decides: "first weights".to_owned(),

@@ -1,6 +1,7 @@
 //! Tables with angles: values that differ by a period are equal.
 
 use super::Tables;
+use taceva_core::Unit;
 use taceva_evaluate::Period;
 
 #[test]
@@ -63,4 +64,47 @@ fn a_period_of_a_length_or_of_no_column_is_refused() {
         let refused = tables.refused();
         assert!(refused.contains(expected), "{refused}");
     }
+}
+
+#[test]
+fn an_angle_that_may_be_in_radians_is_warned_of_alike_by_every_way_of_reading() {
+    let warning = "yaw: all values lie within ±6.28, as angles in radians do";
+    let table = |last: f64| format!("sample,yaw\na,3.0\nb,-0.5\nc,{last}\n");
+    let notes = |[truth, prediction]: [f64; 2], unit: Option<Unit>| {
+        let mut tables = Tables::new(&table(truth), &table(prediction));
+        tables.request.periods = vec![("yaw".to_owned(), Period::from(360))];
+        tables.request.units = unit
+            .map(|unit| ("yaw".to_owned(), unit))
+            .into_iter()
+            .collect();
+        super::notes(&tables.scored())
+    };
+    let said = notes([6.2, -3.1], None);
+    assert!(said.contains(warning), "{said}");
+    assert!(
+        said.contains("give --periods yaw=2pi for radians, or --units yaw=deg"),
+        "{said}"
+    );
+    // A value beyond a turn in either table, or a stated unit, leaves no doubt.
+    for (last, unit) in [
+        ([6.5, 3.0], None),
+        ([3.0, -179.0], None),
+        ([6.2, -3.1], Some(Unit::Degree)),
+    ] {
+        let said = notes(last, unit);
+        assert!(!said.contains(warning), "{last:?}: {said}");
+    }
+}
+
+#[test]
+fn a_period_in_radians_of_a_column_in_degrees_is_refused_with_both_remedies() {
+    let table = "sample,yaw\na,1\nb,2\n";
+    let mut tables = Tables::new(table, "sample,yaw\na,1\nb,3\n");
+    tables.request.units = vec![("yaw".to_owned(), Unit::Degree)];
+    tables.request.periods = vec![("yaw".to_owned(), "6.283".parse().expect("a period"))];
+    let refused = tables.refused();
+    assert!(
+        refused.contains("write yaw=360 for degrees, or --units yaw=rad"),
+        "{refused}"
+    );
 }

@@ -1,0 +1,57 @@
+//! Errors of two configurations on the seeds that both have.
+
+use std::collections::BTreeMap;
+
+use taceva_metrics::{ClusterSums, Sides};
+
+use crate::analysis::Group;
+
+/// Errors of both sides of a comparison, over the seeds with a result on both.
+pub(super) struct SharedSeeds {
+    /// Errors by contact point. A press counts once, however often it was in a test part.
+    pub(super) sums: Sides<ClusterSums>,
+    /// Number of seeds of each side.
+    of: Sides<usize>,
+    /// Number of seeds of both sides.
+    pub(super) count: usize,
+}
+
+impl SharedSeeds {
+    /// The errors of `channel`.
+    pub(super) fn of(groups: Sides<&Group<'_>>, channel: &str) -> SharedSeeds {
+        let [a, b] = [groups.a, groups.b].map(|group| by_seed(group, channel));
+        let mut shared = SharedSeeds {
+            sums: Sides::default(),
+            of: Sides {
+                a: a.len(),
+                b: b.len(),
+            },
+            count: 0,
+        };
+        for (seed, of_a) in &a {
+            if let Some(of_b) = b.get(seed) {
+                shared.sums.a.merge(of_a);
+                shared.sums.b.merge(of_b);
+                shared.count += 1;
+            }
+        }
+        shared
+    }
+
+    /// Number of compared seeds, with that of each side if they differ.
+    pub(super) fn words(&self) -> String {
+        let Sides { a, b } = self.of;
+        match a == self.count && b == self.count {
+            true => self.count.to_string(),
+            false => format!("{} of both (chosen {a}, other {b})", self.count),
+        }
+    }
+}
+
+/// Errors of each seed with a result.
+fn by_seed(group: &Group<'_>, channel: &str) -> BTreeMap<u64, ClusterSums> {
+    let results = group.results.iter();
+    results
+        .filter_map(|(seed, result)| Some((*seed, result.sums(channel)?)))
+        .collect()
+}
