@@ -1,5 +1,8 @@
 //! Definitions of metrics that share a column with results of this program. A number with another definition needs another name.
 
+/// Definition of a published number whose source states none.
+pub(super) const UNSTATED: &str = "definition not stated by the source";
+
 /// Metrics, with their channel if it matters, and the definition of published numbers.
 const DEFINITIONS: &[(&str, &str)] = &[
     (
@@ -56,6 +59,11 @@ pub(super) fn of(metric: &str, channel: &str) -> Option<&'static str> {
     };
     let mut found = DEFINITIONS.iter().filter(|(name, _)| named(name));
     found.next().map(|(_, definition)| *definition)
+}
+
+/// True if a published number of that name may stand without a definition: a fact about the construction, which no verdict rests on.
+pub(super) fn may_be_unstated(metric: &str) -> bool {
+    metric == "intrinsic"
 }
 
 /// True if results of this program have scores with that name.

@@ -106,7 +106,7 @@ fn a_result_stands_beside_an_entry_of_the_catalogue() {
     );
     assert_eq!(row(&table, "mae Fz (N) ↓")[2], "0.0361");
     assert_eq!(row(&table, "intrinsic frame_rate (Hz)")[1], "not scored");
-    assert_eq!(row(&table, "intrinsic thickness (mm)")[1], "unknown");
+    assert_eq!(row(&table, "gel_thickness gel (mm)")[1], "unknown");
     assert_eq!(row(&table, "samples")[1..], ["80", "–"]);
     for words in ["not scored: the result has no such score.", "unknown: the "] {
         assert!(has_note(&table, words), "{words}: {}", table.text());
