@@ -12,6 +12,7 @@ pub use model_bench::{
 };
 pub(crate) use standing::by_published_r2;
 pub use stated::Stated;
+pub(crate) use stated::UNSTATED;
 
 use taceva_metrics::{TrainingSpread, catalogue};
 use taceva_results::{EvaluationReport, OverSeeds, Provenance, ResultsError, Samples, Score, Skip};

@@ -1,8 +1,5 @@
 //! Definitions of metrics that share a column with results of this program. A number with another definition needs another name.
 
-/// Definition of a published number whose source states none.
-pub(super) const UNSTATED: &str = "definition not stated by the source";
-
 /// Metrics, with their channel if it matters, and the definition of published numbers.
 const DEFINITIONS: &[(&str, &str)] = &[
     (

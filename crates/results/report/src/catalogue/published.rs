@@ -3,7 +3,7 @@
 use serde::Deserialize;
 use taceva_metrics::Standing;
 
-use super::definition::UNSTATED;
+use crate::results::UNSTATED;
 
 /// Source of numbers.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]

@@ -1,5 +1,8 @@
 //! Origin of published numbers.
 
+/// Definition of a published number whose source states none.
+pub(crate) const UNSTATED: &str = "definition not stated by the source";
+
 /// Source, conditions and definition of a published number.
 ///
 /// ```
