@@ -68,7 +68,7 @@ def compare(
     >>> close, far = ([[row[0] + error] for row in truth] for error in (0.01, 0.5))
     >>> results = [taceva.score(truth, found, channels=["Fz"]) for found in (close, far)]
     >>> taceva.compare(*results).to_dict()["schema"]
-    'taceva.comparison/2'
+    'taceva.comparison/2.1'
     """
     if len(results) < 2:
         raise ValueError(f"{len(results)} results: expected at least two")

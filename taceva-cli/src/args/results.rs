@@ -67,7 +67,8 @@ pub(crate) enum Like {
     Taceva,
 }
 
-/// Needs are words, such as shear or ambient light, and numbers, such as rate >= 50 Hz; all are listed below. Hard needs exclude a sensor, soft ones rank.
+/// Needs are words, such as shear or ambient light, and numbers, such as rate >= 50 Hz; all are listed below. Hard needs exclude a sensor, soft ones
+/// rank. A sensor whose number is unknown stays open. The exit code is 0 also if no sensor meets the needs; `--format json` then has an empty `ranked`.
 #[derive(Debug, Args)]
 #[command(after_help = needs_help(), group = ArgGroup::new("asked").required(true).args(["need", "needs"]))]
 pub(crate) struct Choose {
@@ -89,7 +90,8 @@ pub(crate) struct Choose {
 /// The needs that `--need` knows.
 fn needs_help() -> String {
     format!(
-        "Needs, separated by commas:\n{}",
+        "Needs, separated by commas:\n{}\nPrices are bounded in one currency, such as EUR; none is converted. \
+         Other units are mN, cm, um and cm2.",
         taceva_report::Need::vocabulary()
     )
 }

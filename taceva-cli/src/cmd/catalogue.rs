@@ -27,7 +27,11 @@ fn show(args: &CatalogueShow) -> anyhow::Result<u8> {
         let name = taceva_report::escape_terminal(&args.name);
         Usage::error(format!("`{name}`: {error}"))
     })?;
-    write(&args.output, &catalogue::details(&sensor))
+    let mut table = catalogue::details(&sensor);
+    if let Some(line) = catalogue::listed_as(&args.name, &sensor) {
+        table.caption = format!("{line}. {}", table.caption);
+    }
+    write(&args.output, &table)
 }
 
 fn write(args: &Output, table: &taceva_report::Table) -> anyhow::Result<u8> {

@@ -39,6 +39,7 @@ pub(crate) fn run(args: &Choose) -> anyhow::Result<u8> {
                     format!("{headline}.\n\n{}", table.markdown())
                 }
                 (_, Some(width)) => table.text_within(width),
+                (_, None) if table.rows.is_empty() => table.text_within(usize::MAX),
                 (_, None) => table.text(),
             };
             results::write_values(&choice.values(), rest, &args.output)?;

@@ -22,6 +22,9 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
             "one result: expected at least two; `taceva catalogue list` names sensors to compare with",
         ));
     }
+    for line in results::aliases(&args.results) {
+        context.say(format_args!("{line}"));
+    }
     for line in missing {
         context.say(format_args!(
             "{line}: compared by the intervals of both, not sample by sample"
@@ -57,13 +60,19 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
                 out,
             )
         })?;
-    } else if matches!(args.output.format, Format::Text | Format::Md) {
+    } else if args.output.format == Format::Tex {
+        results::write(&comparison.table(), &args.output, || comparison.json())?;
+    } else if matches!(args.output.format, Format::Json | Format::Csv) {
+        let scores = ScoreTable::answered(&studies, &request, comparison.answers.clone());
+        let table = scores.comparison_table(&comparison, &studies, &request, args.all);
+        results::write(&table, &args.output, || {
+            scores.comparison_json(&comparison, &studies, &request, args.all)
+        })?;
+    } else {
         let scores = ScoreTable::answered(&studies, &request, comparison.answers.clone());
         let values = scores.side_by_side(&studies, &request, args.all);
         let answers = |width: Option<usize>| answers(&comparison, args, width);
         results::write_values(&values, answers, &args.output)?;
-    } else {
-        results::write(&comparison.table(), &args.output, || comparison.json())?;
     }
     if let Some(path) = &args.page.path {
         let page = comparison.page(&studies);

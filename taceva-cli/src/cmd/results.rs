@@ -82,6 +82,17 @@ pub(super) fn read(path: &Path) -> anyhow::Result<Vec<Study>> {
     find(path).map(|found| found.studies)
 }
 
+/// A line for each sensor of the catalogue that is named by an alias.
+pub(super) fn aliases(named: &[PathBuf]) -> Vec<String> {
+    let names = named.iter().filter(|path| !path.exists());
+    let lines = names.filter_map(|path| {
+        let name = path.to_string_lossy();
+        let sensor = catalogue::find(&name)?;
+        catalogue::listed_as(&name, &sensor)
+    });
+    lines.collect()
+}
+
 fn find(path: &Path) -> anyhow::Result<Found> {
     if !path.exists() {
         let name = path.to_string_lossy();
@@ -205,7 +216,10 @@ pub(super) fn write(
     json: impl FnOnce() -> String,
 ) -> anyhow::Result<()> {
     let text = match to.format {
-        Format::Text => table.text(),
+        Format::Text => match width(to) {
+            Some(width) => table.text_within(width),
+            None => table.text(),
+        },
         Format::Json => json(),
         Format::Csv => table.csv(),
         Format::Md => table.markdown(),

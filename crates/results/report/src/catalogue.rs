@@ -14,10 +14,11 @@ mod read;
 mod study;
 
 pub use entry::{Kind, Sensor};
-pub use facts::{Intrinsic, Limits, Size};
-pub use list::{details, list};
+pub use facts::{Limits, Size};
+pub(crate) use list::{MECHANISMS, prices};
+pub use list::{details, list, listed_as};
 pub use lookup::{NameError, named};
-pub use offer::{Availability, Price, Way};
+pub use offer::{Availability, Goods, Price, Way};
 pub use published::{Missing, Published, Roughly, Source};
 pub use question::Question;
 pub use read::CatalogueError;
@@ -50,8 +51,27 @@ pub fn find(name: &str) -> Option<Sensor> {
 pub fn hint(name: &str) -> String {
     match nearest(name) {
         Some(nearest) => format!("did you mean `{nearest}`? `taceva catalogue list` shows all"),
-        None => "`taceva catalogue list` shows all".to_owned(),
+        None => match alike(name).as_slice() {
+            [] => "`taceva catalogue list` shows all".to_owned(),
+            names => format!(
+                "names that begin alike: {}; `taceva catalogue list` shows all",
+                names.join(", ")
+            ),
+        },
     }
+}
+
+/// Number of letters that names alike begin with.
+const ALIKE: usize = 3;
+
+/// Names of entries that begin with the first letters of `name`.
+fn alike(name: &str) -> Vec<String> {
+    let start = |name: &str| name.to_lowercase().chars().take(ALIKE).collect::<String>();
+    let wanted = start(name);
+    let names = all().into_iter().map(|entry| entry.name);
+    names
+        .filter(|own| wanted.chars().count() == ALIKE && start(own) == wanted)
+        .collect()
 }
 
 /// The most similar name or alias in the catalogue, if any is similar.
@@ -116,6 +136,64 @@ mod tests {
     }
 
     #[test]
+    fn a_name_that_is_like_none_gets_those_that_begin_alike() {
+        let hint = hint("gelsite");
+        assert!(hint.contains("GelSight, GelSightWM"), "{hint}");
+        assert_eq!(super::hint("banana"), "`taceva catalogue list` shows all");
+    }
+
+    #[test]
+    fn every_row_of_every_entry_has_a_definition_and_conditions() {
+        for sensor in all() {
+            for row in details(&sensor).rows {
+                let cells = row.plain();
+                assert!(
+                    !cells[5].is_empty() && !cells[6].is_empty(),
+                    "{}: {cells:?}",
+                    sensor.name
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_size_or_a_price_counts_among_the_known_numbers() {
+        let count = |name: &str| find(name).expect("there").known();
+        assert_eq!(count("AnySkin"), 1);
+        let digit = find("DIGIT").expect("there");
+        assert_eq!(digit.known(), digit.results.len() + 2, "size and a price");
+    }
+
+    #[test]
+    fn the_list_shows_sizes_prices_and_ways_to_get_a_sensor_and_explains_its_words() {
+        let table = list(&all());
+        let row = table
+            .rows
+            .iter()
+            .map(|row| row.plain())
+            .find(|row| row[0] == "DIGIT");
+        let row = row.expect("listed");
+        assert_eq!(
+            row[8..11],
+            ["20 × 27 × 18", "15 USD (parts)", "bought; built"]
+        );
+        for words in ["IMM: ", "MDM: ", "MFM: ", "GelSightWM: ", "not converted"] {
+            assert!(
+                table.notes.iter().any(|note| note.plain().contains(words)),
+                "{words}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_page_of_numbers_says_whose_publication_reports_what_and_by_which_source() {
+        let text = details(&find("GelSight").expect("there")).text();
+        let expected = "Reported in GelSight's own publication, says source `page` (no): ";
+        assert!(text.contains(expected), "{text}");
+        assert!(text.contains("is inferred from the data sheet"), "{text}");
+    }
+
+    #[test]
     fn the_four_sensors_of_the_study_are_there_in_full() {
         for name in ["ViTacTip", "MagicTac", "GelSight", "GelSightWM"] {
             let sensor = find(name).expect("there");
@@ -127,7 +205,7 @@ mod tests {
                     );
                 }
             }
-            assert!(sensor.limits.is_some() && sensor.intrinsic.is_some());
+            assert!(sensor.limits.is_some() && sensor.frame_rate_hz().is_some());
         }
     }
 
@@ -158,7 +236,7 @@ mod tests {
     #[test]
     fn what_is_only_about_a_number_is_shown_and_not_compared() {
         let thin = find("ThinTact").expect("there");
-        assert_eq!(thin.field_of_view_mm2(), None);
+        assert_eq!(thin.result("intrinsic", "field_of_view"), None);
         assert_eq!(thin.results[0].shown(), "> 200");
         assert!(thin.as_study().scores.is_empty());
     }

@@ -2,6 +2,7 @@
 
 mod evidence;
 mod need;
+mod other;
 mod place;
 mod property;
 mod render;
@@ -33,7 +34,9 @@ pub struct Choice {
     pub unplaced: Vec<Dropped>,
     /// Numbers of the sensors without a rank, in the order of the sensors.
     pub others: Vec<Candidate>,
-    /// Sensors with none of the numbers that the needs use.
+    /// Sensors with none of the numbers that the needs use, but with one by another definition, which the reason names.
+    pub other_definitions: Vec<Dropped>,
+    /// Sensors with none of the numbers that the needs use, by any definition.
     pub unknown: Vec<String>,
     /// Significant differences between ranked sensors; `None` if nothing was tested, as with published numbers.
     pub evidence: Option<Vec<Evidence>>,
@@ -71,6 +74,8 @@ pub struct Step {
     pub standing: Standing,
     /// Share of the best among the remaining sensors; `None` for hard needs and unknown numbers.
     pub share: Option<f64>,
+    /// Part or goods that the number is of, for sizes and prices.
+    pub part: Option<String>,
     /// True for a hard need, which does not rank.
     pub is_bound: bool,
     /// True if the number meets a hard need but its interval crosses the bound.
@@ -116,6 +121,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
         barred: Vec::new(),
         unplaced: Vec::new(),
         others: Vec::new(),
+        other_definitions: Vec::new(),
         unknown: Vec::new(),
         evidence: None,
         spread: None,
@@ -126,7 +132,13 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
     for sensor in sensors.iter().filter(|entry| entry.kind == Kind::Sensor) {
         let mut properties = needs.iter().flat_map(Need::properties);
         if !properties.any(|property| property.of(sensor).is_some()) {
-            choice.unknown.push(sensor.name.clone());
+            match by_other_definition(sensor, needs) {
+                Some(reason) => choice.other_definitions.push(Dropped {
+                    name: sensor.name.clone(),
+                    reason,
+                }),
+                None => choice.unknown.push(sensor.name.clone()),
+            }
         } else if let Some(reason) = barred(sensor, needs) {
             choice.barred.push(Dropped {
                 name: sensor.name.clone(),
@@ -162,6 +174,20 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
         .map(|sensor| candidate(sensor, &remaining, needs))
         .collect();
     choice
+}
+
+/// Numbers of `sensor` by other definitions than those of the needs, each property once.
+fn by_other_definition(sensor: &Sensor, needs: &[Need]) -> Option<String> {
+    let mut found: Vec<String> = Vec::new();
+    for property in needs.iter().flat_map(Need::properties) {
+        if let Some(other) = property.other(sensor) {
+            let words = format!("no {property}; known is {other}");
+            if !found.contains(&words) {
+                found.push(words);
+            }
+        }
+    }
+    (!found.is_empty()).then(|| found.join("; "))
 }
 
 /// First number of `sensor` that a need uses and that is excluded from verdicts.
@@ -222,7 +248,14 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
                     "`{words}` needs {CLOSED}, which is unknown for this sensor"
                 ));
             }
-            None => "is not known".to_owned(),
+            None if property == Property::Bought => {
+                let words = &need.words;
+                return Some(format!("`{words}` needs a seller, and none is known"));
+            }
+            None => match property.other(sensor) {
+                Some(other) => format!("is not known; known is {other}"),
+                None => "is not known".to_owned(),
+            },
             Some(value) if property.is_reached() && !bound.holds(value) => format!(
                 "that was tested is {}, which need not be its limit",
                 property.shown(value)
@@ -241,8 +274,12 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
 fn unplaced(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let ranks = needs.iter().flat_map(|need| &need.ranks);
     let unknown = ranks.filter(|property| property.of(sensor).is_none());
-    let unknown: Vec<String> = unknown.map(Property::to_string).collect();
-    (!unknown.is_empty()).then(|| format!("no known {}", listed(&unknown)))
+    let unknown: Vec<&Property> = unknown.collect();
+    let names = unknown.iter().copied().map(Property::to_string);
+    let names: Vec<String> = names.collect();
+    let others = unknown.iter().filter_map(|property| property.other(sensor));
+    let others: String = others.map(|other| format!("; known is {other}")).collect();
+    (!names.is_empty()).then(|| format!("no known {}{others}", listed(&names)))
 }
 
 fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidate {
@@ -256,6 +293,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 interval: bound.property.interval(sensor),
                 standing: bound.property.standing(sensor),
                 share: None,
+                part: bound.property.part(sensor),
                 is_bound: true,
                 is_unsure: bound
                     .property
@@ -275,6 +313,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 interval: property.interval(sensor),
                 standing: property.standing(sensor),
                 share,
+                part: property.part(sensor),
                 is_bound: false,
                 is_unsure: false,
             });

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::catalogue::{Kind, Published, Sensor};
+use crate::catalogue::{Kind, MECHANISMS, Published, Sensor, Size, prices};
 use crate::figures::figures;
 use crate::html::Document;
 use crate::markup::{filter, folded_glossary, heads, metric_link, right_heads, scroll, terms};
@@ -10,7 +10,9 @@ use crate::number::numeral;
 use crate::results::Study;
 use crate::variables::VARIABLES;
 
-const TITLE: &str = "Catalogue of vision-based tactile sensors";
+const TITLE: &str = "Catalogue of tactile sensors";
+/// Words for a property without an entry.
+const ABSENT: &str = "not in the catalogue";
 
 /// A file of the site.
 #[derive(Clone, Debug)]
@@ -79,6 +81,7 @@ fn list<'a>(sensors: impl Iterator<Item = &'a Sensor>) -> Markup {
                     (heads(["sensor", "mechanism"]))
                     (right_heads(errors.map(|error| format!("MAE {error} ↓"))))
                     (right_heads(["rate (Hz)", "reported"]))
+                    (heads(["size (mm)", "price", "can be"]))
                 }
             }
             tbody { @for sensor in sensors { (row(sensor)) } }
@@ -91,11 +94,12 @@ fn list<'a>(sensors: impl Iterator<Item = &'a Sensor>) -> Markup {
             (filter("mechanism", "any", mechanisms))
             (filter("light", "any", [("opaque", "kept out")]))
             (filter("numbers", "any", [("numbers", "published here")]))
+            (filter("to get", "any", [("bought", "can be bought"), ("built", "can be built")]))
         } "\n"
         (scroll("Sensors", &table))
         p.note {
-            "A dash: no number of that metric and unit is known here. The page of a sensor lists every known number. IMM maps intensity, MDM displacements of markers, MFM fuses modalities; magnetic, capacitive, resistive and optical sensors have taxels and no camera. "
-            "The last column counts which of ten properties the work itself reports."
+            "A dash: no number of that metric and unit is known here. The page of a sensor lists every known number. " (MECHANISMS)
+            " The column `reported` counts which of ten properties the work itself reports. Prices are in the currency of their source and not converted."
         }
     }
 }
@@ -117,6 +121,12 @@ fn row(sensor: &Sensor) -> Markup {
     if !sensor.results.is_empty() {
         tags.push("numbers".to_owned());
     }
+    let ways = sensor.availability.iter().map(|offer| offer.way.word());
+    let mut ways: Vec<&str> = ways.collect();
+    ways.dedup();
+    tags.extend(ways.iter().map(|way| (*way).to_owned()));
+    let size = sensor.size.as_ref().map(Size::shown).unwrap_or_default();
+    let offers = [size, prices(sensor), ways.join("; ")];
     let mae = VARIABLES.map(|channel| sensor.result("mae", channel).map(|result| result.value));
     let number = |value: f64| (value.to_string(), numeral(value));
     let numbers = mae.into_iter().chain([sensor.frame_rate_hz()]);
@@ -128,6 +138,7 @@ fn row(sensor: &Sensor) -> Markup {
             @for cell in numbers.map(|value| value.map(number)).chain([count]) {
                 @if let Some((value, shown)) = cell { td.r data-v=(value) { (shown) } } @else { td.none data-v="" { "–" } }
             }
+            @for words in &offers { td { (if words.is_empty() { "–" } else { words.as_str() }) } }
         } "\n"
     }
 }
@@ -202,16 +213,14 @@ fn properties(sensor: &Sensor) -> Markup {
             ("markers".to_owned(), word(sensor.markers)),
         ],
     };
-    if let Some(of) = &sensor.intrinsic {
-        entries.extend([
-            ("camera".to_owned(), format!("{} MP", of.camera_mp)),
-            ("thickness".to_owned(), format!("{} mm", of.thickness_mm)),
-            (
-                "field of view".to_owned(),
-                format!("{} mm²", of.field_of_view_mm2),
-            ),
-            ("frame rate".to_owned(), format!("{} Hz", of.frame_rate_hz)),
-        ]);
+    for result in &sensor.results {
+        let name = match result.metric.as_str() {
+            "intrinsic" => result.channel.as_str(),
+            "gel_thickness" => result.metric.as_str(),
+            _ => continue,
+        };
+        let shown = format!("{} {} ({})", result.shown(), result.unit, result.definition);
+        entries.push((name.replace('_', " "), shown));
     }
     if let Some(of) = &sensor.limits {
         entries.extend([
@@ -226,17 +235,8 @@ fn properties(sensor: &Sensor) -> Markup {
             ),
         ]);
     }
-    if let Some(size) = &sensor.size {
-        entries.push(("size".to_owned(), format!("{} mm", size.shown())));
-    }
-    for price in &sensor.prices {
-        let shown = format!("{} ({})", price.shown(), price.conditions());
-        entries.push(("price".to_owned(), shown));
-    }
-    for offer in &sensor.availability {
-        let way = format!("can be {}", offer.way.word());
-        let shown = format!("{}, seen on {}", offer.conditions, offer.seen);
-        entries.push((way, shown));
+    if sensor.kind == Kind::Sensor {
+        entries.extend(offers(sensor));
     }
     if !sensor.aliases.is_empty() {
         entries.push(("also called".to_owned(), sensor.aliases.join(", ")));
@@ -247,6 +247,32 @@ fn properties(sensor: &Sensor) -> Markup {
         }
     }
     html! { dl { (terms(entries)) } }
+}
+
+/// Size, prices and ways to get a sensor, each in words if it is absent.
+fn offers(sensor: &Sensor) -> Vec<(String, String)> {
+    let entry = |name: &str, shown: String| (name.to_owned(), shown);
+    let size = sensor.size.as_ref();
+    let size = size.map(|size| format!("{} mm, {}", size.shown(), size.conditions));
+    let mut entries = vec![entry("size", size.unwrap_or_else(|| ABSENT.to_owned()))];
+    for price in &sensor.prices {
+        let shown = format!("{} ({})", price.shown(), price.conditions());
+        entries.push(entry(price.goods.quantity(), shown));
+    }
+    if sensor.prices.is_empty() {
+        entries.push(entry("price", ABSENT.to_owned()));
+    }
+    for offer in &sensor.availability {
+        let shown = format!("{}, seen on {}", offer.conditions, offer.seen);
+        entries.push(entry(&format!("can be {}", offer.way.word()), shown));
+    }
+    if sensor.availability.is_empty() {
+        entries.push(entry("seller or drawings", ABSENT.to_owned()));
+    }
+    if let Some(identity) = &sensor.identity {
+        entries.push(entry("identity", identity.clone()));
+    }
+    entries
 }
 
 fn results(sensor: &Sensor) -> Markup {
@@ -276,6 +302,31 @@ fn results(sensor: &Sensor) -> Markup {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_list_has_a_column_of_prices_and_a_filter_of_what_can_be_bought() {
+        let pages = site(&crate::catalogue::all(), &[]);
+        let page = |file: &str| {
+            &pages
+                .iter()
+                .find(|page| page.file == file)
+                .expect("there")
+                .text
+        };
+        let index = page("index.html");
+        assert!(
+            index.contains("<h1>Catalogue of tactile sensors</h1>"),
+            "the title"
+        );
+        for words in ["size (mm)", "15 USD (parts)", "can be bought"] {
+            assert!(index.contains(words), "{words}");
+        }
+        assert!(page("gelsight.html").contains(ABSENT), "no size is known");
+        assert!(
+            page("digit.html").contains("cost of parts"),
+            "its price is of parts"
+        );
+    }
 
     #[test]
     fn every_page_leads_back_to_the_list() {

@@ -247,12 +247,14 @@ fn values_stand_first_and_then_what_can_be_compared() {
         }
     }
     let none = bench.ok("compare DIGIT TacTip -q");
-    assert!(none.contains("not published"), "{none}");
-    order(&none, ["availability", "Nothing to compare"]);
+    assert!(none.contains("not in the catalogue"), "{none}");
+    order(&none, ["availability", "No test is possible"]);
     assert!(none.contains(
-        "Nothing to compare: no two results share a requested score with a better direction"
+        "No test is possible: no two of these results share a score with a better direction"
     ));
     assert!(none.contains("taceva catalogue show NAME"), "{none}");
+    let none = bench.ok("choose --need thin,area>=90000mm2 -q");
+    assert!(!none.contains("looked at"), "no table without rows: {none}");
     for format in ["text", "md"] {
         let choice = bench.ok(&format!("choose --need shear,light --format {format} -q"));
         order(&choice, ["Values side by side", "share of the best"]);
@@ -269,6 +271,9 @@ fn on_a_terminal_of_forty_columns_one_sensor_stands_below_the_other() {
         "compare GelSight MagicTac --all -q",
         "compare GelSight MagicTac --table main -q",
         "choose --need shear -q",
+        "choose --need \"shear, rate >= 9000 Hz\" -q",
+        "catalogue show GelSight -q",
+        "catalogue list -q",
     ] {
         let typed = format!("stty cols 40 rows 24; '{program}' {words}");
         let done = Command::new("script")
@@ -293,4 +298,70 @@ fn on_a_terminal_of_forty_columns_one_sensor_stands_below_the_other() {
             "{shown}"
         );
     }
+}
+
+#[test]
+fn json_and_csv_of_a_comparison_hold_the_values_that_text_prints() {
+    let bench = Bench::new();
+    let compared = bench.json("compare GelSight DIGIT");
+    crate::schema::check("comparison", &compared);
+    assert!(compared["answers"].as_array().is_some_and(Vec::is_empty));
+    let values = compared["values"].as_array().expect("values");
+    let of = |quantity: &str| {
+        let mut found = values.iter().filter(|of| of["quantity"] == quantity);
+        found
+            .next()
+            .unwrap_or_else(|| panic!("no {quantity}: {values:?}"))
+    };
+    assert_eq!(of("mae Fz")["values"][0]["value"], 0.0361);
+    assert_eq!(of("mae Fz")["values"][1]["text"], "not in the catalogue");
+    assert_eq!(of("intrinsic resolution")["origins"], "definitions differ");
+    assert_eq!(of("size")["values"][1]["text"], "20 × 27 × 18");
+    let csv = bench.ok("compare GelSight DIGIT --format csv -q");
+    let rows: Vec<&str> = csv.lines().collect();
+    assert!(
+        rows.iter()
+            .any(|row| row.starts_with("mae,lower,Fz,GelSight,,0.0361,")),
+        "{csv}"
+    );
+    assert!(csv.contains("cost of parts"), "{csv}");
+}
+
+#[test]
+fn a_sensor_named_by_an_alias_is_said_to_be_listed_by_another_name() {
+    let bench = Bench::new();
+    let shown = bench.ok("catalogue show DIGIT -q");
+    assert!(shown.starts_with("DIGIT (IMM)"), "{shown}");
+    let mut command = bench.command("catalogue show -q");
+    let done = command
+        .arg("GelSight Mini")
+        .output()
+        .expect("the program starts");
+    let shown = String::from_utf8(done.stdout).expect("text");
+    assert!(
+        shown.starts_with("GelSight Mini: listed as GelSight; "),
+        "{shown}"
+    );
+    let said = bench.run("compare GSMini DIGIT").err;
+    assert!(said.contains("GSMini: listed as GelSight; "), "{said}");
+}
+
+#[test]
+fn every_wrong_need_is_refused_at_once_and_each_example_of_the_help_is_a_need() {
+    let bench = Bench::new();
+    bench.refused("choose --need beauty,rate", 2, "`beauty`: unknown need");
+    bench.refused("choose --need beauty,rate", 2, "`rate`: expected a number");
+    let help = bench.ok("choose --help");
+    let examples = help.lines().filter_map(|line| {
+        let (_, rest) = line.split_once("taceva choose --need \"")?;
+        Some(rest.split_once('"')?.0)
+    });
+    let examples: Vec<&str> = examples.collect();
+    assert!(examples.len() >= 2, "{help}");
+    for example in examples {
+        taceva_report::Need::parse(example).unwrap_or_else(|error| panic!("{error}"));
+    }
+    let words: Vec<&str> = help.split_whitespace().collect();
+    let words = words.join(" ");
+    assert!(words.contains("exit code is 0 also if no sensor"), "{help}");
 }

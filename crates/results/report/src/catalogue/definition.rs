@@ -58,6 +58,11 @@ pub(super) fn of(metric: &str, channel: &str) -> Option<&'static str> {
     found.next().map(|(_, definition)| *definition)
 }
 
+/// True if a published number of that name may stand without a definition: a fact about the construction, which no verdict rests on.
+pub(super) fn may_be_unstated(metric: &str) -> bool {
+    metric == "intrinsic"
+}
+
 /// True if results of this program have scores with that name.
 pub(super) fn is_ours(metric: &str) -> bool {
     taceva_metrics::catalogue::find(metric).is_some()

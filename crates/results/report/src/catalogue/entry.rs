@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use super::facts::{Intrinsic, Limits, Size};
-use super::offer::{Availability, Price};
+use super::facts::{Limits, Size};
+use super::offer::{Availability, Price, Way};
 use super::published::{Missing, Published, Source};
 
 /// Catalogue entry of a sensor, or of a study of sensors.
@@ -30,8 +30,8 @@ pub struct Sensor {
     pub opaque: Option<bool>,
     /// True if the gel has markers.
     pub markers: Option<bool>,
-    /// Construction.
-    pub intrinsic: Option<Intrinsic>,
+    /// Remark on which product the numbers are of, if no source says it.
+    pub identity: Option<String>,
     /// Limits.
     pub limits: Option<Limits>,
     /// Outer dimensions.
@@ -79,21 +79,27 @@ impl Sensor {
 
     /// Frame rate in Hz; `None` if unknown.
     pub fn frame_rate_hz(&self) -> Option<f64> {
-        let built = self.intrinsic.as_ref().map(|of| of.frame_rate_hz);
-        built.or_else(|| Some(self.result("intrinsic", "frame_rate")?.value))
+        Some(self.result("intrinsic", "frame_rate")?.value)
     }
 
-    /// Area of the sensing surface in mm²; `None` if unknown.
-    pub fn field_of_view_mm2(&self) -> Option<f64> {
-        let built = self.intrinsic.as_ref().map(|of| of.field_of_view_mm2);
-        built.or_else(|| Some(self.result("intrinsic", "field_of_view")?.value))
-    }
-
-    /// Number of known values among construction, limits and published results.
+    /// Number of known values among size, prices, limits and published results.
     pub fn known(&self) -> usize {
-        let built = if self.intrinsic.is_some() { 4 } else { 0 };
+        let size = usize::from(self.size.is_some());
         let limits = if self.limits.is_some() { 3 } else { 0 };
-        built + limits + self.results.len()
+        size + self.prices.len() + limits + self.results.len()
+    }
+
+    /// True if a seller of the sensor is known.
+    pub fn is_sold(&self) -> bool {
+        let mut ways = self.availability.iter();
+        ways.any(|offer| offer.way == Way::Bought)
+    }
+
+    /// Lowest exact price of a ready sensor in `currency`; `None` if none is known.
+    pub fn price_in(&self, currency: &str) -> Option<&Price> {
+        let ready = self.prices.iter().filter(|price| price.is_comparable());
+        let ready = ready.filter(|price| price.currency == currency);
+        ready.min_by(|left, right| left.amount.total_cmp(&right.amount))
     }
 
     /// Source called `id`.

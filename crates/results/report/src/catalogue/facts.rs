@@ -1,24 +1,6 @@
-//! Facts about a sensor other than scores: construction, limits and outer dimensions.
+//! Facts about a sensor other than scores: limits and outer dimensions.
 
 use serde::Deserialize;
-
-/// Construction of a sensor.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Intrinsic {
-    /// Id of the source.
-    pub source: String,
-    /// Camera resolution, in megapixels.
-    #[serde(rename = "camera_MP")]
-    pub camera_mp: f64,
-    /// Thickness, in mm.
-    pub thickness_mm: f64,
-    /// Area of the sensing surface, in mm².
-    pub field_of_view_mm2: f64,
-    /// Frame rate, in Hz.
-    #[serde(rename = "frame_rate_Hz")]
-    pub frame_rate_hz: f64,
-}
 
 /// Limits of a sensor.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -35,6 +17,37 @@ pub struct Limits {
     /// Greatest distance of a contact from the centre, in mm.
     pub radius_max_mm: f64,
 }
+
+impl Limits {
+    /// Channel, number, unit and definition of each limit.
+    pub(super) fn rows(&self) -> [(&'static str, f64, &'static str, &'static str); 3] {
+        [
+            (
+                "Pz",
+                self.pz_max_mm,
+                "mm",
+                "greatest indentation that was tested",
+            ),
+            (
+                "Fz",
+                self.fz_max_n,
+                "N",
+                "greatest normal force that was tested",
+            ),
+            (
+                "radius",
+                self.radius_max_mm,
+                "mm",
+                "greatest distance of a tested contact from the centre",
+            ),
+        ]
+    }
+}
+
+/// Conditions of the limits.
+pub(super) const TESTED: &str = "presses of the study; the sensor may withstand more";
+/// Definition of outer dimensions.
+pub(super) const SIZE: &str = "outer dimensions in the order of the source";
 
 /// Outer dimensions of a sensor.
 ///
@@ -60,6 +73,26 @@ impl Size {
     pub fn shown(&self) -> String {
         let sides = self.mm.iter().map(f64::to_string);
         sides.collect::<Vec<_>>().join(" × ")
+    }
+
+    /// Greatest dimension in mm; `None` if only a diameter is known.
+    ///
+    /// ```
+    /// let digit = taceva_report::catalogue::find("DIGIT").and_then(|digit| digit.size).expect("there");
+    /// assert_eq!((digit.greatest_mm(), digit.middle_mm()), (Some(27.0), Some(20.0)));
+    /// ```
+    pub fn greatest_mm(&self) -> Option<f64> {
+        let sides = self.mm.iter().copied();
+        (self.mm.len() > 1).then(|| sides.fold(0.0, f64::max))
+    }
+
+    /// Middle one of three dimensions in mm, of which a diameter is two; a square opening of this side lets the part through lengthwise.
+    pub fn middle_mm(&self) -> Option<f64> {
+        match self.mm[..] {
+            [a, b, c] => Some(a.min(b).max(a.max(b).min(c))),
+            [diameter, ..] => Some(diameter),
+            [] => None,
+        }
     }
 
     /// True for one to three positive dimensions.

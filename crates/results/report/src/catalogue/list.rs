@@ -2,8 +2,14 @@
 
 use taceva_metrics::Better;
 
+use super::facts::{SIZE, TESTED};
+use super::offer::Goods;
 use super::{Kind, Sensor};
 use crate::table::{Column, Direction, Table};
+
+/// Meaning of the words for mechanisms.
+pub(crate) const MECHANISMS: &str = "IMM: the camera maps intensity. MDM: the camera follows displacements of markers. MFM: the sensor fuses modalities. \
+                                     Magnetic, capacitive, resistive and optical sensors have taxels and no camera.";
 
 /// Table with one row for each sensor. A note names the studies of sensors.
 pub fn list(sensors: &[Sensor]) -> Table {
@@ -20,6 +26,9 @@ pub fn list(sensors: &[Sensor]) -> Table {
         error("MAE Fxy", "N"),
         error("MAE Fz", "N"),
         Column::new("rate").unit("Hz"),
+        Column::new("size").unit("mm"),
+        Column::new("price"),
+        Column::new("can be"),
         Column::new("numbers"),
     ];
     let mut table = Table::new("Catalogue of tactile sensors, as published", columns);
@@ -40,10 +49,20 @@ pub fn list(sensors: &[Sensor]) -> Table {
             mae("Fxy"),
             mae("Fz"),
             number(sensor.frame_rate_hz()),
+            (sensor.size.as_ref()).map_or_else(|| "–".to_owned(), super::Size::shown),
+            prices(sensor),
+            ways(sensor),
             sensor.known().to_string(),
         ]);
     }
-    table.note("A dash: no number of that definition is known here. The last column counts all known numbers; `taceva catalogue show NAME` lists each with its source, definition and conditions.");
+    table.note("A dash: no number of that definition is known here. The last column counts all known numbers, with sizes and prices; `taceva catalogue show NAME` lists each with its source, definition and conditions.");
+    table.note("Prices are in the currency of their source and not converted; `(parts)` is the cost of parts, not the price of a ready sensor.");
+    table.note(MECHANISMS);
+    for sensor in sensors.iter().filter(is_sensor) {
+        if let Some(identity) = &sensor.identity {
+            table.note(format!("{}: {identity}.", sensor.name));
+        }
+    }
     let studies: Vec<&str> = sensors
         .iter()
         .filter(|entry| entry.kind == Kind::Study)
@@ -58,6 +77,47 @@ pub fn list(sensors: &[Sensor]) -> Table {
     table
 }
 
+/// Known prices: `510 USD`, `15 USD (parts)`; a dash if there is none.
+pub(crate) fn prices(sensor: &Sensor) -> String {
+    let prices = sensor.prices.iter().map(|price| match price.goods {
+        Goods::Sensor => price.shown(),
+        Goods::Parts => format!("{} (parts)", price.shown()),
+        Goods::Unstated => format!("{} (sensor or parts)", price.shown()),
+    });
+    or_dash(prices.collect())
+}
+
+/// Ways to get a sensor: `bought; built`; a dash if none is known.
+fn ways(sensor: &Sensor) -> String {
+    let ways = sensor.availability.iter();
+    or_dash(ways.map(|offer| offer.way.word().to_owned()).collect())
+}
+
+fn or_dash(words: Vec<String>) -> String {
+    match words.is_empty() {
+        true => "–".to_owned(),
+        false => words.join("; "),
+    }
+}
+
+/// Sentence for a sensor that is found by an alias: `GelSight Mini: listed as GelSight`, with the remark on its identity.
+///
+/// ```
+/// use taceva_report::catalogue::{listed_as, named};
+/// let sensor = named("gelsight mini")?;
+/// assert!(listed_as("gelsight mini", &sensor).is_some_and(|line| line.starts_with("GelSight Mini: listed as GelSight; ")));
+/// assert_eq!(listed_as("GelSight", &sensor), None);
+/// # Ok::<(), taceva_report::catalogue::NameError>(())
+/// ```
+pub fn listed_as(name: &str, sensor: &Sensor) -> Option<String> {
+    let wanted = name.to_lowercase();
+    let mut aliases = sensor.aliases.iter();
+    let alias = aliases.find(|alias| alias.to_lowercase() == wanted)?;
+    let identity = sensor.identity.iter().map(|words| format!("; {words}"));
+    let identity: String = identity.collect();
+    Some(format!("{alias}: listed as {}{identity}", sensor.name))
+}
+
 /// Rows for size, prices and ways to get a sensor, with the columns of [`details`].
 fn offers(sensor: &Sensor) -> Vec<[String; 7]> {
     let source = |id: &str, place: &str| format!("{id}, {place}");
@@ -69,7 +129,7 @@ fn offers(sensor: &Sensor) -> Vec<[String; 7]> {
             &size.shown(),
             "mm",
             &source,
-            "",
+            SIZE,
             &size.conditions,
         ]
         .map(str::to_owned)
@@ -84,15 +144,25 @@ fn offers(sensor: &Sensor) -> Vec<[String; 7]> {
             &amount,
             &price.currency,
             &source,
-            &price.class(),
-            &price.conditions(),
+            price.goods.definition(),
+            &format!("{}; {}", price.conditions(), price.class()),
         ]
         .map(str::to_owned)
     });
     let ways = sensor.availability.iter().map(|offer| {
         let conditions = format!("{}, seen on {}", offer.conditions, offer.seen);
         let word = offer.way.word();
-        ["availability", "", word, "", &offer.source, "", &conditions].map(str::to_owned)
+        let definition = "way to get one";
+        [
+            "availability",
+            "",
+            word,
+            "",
+            &offer.source,
+            definition,
+            &conditions,
+        ]
+        .map(str::to_owned)
     });
     size.chain(prices).chain(ways).collect()
 }
@@ -116,29 +186,12 @@ pub fn details(sensor: &Sensor) -> Table {
         format!("{} ({kind})", sensor.name),
         columns.chain(others.map(Column::new)),
     );
-    let built = |metric: &str, channel: &str, value: f64, unit: &str, source: &str| {
-        let value = value.to_string();
-        [metric, channel, &value, unit, source, "", ""]
-            .map(str::to_owned)
-            .to_vec()
-    };
-    if let Some(of) = &sensor.intrinsic {
-        for (name, value, unit) in [
-            ("camera", of.camera_mp, "MP"),
-            ("thickness", of.thickness_mm, "mm"),
-            ("field_of_view", of.field_of_view_mm2, "mm²"),
-            ("frame_rate", of.frame_rate_hz, "Hz"),
-        ] {
-            table.push(built("intrinsic", name, value, unit, &of.source));
-        }
-    }
     if let Some(of) = &sensor.limits {
-        for (name, value, unit) in [
-            ("Pz", of.pz_max_mm, "mm"),
-            ("Fz", of.fz_max_n, "N"),
-            ("radius", of.radius_max_mm, "mm"),
-        ] {
-            table.push(built("greatest", name, value, unit, &of.source));
+        for (name, value, unit, definition) in of.rows() {
+            let value = value.to_string();
+            table.push([
+                "greatest", name, &value, unit, &of.source, definition, TESTED,
+            ]);
         }
     }
     for row in offers(sensor) {
@@ -160,6 +213,9 @@ pub fn details(sensor: &Sensor) -> Table {
         ];
         table.push(row.map(ToOwned::to_owned));
     }
+    if let Some(identity) = &sensor.identity {
+        table.note(format!("{}: {identity}.", sensor.name));
+    }
     if !sensor.aliases.is_empty() {
         table.note(format!("Also found as: {}.", sensor.aliases.join(", ")));
     }
@@ -176,10 +232,15 @@ pub fn details(sensor: &Sensor) -> Table {
             .collect::<Vec<_>>()
             .join(", ")
     };
+    let of_source = sensor.reported.get("source");
+    let by = of_source.map_or_else(String::new, |id| format!(", says source `{id}`"));
     for word in ["yes", "partial", "no"] {
         let names = of(word);
         if !names.is_empty() {
-            table.note(format!("Reported in the publication ({word}): {names}."));
+            table.note(format!(
+                "Reported in {}'s own publication{by} ({word}): {names}.",
+                sensor.name
+            ));
         }
     }
     for source in &sensor.sources {

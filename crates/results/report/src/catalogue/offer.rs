@@ -21,6 +21,8 @@ pub struct Price {
     pub amount: f64,
     /// Currency as three letters: `USD`.
     pub currency: String,
+    /// Kind of the goods.
+    pub goods: Goods,
     /// Goods for that amount: `parts of one sensor, of 1000 made`.
     pub of: String,
     /// Relation of the true price to the amount, if the amount is inexact.
@@ -35,7 +37,50 @@ pub struct Price {
     pub note: Option<String>,
 }
 
+/// Kind of the goods that a price is for. Prices of different kinds are not compared.
+///
+/// ```
+/// use taceva_report::catalogue::{self, Goods};
+/// let digit = catalogue::find("DIGIT").expect("there");
+/// assert_eq!(digit.prices[0].goods, Goods::Parts);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Goods {
+    /// A sensor that is ready, from a seller.
+    Sensor,
+    /// Parts or material of a sensor, or the making of one.
+    Parts,
+    /// The source does not state which of both.
+    Unstated,
+}
+
+impl Goods {
+    /// Name of the quantity in tables.
+    pub const fn quantity(self) -> &'static str {
+        match self {
+            Goods::Sensor => "price",
+            Goods::Parts => "cost of parts",
+            Goods::Unstated => "price or cost of parts",
+        }
+    }
+
+    /// Definition in tables.
+    pub const fn definition(self) -> &'static str {
+        match self {
+            Goods::Sensor => "price of a ready sensor",
+            Goods::Parts => "cost of parts, material or making, not of a ready sensor",
+            Goods::Unstated => "definition not stated by the source: a ready sensor or its parts",
+        }
+    }
+}
+
 impl Price {
+    /// True for the exact price of a ready sensor.
+    pub fn is_comparable(&self) -> bool {
+        self.goods == Goods::Sensor && self.bound.is_none()
+    }
+
     /// Amount with its currency, and `≈`, `>` or `<` if inexact.
     pub fn shown(&self) -> String {
         let sign = self.bound.map_or("", Roughly::sign);
@@ -123,7 +168,7 @@ mod tests {
 
     fn priced(amount: &str, currency: &str, seen: &str) -> Result<Sensor, String> {
         let text = format!(
-            "catalogue_version = 1\nname = \"x\"\nkind = \"sensor\"\nmechanism = []\n[[price]]\namount = {amount}\ncurrency = \"{currency}\"\n\
+            "catalogue_version = 1\nname = \"x\"\nkind = \"sensor\"\nmechanism = []\n[[price]]\namount = {amount}\ncurrency = \"{currency}\"\ngoods = \"parts\"\n\
              of = \"one\"\nsource = \"s\"\nread_from = \"text\"\nseen = \"{seen}\"\n"
         );
         Sensor::read("x.toml", &text).map_err(|error| error.to_string())

@@ -3,6 +3,8 @@
 use serde::Deserialize;
 use taceva_metrics::Standing;
 
+use crate::results::UNSTATED;
+
 /// Source of numbers.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -48,6 +50,11 @@ pub struct Published {
 }
 
 impl Published {
+    /// True if the source states the definition of the number.
+    pub fn is_defined(&self) -> bool {
+        self.definition != UNSTATED
+    }
+
     /// Number as published, with `≈`, `>` or `<` if it is inexact.
     pub fn shown(&self) -> String {
         let sign = self.bound.map_or("", Roughly::sign);

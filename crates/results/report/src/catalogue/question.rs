@@ -46,7 +46,6 @@ impl Question {
 impl Sensor {
     /// True if the entry answers `question` with a number, or with a way to get the sensor.
     pub fn answers(&self, question: Question) -> bool {
-        let built = self.intrinsic.is_some();
         let of = |metric: &str| self.results.iter().any(|result| result.metric == metric);
         let intrinsic = |channel: &str| {
             let mut results = self.results.iter();
@@ -54,10 +53,10 @@ impl Sensor {
         };
         match question {
             Question::Size => self.size.is_some(),
-            Question::Thickness => built || intrinsic("thickness") || of("gel_thickness"),
-            Question::Area => built || intrinsic("field_of_view"),
-            Question::Rate => built || intrinsic("frame_rate") || of("measurement_rate"),
-            Question::Resolution => built || intrinsic("resolution") || of("spatial_resolution"),
+            Question::Thickness => intrinsic("thickness") || of("gel_thickness"),
+            Question::Area => intrinsic("field_of_view"),
+            Question::Rate => intrinsic("frame_rate") || of("measurement_rate"),
+            Question::Resolution => intrinsic("resolution") || of("spatial_resolution"),
             Question::Accuracy => self.results.iter().any(|result| {
                 let is_error = ["mae", "error", "rmse"]
                     .into_iter()

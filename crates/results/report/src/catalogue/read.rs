@@ -79,6 +79,7 @@ impl Sensor {
             let expected = definition::of(&result.metric, &result.channel);
             if let Some(expected) = expected
                 && result.definition != expected
+                && !(definition::may_be_unstated(&result.metric) && !result.is_defined())
             {
                 // All numbers of a column have one definition.
                 return Err(refuse("definition", &result.definition, expected));

@@ -6,8 +6,10 @@ use taceva_core::Unit;
 
 use super::definition;
 use super::entry::{Kind, Sensor};
+use super::facts::{SIZE, TESTED};
+use super::offer::Goods;
 use super::published::Published;
-use crate::results::{Fact, Made, PUBLISHED, Study, by_published_r2};
+use crate::results::{Fact, Made, PUBLISHED, Stated, Study, by_published_r2};
 use taceva_results::{Interval, Score};
 
 impl Sensor {
@@ -45,7 +47,7 @@ impl Sensor {
             shape: None,
             opaque: (skips || has_light).then_some(skips),
             markers: None,
-            intrinsic: None,
+            identity: None,
             limits: super::find(&study.sensor)
                 .filter(|_| !study.is_simulated())
                 .and_then(|known| known.limits),
@@ -76,18 +78,6 @@ impl Sensor {
                 score(&result.metric, &result.channel, result.value, unit)
             })
             .collect();
-        if let Some(intrinsic) = &self.intrinsic {
-            let camera = [
-                ("frame_rate", intrinsic.frame_rate_hz, Unit::Hertz),
-                (
-                    "field_of_view",
-                    intrinsic.field_of_view_mm2,
-                    Unit::SquareMillimetre,
-                ),
-                ("resolution", intrinsic.camera_mp * 1e6, Unit::Pixel),
-            ];
-            scores.extend(camera.map(|(name, value, unit)| score("intrinsic", name, value, unit)));
-        }
         by_published_r2(&mut scores);
         let sources = self
             .sources
@@ -100,6 +90,7 @@ impl Sensor {
             source: "published".to_owned(),
             scores,
             facts: self.facts(),
+            stated: self.stated(),
             skipped: Vec::new(),
             provenance: sources.collect(),
             made: Made::default(),
@@ -113,14 +104,11 @@ impl Sensor {
     fn facts(&self) -> Vec<Fact> {
         let size = self.size.iter();
         let mut facts: Vec<Fact> = size.map(|of| fact("size", of.shown(), "mm")).collect();
-        if let Some(of) = &self.intrinsic {
-            let thickness = of.thickness_mm.to_string();
-            facts.push(fact("intrinsic thickness", thickness, "mm"));
-        }
         if let Some(of) = &self.limits {
-            let (depth, force) = (of.pz_max_mm.to_string(), of.fz_max_n.to_string());
-            facts.push(fact("greatest Pz", depth, "mm"));
-            facts.push(fact("greatest Fz", force, "N"));
+            let [depth, force, _] = of.rows();
+            facts.extend([depth, force].map(|(name, value, unit, _)| {
+                fact(&format!("greatest {name}"), value.to_string(), unit)
+            }));
         }
         // Variants of our metrics are shown beside their metric on the page of the sensor.
         let is_fact = |result: &&Published| {
@@ -136,10 +124,49 @@ impl Sensor {
             fact(&format!("{} {}", of.metric, of.channel), of.shown(), unit)
         }));
         let prices = self.prices.iter();
-        facts.extend(prices.map(|of| fact("price", format!("{}, {}", of.shown(), of.seen), "")));
+        facts.extend(prices.map(|of| {
+            let goods = match of.goods {
+                Goods::Sensor => String::new(),
+                _ => format!(" ({})", of.of),
+            };
+            let value = format!("{}{goods}, {}", of.shown(), of.seen);
+            fact(of.goods.quantity(), value, "")
+        }));
         let ways = self.availability.iter();
         facts.extend(ways.map(|of| fact("availability", of.way.word().to_owned(), "")));
         facts
+    }
+}
+
+impl Sensor {
+    /// Source, conditions and definition of each number, by the name of its row in tables.
+    fn stated(&self) -> Vec<Stated> {
+        let text = |id: &str| {
+            self.source(id)
+                .map_or_else(|| id.to_owned(), |of| of.text.clone())
+        };
+        let size = self.size.iter();
+        let size = size.map(|of| Stated::new("size", &text(&of.source), &of.conditions, SIZE));
+        let prices = self.prices.iter().map(|of| {
+            let goods = of.goods;
+            Stated::new(
+                goods.quantity(),
+                &text(&of.source),
+                &of.of,
+                goods.definition(),
+            )
+        });
+        let limits = self.limits.iter().flat_map(|of| {
+            let source = text(&of.source);
+            of.rows().map(|(name, _, _, definition)| {
+                Stated::new(&format!("greatest {name}"), &source, TESTED, definition)
+            })
+        });
+        let results = self.results.iter().map(|of| {
+            let name = format!("{} {}", of.metric, of.channel);
+            Stated::new(&name, &text(&of.source), &of.conditions, &of.definition)
+        });
+        size.chain(prices).chain(limits).chain(results).collect()
     }
 }
 

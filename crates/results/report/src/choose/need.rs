@@ -4,7 +4,7 @@ use std::fmt;
 use taceva_core::shown;
 
 use super::property::Property;
-use super::words::{QUANTITIES, Quantity, WORDS};
+use super::words::{CURRENCIES, OTHER_UNITS, QUANTITIES, Quantity, WORDS};
 
 /// Need of a task.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,18 +41,31 @@ pub enum NeedError {
     #[error("`{0}`: unknown need, expected one of {known}", known = known())]
     Unknown(String),
     /// A number or its unit is invalid.
-    #[error("`{words}`: expected a number above 0{unit}, such as `{example}`", unit = of_unit(unit))]
+    #[error("`{words}`: expected a number above 0{units}, such as `{example}`")]
     Number {
         /// Need as written.
         words: String,
-        /// Expected unit.
-        unit: &'static str,
+        /// Expected units in words.
+        units: String,
         /// The need with a valid number.
         example: String,
     },
-    /// The need concerns a price.
-    #[error("`{0}`: prices are not ranked; `taceva catalogue show NAME` shows known prices")]
+    /// A bound excludes its number.
+    #[error("`{words}`: a bound includes its number; write `{instead}`")]
+    Strict {
+        /// Need as written.
+        words: String,
+        /// The need with an accepted sign.
+        instead: String,
+    },
+    /// The need concerns a price without a number.
+    #[error(
+        "`{0}`: prices are not ranked; bound the price of a ready sensor, such as `price <= 500 USD`"
+    )]
     Price(String),
+    /// Several needs are wrong.
+    #[error("{}", all(.0))]
+    Several(Vec<NeedError>),
     /// The file is not TOML of the form `needs = ["…", …]`.
     #[error("needs: {0}")]
     Toml(#[from] toml::de::Error),
@@ -63,16 +76,21 @@ impl Need {
     /// `localisation 0.3 mm`.
     ///
     /// # Errors
-    /// [`NeedError`] with the invalid need and the known ones.
+    /// [`NeedError`] with every invalid need and the known ones.
     pub fn parse(text: &str) -> Result<Vec<Need>, NeedError> {
-        let words = text
-            .split(',')
-            .map(str::trim)
-            .filter(|word| !word.is_empty());
-        let needs: Vec<Need> = words.map(one).collect::<Result<_, _>>()?;
-        match needs.is_empty() {
-            true => Err(NeedError::Empty),
-            false => Ok(needs),
+        let words = text.split(',').map(str::trim);
+        let (mut needs, mut errors) = (Vec::new(), Vec::new());
+        for word in words.filter(|word| !word.is_empty()) {
+            match one(word) {
+                Ok(need) => needs.push(need),
+                Err(error) => errors.push(error),
+            }
+        }
+        match (errors.len(), needs.is_empty()) {
+            (0, true) => Err(NeedError::Empty),
+            (0, false) => Ok(needs),
+            (1, _) => Err(errors.remove(0)),
+            _ => Err(NeedError::Several(errors)),
         }
     }
 
@@ -130,7 +148,7 @@ impl Need {
 }
 
 /// Words for a price.
-const PRICES: [&str; 5] = ["affordable", "cheap", "cost", "inexpensive", "price"];
+const PRICES: [&str; 4] = ["affordable", "cheap", "cost", "inexpensive"];
 
 fn one(words: &str) -> Result<Need, NeedError> {
     let lower = words.to_lowercase();
@@ -170,10 +188,21 @@ fn one(words: &str) -> Result<Need, NeedError> {
 fn bound(quantity: &Quantity, words: &str, rest: &str) -> Result<Bound, NeedError> {
     let refuse = || NeedError::Number {
         words: shown(words).to_string(),
-        unit: quantity.unit,
+        units: quantity.units(),
         example: quantity.example(),
     };
     let rest = rest.trim();
+    for sign in ["<", ">"] {
+        let strict = rest
+            .strip_prefix(sign)
+            .filter(|rest| !rest.starts_with('='));
+        if let Some(number) = strict {
+            return Err(NeedError::Strict {
+                words: shown(words).to_string(),
+                instead: shown(&format!("{} {sign}= {}", quantity.name, number.trim())).to_string(),
+            });
+        }
+    }
     let sides = [("<=", false), ("≤", false), (">=", true), ("≥", true)];
     let side = sides
         .iter()
@@ -182,16 +211,31 @@ fn bound(quantity: &Quantity, words: &str, rest: &str) -> Result<Bound, NeedErro
     let rest = rest.trim();
     let end = rest.find(|letter: char| !(letter.is_ascii_digit() || letter == '.'));
     let (number, unit) = rest.split_at(end.unwrap_or(rest.len()));
-    let value: f64 = number.parse().map_err(|_| refuse())?;
-    let unit = unit.trim().replace("mm2", "mm²");
-    if unit != quantity.unit || !(value.is_finite() && value > 0.0) {
+    let number: f64 = number.parse().map_err(|_| refuse())?;
+    let (property, value) = measured(quantity, number, unit.trim()).ok_or_else(refuse)?;
+    if !(value.is_finite() && value > 0.0) {
         return Err(refuse());
     }
     Ok(Bound {
-        property: quantity.property,
+        property,
         is_least: is_least || quantity.is_reach,
         value,
     })
+}
+
+/// Property with the number in its own unit; `None` for an unknown unit.
+fn measured(quantity: &Quantity, number: f64, unit: &str) -> Option<(Property, f64)> {
+    if let Property::Price(_) = quantity.property {
+        let mut known = CURRENCIES.into_iter();
+        let currency = known.find(|currency| currency.eq_ignore_ascii_case(unit))?;
+        return Some((Property::Price(currency), number));
+    }
+    if unit == quantity.unit {
+        return Some((quantity.property, number));
+    }
+    let mut others = OTHER_UNITS.iter();
+    let other = others.find(|other| other.unit == quantity.unit && other.written == unit)?;
+    Some((quantity.property, number * other.times / other.over))
 }
 
 impl Bound {
@@ -207,8 +251,8 @@ impl Bound {
 
 impl fmt::Display for Bound {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.property == Property::Opaque {
-            return f.write_str("light kept out");
+        if matches!(self.property, Property::Opaque | Property::Bought) {
+            return write!(f, "{}", self.property);
         }
         let sign = if self.is_least { "≥" } else { "≤" };
         write!(
@@ -220,15 +264,34 @@ impl fmt::Display for Bound {
     }
 }
 
-fn of_unit(unit: &str) -> String {
-    match unit {
-        "" => String::new(),
-        unit => format!(" and the unit {unit}"),
+/// Sentences of several errors; the known needs are listed once.
+fn all(errors: &[NeedError]) -> String {
+    let is_unknown = |error: &&NeedError| matches!(error, NeedError::Unknown(_));
+    let others = errors.iter().filter(|error| !is_unknown(error));
+    let mut sentences: Vec<String> = others.map(NeedError::to_string).collect();
+    let unknown = errors.iter().filter_map(|error| match error {
+        NeedError::Unknown(words) => Some(format!("`{words}`")),
+        _ => None,
+    });
+    let unknown: Vec<String> = unknown.collect();
+    if !unknown.is_empty() {
+        let names = unknown.join(", ");
+        sentences.push(format!(
+            "{names}: unknown need, expected one of {}",
+            known()
+        ));
     }
+    sentences.join("; ")
 }
 
+/// All needs with their synonyms: `shear (or accurate shear, shear force), no shear, …`.
 fn known() -> String {
-    let words = WORDS.iter().map(|word| word.names[0].to_owned());
+    let words = WORDS.iter().map(|word| match word.names {
+        [name, synonyms @ ..] if !synonyms.is_empty() => {
+            format!("{name} (or {})", synonyms.join(", "))
+        }
+        names => names.join(", "),
+    });
     let quantities = QUANTITIES
         .iter()
         .map(|quantity| quantity.written("<number>"));
@@ -268,7 +331,7 @@ mod tests {
         assert!(
             error
                 .to_string()
-                .starts_with("`beauty`: unknown need, expected one of shear, no shear")
+                .starts_with("`beauty`: unknown need, expected one of shear (or accurate shear, shear force), no shear")
         );
         for wrong in ["rate >= fast", "rate >= 50 kHz", "force -1 N", "rate"] {
             assert!(
@@ -286,7 +349,46 @@ mod tests {
             "`uniformity high`: expected a number above 0, such as `uniformity >= 0.9`"
         );
         assert!(said("cheap").starts_with("`cheap`: prices are not ranked"));
+        assert_eq!(
+            said("force error < 0.1 N"),
+            "`force error < 0.1 N`: a bound includes its number; write `force error <= 0.1 N`"
+        );
+        assert_eq!(
+            said("price <= 500"),
+            "`price <= 500`: expected a number above 0 and a currency of USD, EUR, GBP, AUD, CAD, CHF, CNY, JPY, KRW, such as `price <= 500 USD`"
+        );
         let needs = Need::read("needs = [\"shear\", \"rate >= 50 Hz\"]").expect("a file");
         assert_eq!(needs.len(), 2);
+    }
+
+    #[test]
+    fn every_wrong_need_of_a_list_is_refused_at_once_with_the_known_needs_once() {
+        let said = Need::parse("beauty, shear, rate >= fast, elegance").expect_err("three");
+        let said = said.to_string();
+        for words in [
+            "`beauty`, `elegance`: unknown need",
+            "`rate >= fast`: expected",
+        ] {
+            assert!(said.contains(words), "{words}: {said}");
+        }
+        assert_eq!(said.matches("expected one of").count(), 1, "{said}");
+        assert!(said.contains("depth (or accurate depth, "), "{said}");
+    }
+
+    #[test]
+    fn units_of_the_same_quantity_are_converted_and_currencies_are_not() {
+        let bound = |text: &str| Need::parse(text).expect("a need")[0].bounds[0];
+        assert_eq!(bound("force 100 mN"), bound("force 0.1 N"));
+        assert_eq!(bound("width <= 2.5 cm"), bound("width <= 25 mm"));
+        assert_eq!(bound("price <= 90 eur").property, Property::Price("EUR"));
+        for sensor in crate::catalogue::all() {
+            for price in sensor.prices {
+                assert!(
+                    CURRENCIES.contains(&price.currency.as_str()),
+                    "{}",
+                    price.currency
+                );
+            }
+        }
     }
 }

@@ -26,8 +26,18 @@ pub enum Property {
     FrameRate,
     /// Sensing area, in mm².
     FieldOfView,
-    /// Thickness of the sensor, in mm.
+    /// Thickness of the whole sensor, in mm.
     Thickness,
+    /// Thickness of the gel, in mm.
+    GelThickness,
+    /// Greatest outer dimension, in mm.
+    Size,
+    /// Middle one of the three outer dimensions, in mm, of which a diameter is two.
+    Width,
+    /// Lowest exact price of a ready sensor in a currency: `USD`.
+    Price(&'static str),
+    /// A known seller: 1. Without one it is unknown.
+    Bought,
     /// Greatest indentation, in mm.
     GreatestDepth,
     /// Greatest normal force, in N.
@@ -41,19 +51,26 @@ impl Property {
     pub fn of(self, sensor: &Sensor) -> Option<f64> {
         let result = || {
             let (metric, channel) = self.score()?;
-            sensor.result(metric, channel).map(|result| result.value)
+            let result = sensor.result(metric, channel);
+            let defined = result.filter(|result| result.is_defined());
+            defined.map(|result| result.value)
         };
-        let (intrinsic, limits) = (sensor.intrinsic.as_ref(), sensor.limits.as_ref());
+        let (size, limits) = (sensor.size.as_ref(), sensor.limits.as_ref());
         match self {
             Property::Error(_)
             | Property::Repeatability(_)
             | Property::Spatial(_)
             | Property::Resolution(_)
             | Property::Sensitivity
-            | Property::Uniformity => result(),
-            Property::FrameRate => sensor.frame_rate_hz(),
-            Property::FieldOfView => sensor.field_of_view_mm2(),
-            Property::Thickness => Some(intrinsic?.thickness_mm),
+            | Property::Uniformity
+            | Property::FrameRate
+            | Property::FieldOfView
+            | Property::Thickness
+            | Property::GelThickness => result(),
+            Property::Size => size?.greatest_mm(),
+            Property::Width => size?.middle_mm(),
+            Property::Price(currency) => Some(sensor.price_in(currency)?.amount),
+            Property::Bought => sensor.is_sold().then_some(1.0),
             Property::GreatestDepth => Some(limits?.pz_max_mm),
             Property::GreatestForce => Some(limits?.fz_max_n),
             Property::Opaque => sensor.opaque.map(|opaque| if opaque { 1.0 } else { 0.0 }),
@@ -81,7 +98,12 @@ impl Property {
             Property::Uniformity => Some(("uniformity", "Fz")),
             Property::FrameRate => Some(("intrinsic", "frame_rate")),
             Property::FieldOfView => Some(("intrinsic", "field_of_view")),
-            Property::Thickness
+            Property::Thickness => Some(("intrinsic", "thickness")),
+            Property::GelThickness => Some(("gel_thickness", "gel")),
+            Property::Size
+            | Property::Width
+            | Property::Price(_)
+            | Property::Bought
             | Property::GreatestDepth
             | Property::GreatestForce
             | Property::Opaque => None,
@@ -101,13 +123,29 @@ impl Property {
         result.map_or(Standing::Counts, |result| result.standing)
     }
 
+    /// Part or goods that the number of `sensor` is of, for sizes and prices.
+    pub(super) fn part(self, sensor: &Sensor) -> Option<String> {
+        match self {
+            Property::Size | Property::Width => {
+                let size = sensor.size.as_ref()?;
+                Some(format!("{} mm, {}", size.shown(), size.conditions))
+            }
+            Property::Price(currency) => Some(sensor.price_in(currency)?.conditions()),
+            _ => None,
+        }
+    }
+
     /// Better direction of the property.
     pub fn better(self) -> Better {
         match self {
             Property::Error(_)
             | Property::Repeatability(_)
             | Property::Spatial(_)
-            | Property::Thickness => Better::Lower,
+            | Property::Thickness
+            | Property::GelThickness
+            | Property::Size
+            | Property::Width
+            | Property::Price(_) => Better::Lower,
             Property::Resolution(_)
             | Property::Sensitivity
             | Property::Uniformity
@@ -115,6 +153,7 @@ impl Property {
             | Property::FieldOfView
             | Property::GreatestDepth
             | Property::GreatestForce
+            | Property::Bought
             | Property::Opaque => Better::Higher,
         }
     }
@@ -134,9 +173,17 @@ impl Property {
             Property::Sensitivity => "mm/N",
             Property::FrameRate => "Hz",
             Property::FieldOfView => "mm²",
-            Property::Thickness | Property::GreatestDepth => "mm",
+            Property::Thickness
+            | Property::GelThickness
+            | Property::Size
+            | Property::Width
+            | Property::GreatestDepth => "mm",
             Property::GreatestForce => "N",
-            Property::Resolution(_) | Property::Uniformity | Property::Opaque => "",
+            Property::Price(currency) => currency,
+            Property::Resolution(_)
+            | Property::Uniformity
+            | Property::Bought
+            | Property::Opaque => "",
         }
     }
 
@@ -151,8 +198,8 @@ impl Property {
             value_shown
         };
         match (self, self.unit()) {
-            (Property::Opaque, _) if value > 0.0 => "yes".to_owned(),
-            (Property::Opaque, _) => "no".to_owned(),
+            (Property::Opaque | Property::Bought, _) if value > 0.0 => "yes".to_owned(),
+            (Property::Opaque | Property::Bought, _) => "no".to_owned(),
             (_, "") => digits,
             (_, unit) => format!("{digits} {unit}"),
         }
@@ -184,7 +231,12 @@ impl fmt::Display for Property {
             Property::Uniformity => f.write_str("uniformity"),
             Property::FrameRate => f.write_str("frame rate"),
             Property::FieldOfView => f.write_str("field of view"),
-            Property::Thickness => f.write_str("thickness"),
+            Property::Thickness => f.write_str("thickness of the sensor"),
+            Property::GelThickness => f.write_str("thickness of the gel"),
+            Property::Size => f.write_str("greatest dimension"),
+            Property::Width => f.write_str("middle dimension"),
+            Property::Price(currency) => write!(f, "price in {currency}"),
+            Property::Bought => f.write_str("can be bought"),
             Property::GreatestDepth => f.write_str("greatest depth"),
             Property::GreatestForce => f.write_str("greatest normal force"),
             Property::Opaque => f.write_str("light kept out"),

@@ -6,7 +6,7 @@ use maud::html;
 use serde_json::json;
 use taceva_core::{by_count, counted};
 
-use super::{Candidate, Choice, Dropped, Step};
+use super::{Candidate, Choice, Dropped, Property, Step};
 use crate::html::Document;
 use crate::names::listed;
 use crate::number::{fixed, numeral};
@@ -14,8 +14,9 @@ use crate::table::{Column, Direction, Table};
 
 /// Schema of a choice as JSON. 1.1: `open` lists sensors with an unknown number for a hard need. 1.2: each step states the better direction. 1.3:
 /// place and tie of each ranked sensor. 1.4: intervals, and significant differences. 1.5: sensors with limits from the catalogue. 1.6: `unplaced`
-/// lists sensors without a number for a ranking need.
-pub const CHOICE_SCHEMA: &str = "taceva.choice/1.6";
+/// lists sensors without a number for a ranking need. 1.7: `other_definitions` lists sensors with numbers of another definition only, and each step
+/// names the part or the goods of its number.
+pub const CHOICE_SCHEMA: &str = "taceva.choice/1.7";
 
 /// Greatest number of names in a sentence.
 const SHOWN: usize = 6;
@@ -30,10 +31,11 @@ impl Choice {
             Column::new("looked at").direction(Direction::OfRows),
             Column::new("number"),
             Column::new("95 % interval"),
-            Column::new("share of the best"),
-            Column::new("mean share"),
         ];
-        let mut table = Table::new(self.headline(), columns);
+        let is_ranking = self.is_ranking();
+        let shares = ["share of the best", "mean share"].map(Column::new);
+        let shares = shares.into_iter().filter(|_| is_ranking);
+        let mut table = Table::new(self.headline(), columns.into_iter().chain(shares));
         for ((at, candidate), place) in self.ranked.iter().enumerate().zip(self.places()) {
             let place = match self.is_tied(at) {
                 true => format!("{place} (tie)"),
@@ -42,7 +44,7 @@ impl Choice {
             for (number, step) in candidate.steps.iter().enumerate() {
                 let is_first = number == 0;
                 let once = |text: String| if is_first { text } else { String::new() };
-                let cells = [
+                let mut cells = vec![
                     once(place.clone()),
                     once(candidate.name.clone()),
                     step.need.clone(),
@@ -51,9 +53,11 @@ impl Choice {
                     step.interval.map_or_else(String::new, |[low, high]| {
                         format!("{} … {}", numeral(low), numeral(high))
                     }),
-                    step.share.map_or_else(String::new, |share| fixed(share, 2)),
-                    once(fixed(candidate.share, 2)),
                 ];
+                if is_ranking {
+                    let share = step.share.map_or_else(String::new, |share| fixed(share, 2));
+                    cells.extend([share, once(fixed(candidate.share, 2))]);
+                }
                 table.push_directed(Some(step.property.better()), cells);
             }
         }
@@ -66,6 +70,7 @@ impl Choice {
                 ));
             }
         }
+        self.note_parts(&mut table);
         let ranked = self.ranked.iter();
         let mut steps = ranked.flat_map(|candidate| &candidate.steps);
         if steps.any(|step| step.property.is_of_both_axes()) {
@@ -111,16 +116,57 @@ impl Choice {
         for (reason, names) in reasons {
             table.note(format!("Not ranked, {reason}: {}.", first(&names)));
         }
-        if !self.unknown.is_empty() {
+        for other in &self.other_definitions {
+            table.note(format!("{}: {}.", other.name, other.reason));
+        }
+        if !self.unknown.is_empty() || !self.other_definitions.is_empty() {
             let known = self.ranked.len() + self.others.len();
+            let others = self.other_definitions.len();
+            let others = match others {
+                0 => String::new(),
+                _ => format!(
+                    ", {others} {} one of another definition only",
+                    by_count(others, "has", "have")
+                ),
+            };
+            let none = match self.unknown.is_empty() {
+                true => String::new(),
+                false => format!("; none is known for: {}", first(&self.unknown)),
+            };
             table.note(format!(
-                "{known} of {} {} a requested number; none is known for: {}.",
-                counted(known + self.unknown.len(), "sensor"),
+                "{known} of {} {} a requested number{others}{none}.",
+                counted(self.considered(), "sensor"),
                 by_count(known, "has", "have"),
-                first(&self.unknown)
             ));
         }
         table
+    }
+
+    /// True if a need ranks the sensors.
+    fn is_ranking(&self) -> bool {
+        let all = self.ranked.iter().chain(&self.others);
+        let mut steps = all.flat_map(|candidate| &candidate.steps);
+        steps.any(|step| !step.is_bound)
+    }
+
+    /// Notes on the measured parts and the goods behind sizes and prices of ranked sensors.
+    fn note_parts(&self, table: &mut Table) {
+        let all = || self.ranked.iter().chain(&self.others);
+        for candidate in &self.ranked {
+            for step in &candidate.steps {
+                if let Some(part) = &step.part {
+                    table.note(format!("{}, {}: {part}.", candidate.name, step.property));
+                }
+            }
+        }
+        let mut steps = all().flat_map(|candidate| &candidate.steps);
+        if steps.any(|step| matches!(step.property, Property::Price(_))) {
+            table.note("Prices are in the currency of their source and not converted. Only exact prices of ready sensors meet a bound.");
+        }
+        let mut steps = all().flat_map(|candidate| &candidate.steps);
+        if steps.any(|step| step.property == Property::Width) {
+            table.note("The middle dimension is the middle one of width, depth and height, because sources order them differently; a diameter counts twice.");
+        }
     }
 
     /// One sentence with the result.
@@ -172,6 +218,7 @@ impl Choice {
                 "standing": step.standing.words(),
                 "met_by_value_alone": step.is_unsure,
                 "share": step.share,
+                "part": step.part,
             })
         };
         let places = self.places();
@@ -186,7 +233,7 @@ impl Choice {
                 .collect()
         };
         let (dropped, barred) = (named(&self.dropped), named(&self.barred));
-        let unplaced = named(&self.unplaced);
+        let (unplaced, other) = (named(&self.unplaced), named(&self.other_definitions));
         let open = self.open.iter();
         let open: Vec<_> = open
             .map(|open| json!({"name": open.name, "reason": open.reason}))
@@ -196,7 +243,7 @@ impl Choice {
             all.map(|of| json!({"better": of.better, "than": of.than, "looked_at": of.property.to_string(), "p_holm": of.p}))
                 .collect::<Vec<_>>()
         });
-        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unplaced": unplaced, "unknown": self.unknown, "evidence": evidence, "simulated": self.simulated, "limits_of_catalogue": self.limits_of_catalogue});
+        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unplaced": unplaced, "other_definitions": other, "unknown": self.unknown, "evidence": evidence, "simulated": self.simulated, "limits_of_catalogue": self.limits_of_catalogue});
         format!("{whole:#}\n")
     }
 

@@ -179,3 +179,114 @@ fn what_no_sensor_meets_says_who_fails_by_which_number() {
         "{reason}"
     );
 }
+
+/// Choice among the whole catalogue.
+fn chosen(needs: &str) -> Choice {
+    let needs = Need::parse(needs).unwrap_or_else(|error| panic!("{error}"));
+    choose(&catalogue::all(), &needs)
+}
+
+/// Reason of the sensor called `name` in a list of sensors without a rank.
+fn reason<'a>(list: &'a [Dropped], name: &str) -> &'a str {
+    let found = list.iter().find(|of| of.name == name);
+    &found
+        .unwrap_or_else(|| panic!("no {name}: {list:?}"))
+        .reason
+}
+
+#[test]
+fn a_thickness_of_the_gel_or_without_a_definition_ranks_no_sensor_by_its_thickness() {
+    let choice = chosen("thin");
+    let ranked: Vec<&str> = choice.ranked.iter().map(|of| of.name.as_str()).collect();
+    assert!(ranked.contains(&"PaXini DP-S1813-Elite"), "{ranked:?}");
+    for name in ["GelSight", "GelSightWM", "MagicTac", "ViTacTip"] {
+        assert!(!ranked.contains(&name), "{name}");
+        assert!(!choice.unknown.contains(&name.to_owned()), "{name}");
+    }
+    let gel = reason(&choice.other_definitions, "GelSight");
+    assert!(
+        gel.contains("gel_thickness gel 4.25 mm (thickness of the gel)"),
+        "{gel}"
+    );
+    let unstated = reason(&choice.other_definitions, "ViTacTip");
+    assert!(
+        unstated.contains("50 mm (definition not stated by the source)"),
+        "{unstated}"
+    );
+    assert_eq!(chosen("gel thickness <= 5 mm").ranked[0].name, "Evetac");
+}
+
+#[test]
+fn a_number_of_another_definition_is_shown_and_neither_meets_a_bound_nor_is_called_unknown() {
+    let choice = chosen("force error <= 0.1 N");
+    let minsight = reason(&choice.other_definitions, "Minsight");
+    assert!(
+        minsight.contains("force_error F 0.07 N (mean absolute error"),
+        "{minsight}"
+    );
+    let insight = reason(&choice.other_definitions, "InSight");
+    assert!(insight.contains("≈ 0.03 N"), "{insight}");
+    let text = choice.table().text();
+    assert!(
+        text.contains("Minsight: no MAE of Fz; known is force_error F 0.07 N"),
+        "{text}"
+    );
+    assert!(text.contains("one of another definition only"), "{text}");
+    let json: serde_json::Value = serde_json::from_str(&choice.json()).expect("json");
+    let names = json["other_definitions"].as_array().expect("a list");
+    assert!(names.iter().any(|of| of["name"] == "Minsight"), "{json}");
+    let range = chosen("force >= 5 N");
+    let paxini = reason(&range.other_definitions, "PaXini DP-S1813-Elite");
+    assert!(paxini.contains("force_range Fz 25 N"), "{paxini}");
+    let both = chosen("force error <= 0.1 N, rate >= 30 Hz");
+    let open = both.open.iter().find(|open| open.name == "Minsight");
+    let open = &open.expect("its rate is known").reason;
+    assert!(
+        open.contains("is not known; known is force_error F 0.07 N"),
+        "{open}"
+    );
+}
+
+#[test]
+fn widths_sizes_prices_and_sellers_are_bounds_and_what_is_unknown_is_open() {
+    let names = |choice: &Choice| -> Vec<String> {
+        choice.ranked.iter().map(|of| of.name.clone()).collect()
+    };
+    let narrow = chosen("width <= 20 mm, size <= 30 mm");
+    assert!(
+        names(&narrow).contains(&"DIGIT".to_owned()),
+        "{:?}",
+        names(&narrow)
+    );
+    let dropped = reason(&narrow.dropped, "9DTact");
+    assert!(
+        dropped.contains("its middle dimension is 25.5 mm"),
+        "{dropped}"
+    );
+    let open = narrow.open.iter().find(|open| open.name == "DIGIT Pinki");
+    let open = &open.expect("its length is unknown").reason;
+    assert!(
+        open.contains("greatest dimension is not known; known is 15 mm"),
+        "{open}"
+    );
+    let text = narrow.table().text();
+    assert!(
+        text.contains("DIGIT, middle dimension: 20 × 27 × 18 mm, housing."),
+        "{text}"
+    );
+    assert!(!text.contains("mean share"), "nothing ranks: {text}");
+    let cheap = chosen("price <= 600 USD, can be bought");
+    assert_eq!(names(&cheap), ["GelSight", "GelSightWM"]);
+    let open = |name: &str| {
+        let found = cheap.open.iter().find(|open| open.name == name);
+        found
+            .unwrap_or_else(|| panic!("{name} is open"))
+            .reason
+            .clone()
+    };
+    assert!(open("DIGIT").contains("known is 15 USD (parts of one sensor, of 1000 made)"));
+    assert!(open("PaXini DP-S2015-Elite").contains("name the bound in KRW"));
+    let built = chosen("bought, price <= 600 USD, width <= 50 mm");
+    let open = built.open.iter().find(|open| open.name == "R-Tac0");
+    assert!(open.expect("it is built").reason.contains("needs a seller"));
+}

@@ -36,7 +36,7 @@ impl Choice {
         let known = self.ranked.len() + self.others.len();
         let caption = format!(
             "Values side by side: {known} of {} {} a requested number",
-            counted(known + self.unknown.len(), "sensor"),
+            counted(self.considered(), "sensor"),
             by_count(known, "has", "have")
         );
         let mut table = Table::new(caption, first.chain(heads));
@@ -60,6 +60,12 @@ impl Choice {
             table.note(format!("{mark}: {}.", reasons.join(", ")));
         }
         table
+    }
+
+    /// Number of sensors among which the choice is made.
+    pub(super) fn considered(&self) -> usize {
+        let known = self.ranked.len() + self.others.len();
+        known + self.other_definitions.len() + self.unknown.len()
     }
 
     /// `1`, `2 (tie)`, or a word for the reason why the sensor has no place.

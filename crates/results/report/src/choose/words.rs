@@ -31,12 +31,12 @@ pub(super) const WORDS: &[Word] = &[
         ],
     },
     Word {
-        names: &["normal force", "force"],
+        names: &["normal force", "force", "accurate force"],
         bounds: &[],
         ranks: &[Property::Error("Fz")],
     },
     Word {
-        names: &["depth", "shallow contact", "shallow"],
+        names: &["depth", "accurate depth", "shallow contact", "shallow"],
         bounds: &[],
         ranks: &[
             Property::Error("Pz"),
@@ -60,7 +60,12 @@ pub(super) const WORDS: &[Word] = &[
         ranks: &[],
     },
     Word {
-        names: &["planar", "localisation", "localization"],
+        names: &[
+            "planar",
+            "accurate position",
+            "localisation",
+            "localization",
+        ],
         bounds: &[],
         ranks: &[Property::Error("Pxy")],
     },
@@ -95,6 +100,16 @@ pub(super) const WORDS: &[Word] = &[
         ranks: &[Property::Thickness],
     },
     Word {
+        names: &["thin gel"],
+        bounds: &[],
+        ranks: &[Property::GelThickness],
+    },
+    Word {
+        names: &["can be bought", "bought", "buy"],
+        bounds: &[(Property::Bought, true, 1.0)],
+        ranks: &[],
+    },
+    Word {
         names: &["repeatable"],
         bounds: &[],
         ranks: &[Property::Repeatability("Pz"), Property::Repeatability("Fz")],
@@ -124,10 +139,20 @@ impl Quantity {
         need.trim_end().to_owned()
     }
 
+    /// Accepted units in words: ` and the unit Hz`; empty for a share.
+    pub(super) fn units(&self) -> String {
+        match (self.property, self.unit) {
+            (Property::Price(_), _) => format!(" and a currency of {}", CURRENCIES.join(", ")),
+            (_, "") => String::new(),
+            (_, unit) => format!(" and the unit {unit}"),
+        }
+    }
+
     /// Need with a typical number.
     pub(super) fn example(&self) -> String {
         self.written(match self.unit {
             "Hz" => "30",
+            "USD" => "500",
             "mm²" => "100",
             "" => "0.9",
             _ => "1",
@@ -151,6 +176,42 @@ const fn quality(name: &'static str, unit: &'static str, property: Property) -> 
     }
 }
 
+/// Currencies of prices.
+pub(super) const CURRENCIES: [&str; 9] = [
+    "USD", "EUR", "GBP", "AUD", "CAD", "CHF", "CNY", "JPY", "KRW",
+];
+
+/// Another unit of a quantity.
+pub(super) struct OtherUnit {
+    /// Unit as written.
+    pub(super) written: &'static str,
+    /// Unit of the quantity.
+    pub(super) unit: &'static str,
+    /// Factor and divisor, of which one is 1, so that decimal numbers stay exact.
+    pub(super) times: f64,
+    pub(super) over: f64,
+}
+
+const fn other_unit(written: &'static str, unit: &'static str, times: f64, over: f64) -> OtherUnit {
+    OtherUnit {
+        written,
+        unit,
+        times,
+        over,
+    }
+}
+
+/// Units that are converted.
+pub(super) const OTHER_UNITS: &[OtherUnit] = &[
+    other_unit("mN", "N", 1.0, 1000.0),
+    other_unit("um", "mm", 1.0, 1000.0),
+    other_unit("µm", "mm", 1.0, 1000.0),
+    other_unit("cm", "mm", 10.0, 1.0),
+    other_unit("mm2", "mm²", 1.0, 1.0),
+    other_unit("cm2", "mm²", 100.0, 1.0),
+    other_unit("cm²", "mm²", 100.0, 1.0),
+];
+
 /// Quantities that can be bounded.
 pub(super) const QUANTITIES: &[Quantity] = &[
     reach("force", "N", Property::GreatestForce),
@@ -158,6 +219,10 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     quality("rate", "Hz", Property::FrameRate),
     quality("area", "mm²", Property::FieldOfView),
     quality("thickness", "mm", Property::Thickness),
+    quality("gel thickness", "mm", Property::GelThickness),
+    quality("width", "mm", Property::Width),
+    quality("size", "mm", Property::Size),
+    quality("price", "USD", Property::Price("USD")),
     quality("localisation", "mm", Property::Error("Pxy")),
     quality("localization", "mm", Property::Error("Pxy")),
     quality("depth error", "mm", Property::Error("Pz")),

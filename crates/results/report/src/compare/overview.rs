@@ -96,7 +96,11 @@ impl Comparison {
     pub fn summary(&self) -> String {
         let all = self.answers.len();
         if all == 0 {
-            return "Nothing to compare: no two results share a requested score with a better direction".to_owned();
+            return match self.asked.is_empty() {
+                true => "No test is possible: no two of these results share a score with a better direction",
+                false => "Nothing to compare: no two results share a requested score with a better direction",
+            }
+            .to_owned();
         }
         let shown = self
             .answers

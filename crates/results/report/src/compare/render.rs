@@ -1,6 +1,6 @@
 //! Comparisons as table rows, text and JSON.
 
-use serde_json::json;
+use serde_json::{Value, json};
 use taceva_metrics::{Difference, DifferenceTest};
 
 use super::overview::OVERVIEW_WIDTH;
@@ -13,8 +13,8 @@ use crate::wrap::wrapped;
 /// Indent of answers below their score.
 const INDENT: usize = 2;
 
-/// Schema of a comparison as JSON.
-pub const COMPARISON_SCHEMA: &str = "taceva.comparison/2";
+/// Schema of a comparison as JSON. 2.1: `values` lists the values side by side.
+pub const COMPARISON_SCHEMA: &str = "taceva.comparison/2.1";
 
 /// Column names of every answer, after the metric.
 const HEAD: [&str; 12] = [
@@ -168,6 +168,11 @@ impl Comparison {
 
     /// JSON of [`COMPARISON_SCHEMA`]; an infinite end of an interval is null.
     pub fn json(&self) -> String {
+        format!("{:#}\n", self.document())
+    }
+
+    /// The content of [`json`](Comparison::json).
+    pub(crate) fn document(&self) -> Value {
         let answer = |answer: &Answer| {
             let difference = answer.difference.as_ref().map(|difference| {
                 json!({
@@ -210,14 +215,13 @@ impl Comparison {
         };
         let answers: Vec<_> = self.answers.iter().map(answer).collect();
         let decisions: Vec<_> = self.decisions().iter().map(decision).collect();
-        let whole = json!({
+        json!({
             "schema": COMPARISON_SCHEMA,
             "of": self.names,
             "notes": self.notes,
             "decisions": decisions,
             "answers": answers,
-        });
-        format!("{whole:#}\n")
+        })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Tables I to V of the study.
 
 use super::beside::{Digits, beside, cell};
-use crate::catalogue::find;
+use crate::catalogue::{Sensor, find};
 use crate::results::Study;
 use crate::scores::BARRED;
 use crate::scores::ScoreTable;
@@ -57,6 +57,20 @@ pub(super) struct Sheet<'a> {
     pub(super) scores: &'a ScoreTable,
 }
 
+/// Number of Table I of the study.
+fn fact_of_study(sensor: &Sensor, fact: &str) -> Option<f64> {
+    let of = |metric: &str, channel: &str| {
+        let mut results = sensor.results.iter().filter(|of| of.source == "study");
+        let found = results.find(|of| of.metric == metric && of.channel == channel);
+        found.map(|of| of.value)
+    };
+    match fact {
+        "camera" => Some(of("intrinsic", "resolution")? / 1e6),
+        "thickness" => of("intrinsic", "thickness").or_else(|| of("gel_thickness", "gel")),
+        channel => of("intrinsic", channel),
+    }
+}
+
 impl Sheet<'_> {
     pub(super) fn names(&self) -> &[String] {
         &self.scores.names
@@ -97,18 +111,8 @@ impl Sheet<'_> {
             let cells = self.studies.iter().map(|study| {
                 let ours = study.score("intrinsic", channel);
                 let ours = ours.and_then(|score| score.value.number());
-                let printed = find(&study.sensor).and_then(|sensor| {
-                    let facts = sensor
-                        .intrinsic
-                        .as_ref()
-                        .filter(|facts| facts.source == "study")?;
-                    Some(match channel {
-                        "camera" => facts.camera_mp,
-                        "thickness" => facts.thickness_mm,
-                        "field_of_view" => facts.field_of_view_mm2,
-                        _ => facts.frame_rate_hz,
-                    })
-                });
+                let sensor = find(&study.sensor);
+                let printed = sensor.and_then(|sensor| fact_of_study(&sensor, channel));
                 Cell::Estimate(beside(ours, printed, Digits::Significant(3)))
             });
             table.rows.push(Row {

@@ -10,7 +10,7 @@
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Fact {
-    /// Name: `size`, `price`, `intrinsic thickness`.
+    /// Name: `size`, `price`, `cost of parts`.
     pub name: String,
     /// Unit; empty if the value states it, or for text.
     pub unit: String,

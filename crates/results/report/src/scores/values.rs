@@ -1,6 +1,10 @@
 //! Values side by side for readers: scores, published facts, and short words for absent ones.
 
-use taceva_metrics::Better;
+mod origins;
+mod programs;
+
+use taceva_core::Unit;
+use taceva_metrics::{Better, Standing};
 
 use super::column::named;
 use super::main::is_main;
@@ -10,17 +14,33 @@ use crate::compare::{CompareRequest, QUESTIONS};
 use crate::results::Study;
 use crate::table::{Align, Cell, Column, Estimate, Table, Words};
 
+/// Word for a number or fact that an entry of the catalogue lacks.
+const NOT_THERE: &str = "not in the catalogue";
 /// Words and marks whose places are visible in the table, so that their note names no places.
-const SEEN: [&str; 4] = [UNPROVEN, "not published", "not scored", "unknown"];
+const SEEN: [&str; 4] = [UNPROVEN, NOT_THERE, "not scored", "unknown"];
 
 /// A score or a fact of each study.
 struct Line<'a> {
     name: Words,
-    /// Name and unit without a direction: `mae Fz (N)`.
-    key: String,
+    /// Name without unit and direction: `mae Fz`.
+    quantity: String,
+    /// Unit; empty for shares and text.
+    unit: String,
     /// The score; `None` for a fact.
     row: Option<&'a ScoreRow>,
     cells: Vec<Option<Cell>>,
+    /// Comparability of its published numbers in words; empty for fewer than two of them.
+    origins: &'static str,
+}
+
+impl Line<'_> {
+    /// Name and unit without a direction: `mae Fz (N)`.
+    fn key(&self) -> String {
+        match self.unit.as_str() {
+            "" => self.quantity.clone(),
+            unit => format!("{} ({unit})", self.quantity),
+        }
+    }
 }
 
 /// Explanation of a word or a mark.
@@ -47,40 +67,29 @@ impl ScoreTable {
     /// let request = CompareRequest::default();
     /// let table = ScoreTable::compared(&sensors, &request).side_by_side(&sensors, &request, false);
     /// let row = table.rows.iter().map(|row| row.plain()).find(|row| row[0] == "mae Fz (N) ↓");
-    /// assert_eq!(row.expect("there")[1..], ["0.0361", "0.0544"]);
+    /// assert_eq!(row.expect("there")[1..], ["0.0361", "0.0544", "one source"]);
     /// ```
     pub fn side_by_side(&self, studies: &[Study], request: &CompareRequest, is_all: bool) -> Table {
         let asked = self.asked(request, is_all);
-        let mut notes = Notes::default();
-        let rows = asked.rows.iter();
-        let mut lines: Vec<Line<'_>> = rows.map(|row| asked.line(row, &mut notes)).collect();
-        if let Some(counts) = asked.counts() {
-            let cells = counts.into_iter().map(|count| Some(Cell::text(count)));
-            lines.push(fact_line("samples".to_owned(), cells.collect()));
-        }
-        if request.metrics.is_empty() {
-            enter_facts(studies, &mut lines);
-        }
-        let studies_of = || studies.iter().zip(&self.names).enumerate();
-        for line in &mut lines {
-            for (at, (study, name)) in studies_of() {
-                if line.cells[at].is_none() {
-                    let (word, reason) = absence(study, line.row, at);
-                    notes.add(word, &reason, name, &line.key);
-                    line.cells[at] = Some(Cell::text(word));
-                }
-            }
-        }
+        let (lines, notes) = asked.lines(studies, request);
         let columns = self.names.iter();
         let columns = columns.map(|name| Column::new(name.as_str()).align(Align::Right));
         let first = [Column::new("quantity").align(Align::Left)].into_iter();
-        let mut table = Table::new(asked.captioned("Values"), first.chain(columns));
+        let has_origins = lines.iter().any(|line| !line.origins.is_empty());
+        let last = has_origins.then(|| Column::new("origins").align(Align::Left));
+        let columns = first.chain(columns).chain(last);
+        let mut table = Table::new(asked.captioned("Values"), columns);
         for line in lines {
             let name = [Cell::Text(line.name)].into_iter();
-            table.push(name.chain(line.cells.into_iter().flatten()));
+            let cells = line.cells.into_iter().flatten();
+            let origins = has_origins.then(|| Cell::text(line.origins));
+            table.push(name.chain(cells).chain(origins));
         }
         for note in &notes.0 {
             table.note(note.sentence());
+        }
+        if has_origins {
+            table.note(origins::LEGEND);
         }
         if studies.iter().any(|study| study.source == "published") {
             table.note(
@@ -88,6 +97,31 @@ impl ScoreTable {
             );
         }
         table
+    }
+
+    /// All lines, with words for absent values, and the explanations of words and marks.
+    fn lines(&self, studies: &[Study], request: &CompareRequest) -> (Vec<Line<'_>>, Notes) {
+        let mut notes = Notes::default();
+        let rows = self.rows.iter();
+        let mut lines: Vec<Line<'_>> = rows.map(|row| self.line(row, &mut notes)).collect();
+        if let Some(counts) = self.counts() {
+            let cells = counts.into_iter().map(|count| Some(Cell::text(count)));
+            lines.push(fact_line("samples", "", cells.collect()));
+        }
+        if request.metrics.is_empty() {
+            enter_facts(studies, &mut lines);
+        }
+        for line in &mut lines {
+            line.origins = origins::of(studies, &line.quantity);
+            for (at, (study, name)) in studies.iter().zip(&self.names).enumerate() {
+                if line.cells[at].is_none() {
+                    let (word, reason) = absence(study, line.row, at);
+                    notes.add(word, &reason, name, &line.key());
+                    line.cells[at] = Some(Cell::text(word));
+                }
+            }
+        }
+        (lines, notes)
     }
 
     /// Rows that `request` selects.
@@ -107,6 +141,7 @@ impl ScoreTable {
     /// Line of a score, with notes on the marks of its values.
     fn line<'a>(&self, row: &'a ScoreRow, notes: &mut Notes) -> Line<'a> {
         let channel = named(&row.channel, row.unit);
+        let quantity = format!("{} {}", row.metric, row.channel);
         let key = format!("{} {}", row.metric, channel.plain());
         let mut cells = Vec::new();
         for (at, cell) in row.cells.iter().enumerate() {
@@ -121,9 +156,14 @@ impl ScoreTable {
         }
         Line {
             name: row.named(&channel),
-            key,
+            quantity,
+            unit: match row.unit {
+                Unit::One => String::new(),
+                unit => unit.to_string(),
+            },
             row: Some(row),
             cells,
+            origins: "",
         }
     }
 }
@@ -152,12 +192,16 @@ impl Notes {
 impl Note {
     /// `skipped: the sensor keeps light out (GelSight: r_light Fz).`
     fn sentence(&self) -> String {
+        let reason = &self.reason;
+        let is_untested = Standing::SkillUnknown.phrase() == Some(reason.as_str());
+        if self.word == UNPROVEN && is_untested {
+            return "‡: compared like other numbers, although no test shows that the predictions behind it are better than the mean of the labels.".to_owned();
+        }
         let word = match self.word {
             BARRED => "†, excluded from verdicts",
-            UNPROVEN => "‡, in verdicts with a mark",
+            UNPROVEN => "‡, compared with a reservation",
             word => word,
         };
-        let reason = &self.reason;
         if SEEN.contains(&self.word) {
             return format!("{word}: {reason}.");
         }
@@ -189,28 +233,29 @@ fn value(cell: &ScoreCell, source: &str, mark: &'static str) -> Cell {
 }
 
 /// A line of a fact.
-fn fact_line(key: String, cells: Vec<Option<Cell>>) -> Line<'static> {
-    let metric = key.split(' ').next().unwrap_or_default();
-    let name = Better::of(metric).map_or_else(|| key.clone(), |better| better.beside(&key));
-    Line {
-        name: Words::new(name),
-        key,
+fn fact_line(quantity: &str, unit: &str, cells: Vec<Option<Cell>>) -> Line<'static> {
+    let metric = quantity.split(' ').next().unwrap_or_default();
+    let mut line = Line {
+        name: Words::default(),
+        quantity: quantity.to_owned(),
+        unit: unit.to_owned(),
         row: None,
         cells,
-    }
+        origins: "",
+    };
+    let key = line.key();
+    line.name = Words::new(Better::of(metric).map_or(key.clone(), |better| better.beside(&key)));
+    line
 }
 
 /// Adds the facts of `studies` to the lines; several facts of one name share a cell.
 fn enter_facts(studies: &[Study], lines: &mut Vec<Line<'_>>) {
     for (at, study) in studies.iter().enumerate() {
         for fact in &study.facts {
-            let key = match fact.unit.as_str() {
-                "" => fact.name.clone(),
-                unit => format!("{} ({unit})", fact.name),
-            };
-            let found = lines.iter().position(|line| line.key == key);
+            let is_same = |line: &Line<'_>| line.quantity == fact.name && line.unit == fact.unit;
+            let found = lines.iter().position(is_same);
             let found = found.unwrap_or_else(|| {
-                lines.push(fact_line(key, vec![None; studies.len()]));
+                lines.push(fact_line(&fact.name, &fact.unit, vec![None; studies.len()]));
                 lines.len() - 1
             });
             let line = &mut lines[found];
@@ -226,12 +271,16 @@ fn enter_facts(studies: &[Study], lines: &mut Vec<Line<'_>>) {
 
 /// Short word for an absent value, and the reason for its absence.
 fn absence(study: &Study, row: Option<&ScoreRow>, at: usize) -> (&'static str, String) {
+    let published = || {
+        let reason = "the entry has none; a publication may have one";
+        (NOT_THERE, reason.to_owned())
+    };
     let Some(row) = row else {
-        let reason = match study.source.as_str() {
-            "published" => "the catalogue does not state it",
-            _ => "the result does not state it; `taceva catalogue show NAME` may",
+        let reason = "the result does not state it; `taceva catalogue show NAME` may";
+        return match study.source.as_str() {
+            "published" => published(),
+            _ => ("unknown", reason.to_owned()),
         };
-        return ("unknown", reason.to_owned());
     };
     let cell = row.cells.get(at).and_then(Option::as_ref);
     if let Some(reason) = cell.and_then(|cell| cell.formatted.reason.as_deref()) {
@@ -247,10 +296,7 @@ fn absence(study: &Study, row: Option<&ScoreRow>, at: usize) -> (&'static str, S
         return ("skipped", skip.reason.clone());
     }
     match study.source.as_str() {
-        "published" => (
-            "not published",
-            "the catalogue has no such number".to_owned(),
-        ),
+        "published" => published(),
         _ => ("not scored", "the result has no such score".to_owned()),
     }
 }

@@ -10,7 +10,7 @@ const GAP: usize = 2;
 impl Table {
     /// Text in lines of at most `width` characters: the columns that fit beside the first one, then the others below.
     ///
-    /// If no column fits beside the first one, each column is a list: its head, and one line for each row.
+    /// If no column fits beside the first one, each column is a list: its head, and one line for each row. A table without rows has no heads.
     ///
     /// ```
     /// use taceva_report::{Column, Table};
@@ -32,6 +32,7 @@ impl Table {
             caption => vec![wrapped(&escape::terminal(caption), width, 0)],
         };
         match fits {
+            _ if self.rows.is_empty() => {}
             true => parts.extend(
                 self.groups(&widths, width)
                     .iter()

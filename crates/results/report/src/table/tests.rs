@@ -54,6 +54,7 @@ fn a_table_without_rows_keeps_its_columns() {
     assert_eq!(table.csv(), "metric,better,value\n");
     assert_eq!(table.markdown(), "| metric | value |\n|---|---|\n");
     assert_eq!(table.text(), "metric  value\n");
+    assert_eq!(table.text_within(40), "");
 }
 
 #[test]

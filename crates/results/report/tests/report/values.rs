@@ -75,16 +75,21 @@ fn two_entries_of_the_catalogue_show_their_numbers_and_facts_and_what_is_not_pub
         "Values of 2 sensors, as published, without intervals."
     );
     assert_eq!(
-        row(&table, "mae Fz (N) ↓")[1..],
-        ["0.0361", "not published"]
+        row(&table, "mae Fz (N) ↓")[1..3],
+        ["0.0361", "not in the catalogue"]
     );
-    assert_eq!(row(&table, "intrinsic frame_rate (Hz)")[1..], ["25", "60"]);
+    let rate = row(&table, "intrinsic frame_rate (Hz)");
+    assert_eq!(rate[1..], ["25", "60", "other sources"]);
     assert_eq!(row(&table, "size (mm)")[2], "20 × 27 × 18");
-    assert!(row(&table, "price")[2].starts_with("15 USD, 2026-"));
+    let parts = "15 USD (parts of one sensor, of 1000 made), 2026-11-28";
+    assert_eq!(row(&table, "cost of parts")[2], parts);
+    let price = row(&table, "price");
+    assert!(price[1].starts_with("510 USD, "), "{price:?}");
+    assert_eq!(price[2], "not in the catalogue");
     assert_eq!(row(&table, "availability")[2], "bought; built");
     assert!(has_note(
         &table,
-        "not published: the catalogue has no such number."
+        "not in the catalogue: the entry has none; a publication may have one."
     ));
     assert!(has_note(&table, "taceva catalogue show NAME"));
     let only = values(
@@ -93,6 +98,44 @@ fn two_entries_of_the_catalogue_show_their_numbers_and_facts_and_what_is_not_pub
         false,
     );
     assert!(!only.text().contains("USD"), "{}", only.text());
+}
+
+#[test]
+fn published_numbers_of_one_row_say_whether_source_conditions_and_definition_are_the_same() {
+    let origins = |names: [&str; 2], quantity: &str| {
+        let cells = row(&values(&names.map(published), &[], false), quantity);
+        cells.last().cloned().expect("a cell")
+    };
+    let study = ["GelSight", "MagicTac"];
+    assert_eq!(origins(study, "mae Fz (N) ↓"), "one source");
+    assert_eq!(
+        origins(study, "intrinsic resolution (px)"),
+        "other conditions"
+    );
+    let others = ["GelSight", "DIGIT"];
+    assert_eq!(
+        origins(others, "intrinsic field_of_view (mm²)"),
+        "other sources"
+    );
+    assert_eq!(
+        origins(others, "intrinsic resolution (px)"),
+        "definitions differ"
+    );
+    let thick = ["ViTacTip", "PaXini DP-S1813-Elite"];
+    assert_eq!(
+        origins(thick, "intrinsic thickness (mm)"),
+        "definitions differ"
+    );
+    let table = values(&others.map(published), &[], false);
+    assert!(
+        has_note(&table, "`definitions differ`: not comparable"),
+        "{}",
+        table.text()
+    );
+    assert!(has_note(
+        &table,
+        "‡: compared like other numbers, although no test"
+    ));
 }
 
 #[test]
@@ -106,7 +149,7 @@ fn a_result_stands_beside_an_entry_of_the_catalogue() {
     );
     assert_eq!(row(&table, "mae Fz (N) ↓")[2], "0.0361");
     assert_eq!(row(&table, "intrinsic frame_rate (Hz)")[1], "not scored");
-    assert_eq!(row(&table, "intrinsic thickness (mm)")[1], "unknown");
+    assert_eq!(row(&table, "gel_thickness gel (mm)")[1], "unknown");
     assert_eq!(row(&table, "samples")[1..], ["80", "–"]);
     for words in ["not scored: the result has no such score.", "unknown: the "] {
         assert!(has_note(&table, words), "{words}: {}", table.text());

@@ -64,7 +64,7 @@ fn scores_of_the_same_bits_are_a_tie_on_the_page_in_the_overview_and_in_json() {
     assert_eq!(of("uniformity")["tied"], json!(["one", "two"]));
     assert_eq!(of("uniformity")["winner"], Value::Null);
     assert_eq!(of("mae")["tied"], json!([]));
-    assert_eq!(json["schema"], "taceva.comparison/2");
+    assert_eq!(json["schema"], "taceva.comparison/2.1");
 }
 
 #[test]
