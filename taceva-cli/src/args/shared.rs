@@ -61,7 +61,7 @@ pub(crate) struct SplitArgs {
     /// trains on every sample, for a final model; cv:K or loo, optionally followed by random, by-point, by-block or by-column:NAME, predict
     /// each sample once; for several recordings also by-recording[=train:A,B;test:C] and leave-one-recording-out, which fits a model for
     /// each [default: by-point where points have repeats, by groups or blocks of time where neighbours resemble each other, else random;
-    /// `evaluate` of fewer than 1,000 groups: cv:5 of these]
+    /// `evaluate` of 5 to 999 groups: cv:5 of these]
     #[arg(long, value_name = "SPLIT")]
     pub(crate) split: Option<String>,
     #[command(flatten)]

@@ -55,7 +55,8 @@ pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
 pub use merge::merge;
 pub use neighbours::Resemblance;
 pub use note::{
-    Coverage, Detection, Division, Independence, Learning, Neighbours, Note, PairedBy, SampleOrder,
+    Coverage, Detection, Division, FewClusters, Independence, Learning, Neighbours, Note, PairedBy,
+    SampleOrder,
 };
 pub use over_seeds::of as over_seeds;
 pub use plan::{Plan, Step};

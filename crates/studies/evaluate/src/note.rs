@@ -2,6 +2,7 @@
 
 mod detection;
 mod division;
+mod few_clusters;
 mod sentence;
 
 use std::fmt;
@@ -11,6 +12,7 @@ use taceva_dataset::{Extension, FramesInfo};
 
 pub use detection::Detection;
 pub use division::{Division, Independence, Neighbours, SampleOrder};
+pub use few_clusters::FewClusters;
 
 /// A note for the reader of scores; `Display` gives its sentence.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,8 +38,8 @@ pub enum Note {
         /// Least number of recordings for intervals by recording.
         least: usize,
     },
-    /// Number of contact points, too few for any interval.
-    FewPoints(usize),
+    /// Contact points or groups, too few for any interval.
+    FewClusters(FewClusters),
     /// Rows that were added to a recording later.
     Extended {
         /// The recording, if several were joined.

@@ -25,7 +25,7 @@ use common_model::together;
 
 /// Default number of folds.
 const COUNT: usize = 5;
-/// Number of groups below which one division scores too few, so that cross-validation is the default.
+/// Number of groups from which one division scores enough. Below it, cross-validation is the default, from one group a fold on.
 const GROUPS_MANY: usize = 1000;
 
 /// Divisions that together test every sample.
@@ -118,8 +118,8 @@ fn default_folds(dataset: &Dataset) -> Result<Option<FoldSpec>, EvaluateError> {
     let fields = SplitFields::of(dataset, &rows, &kind);
     let groups = spec.groups(&fields.input(rows.len()))?;
     let groups: BTreeSet<&String> = groups.iter().filter(|name| !name.is_empty()).collect();
-    // At least two groups in each fold, enough to learn from and to choose settings by.
-    let is_default = (2 * COUNT..GROUPS_MANY).contains(&groups.len());
+    // At least one group in each fold, so that intervals have their least number of groups.
+    let is_default = (COUNT..GROUPS_MANY).contains(&groups.len());
     Ok(is_default.then_some(spec))
 }
 

@@ -3,8 +3,10 @@
 use std::collections::BTreeSet;
 
 use taceva_dataset::Dataset;
+use taceva_metrics::LEAST_CLUSTERS;
+use taceva_models::{FoldGroups, SplitKind};
 
-use crate::note::Note;
+use crate::note::{FewClusters, Note};
 use crate::predict::Target;
 use crate::rows::DataPart;
 use taceva_results::ModelProvenance;
@@ -56,8 +58,43 @@ fn fitted_before(dataset: &Dataset, fitted_on: &str) -> Option<Note> {
     (rows < now).then_some(Note::FittedBefore { rows, now })
 }
 
-/// Note on too few contact points for any interval.
-pub(super) fn few_points(points: Option<&[String]>) -> Option<Note> {
-    let distinct: BTreeSet<&String> = points?.iter().collect();
-    (distinct.len() < 5).then_some(Note::FewPoints(distinct.len()))
+/// Note on too few groups, or contact points `points`, for any interval.
+pub(super) fn few_clusters(
+    dataset: &Dataset,
+    target: &Target,
+    points: Option<&[String]>,
+) -> Option<Note> {
+    let divided = target.divided.as_ref();
+    let groups = divided.and_then(|divided| divided.groups.as_deref());
+    let (scored, all) = match groups {
+        Some(groups) => (
+            distinct(target.rows.iter().map(|&row| &groups[row])),
+            distinct(groups),
+        ),
+        None => (
+            distinct(points?),
+            distinct(dataset.table().point_id().iter().flatten()),
+        ),
+    };
+    let kind = divided.map(|divided| &divided.spec.kind);
+    let by = match kind.filter(|_| groups.is_some()) {
+        Some(SplitKind::ByColumn(by)) => FoldGroups::Column(by.column.clone()),
+        Some(SplitKind::ByBlock) => FoldGroups::Blocks,
+        Some(SplitKind::Folds(folds)) => folds.by.clone(),
+        _ => FoldGroups::Points,
+    };
+    (scored < LEAST_CLUSTERS).then(|| {
+        Note::FewClusters(FewClusters {
+            takes_points: groups.is_some() && matches!(kind, Some(SplitKind::ByColumn(_))),
+            by,
+            scored,
+            all,
+        })
+    })
+}
+
+/// Number of distinct names among `names`, without empty ones.
+fn distinct<'a>(names: impl IntoIterator<Item = &'a String>) -> usize {
+    let names = names.into_iter().filter(|name| !name.is_empty());
+    names.collect::<BTreeSet<_>>().len()
 }

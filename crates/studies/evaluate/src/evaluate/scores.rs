@@ -8,7 +8,7 @@ use taceva_metrics::{MetricPlan, catalogue};
 use taceva_models::Model;
 use taceva_results::{ModelProvenance, Provenance, RecordingScores};
 
-use super::notes::few_points;
+use super::notes::few_clusters;
 use super::passes::Passes;
 use super::request::{Asked, Evaluated};
 use crate::assess::{Assessed, Context, FitFacts, ScoredRows, assess};
@@ -89,10 +89,10 @@ pub fn score(
     let evaluator = passes.run(dataset, predicted, &target.rows, jobs)?;
     let neighbours = divided.and_then(|divided| divided.neighbours.clone());
     let split = divided.and_then(|divided| divided.split.note.clone());
-    let are_points = independence.is_none() && groups.is_none();
-    let few_points = match clusters.is_some_and(Clusters::are_recordings) || !are_points {
+    let are_counted = independence.is_some() || clusters.is_some_and(Clusters::are_recordings);
+    let few = match are_counted {
         true => None,
-        false => few_points(predicted.points()),
+        false => few_clusters(dataset, target, predicted.points()),
     };
     let are_neighbours_learnt = matches!(
         neighbours,
@@ -106,7 +106,7 @@ pub fn score(
     notes.extend(split.map(Note::Split));
     notes.extend(independence.map(Note::Independent));
     notes.extend(clusters.map(Clusters::note));
-    notes.extend(few_points);
+    notes.extend(few);
     notes.extend(recordings::extended(dataset));
     notes.extend(recordings::reduced(dataset));
     notes.extend(recordings::depth_zeros(dataset));

@@ -27,11 +27,7 @@ impl fmt::Display for Note {
                 points,
                 least,
             } => clusters(*recordings, *points, *least, f),
-            Note::FewPoints(points) => write!(
-                f,
-                "scored on {}, too few for intervals; test on more of them: --split 'by-point 50/10/40'",
-                counted(*points, "contact point")
-            ),
+            Note::FewClusters(few) => write!(f, "{few}"),
             Note::Extended {
                 recording,
                 added,

@@ -21,16 +21,16 @@ use crate::taxel_drawing::Draws;
 use crate::taxels::WORK;
 
 /// Row of a synthetic recording.
-struct Row {
-    time_s: Option<f64>,
-    force: f64,
-    point: Option<String>,
-    unit: Option<String>,
-    values: Vec<f32>,
+pub(crate) struct Row {
+    pub(crate) time_s: Option<f64>,
+    pub(crate) force: f64,
+    pub(crate) point: Option<String>,
+    pub(crate) unit: Option<String>,
+    pub(crate) values: Vec<f32>,
 }
 
 /// A recording of sixteen taxels and a force.
-fn record(path: &Path, rows: impl IntoIterator<Item = Row>) -> Dataset {
+pub(crate) fn record(path: &Path, rows: impl IntoIterator<Item = Row>) -> Dataset {
     let info = SignalInfo::new(4, 4, 1, Unit::Microtesla).expect("sixteen");
     let facts = RecordingFacts::new(
         Source::Synthetic,
@@ -83,7 +83,7 @@ fn walks() -> Vec<Row> {
 }
 
 /// `count` presses of independent forces; the taxels sense the force with some noise.
-fn presses(count: usize) -> Vec<Row> {
+pub(crate) fn presses(count: usize) -> Vec<Row> {
     let mut draws = Draws(5);
     let mut row = |_| {
         let force = 5.0 + 5.0 * draws.next();
@@ -100,7 +100,7 @@ fn presses(count: usize) -> Vec<Row> {
     (0..count).map(&mut row).collect()
 }
 
-fn request(model: &str, split: Option<&str>) -> EvaluateRequest {
+pub(crate) fn request(model: &str, split: Option<&str>) -> EvaluateRequest {
     EvaluateRequest {
         model: ModelChoice::Fit(FitRequest {
             model: Models::builtin().find(model).expect("a model"),
@@ -116,7 +116,7 @@ fn request(model: &str, split: Option<&str>) -> EvaluateRequest {
     }
 }
 
-fn evaluated(dataset: &Dataset, model: &str, split: Option<&str>) -> Evaluated {
+pub(crate) fn evaluated(dataset: &Dataset, model: &str, split: Option<&str>) -> Evaluated {
     evaluate(dataset, &request(model, split), WORK).expect("evaluated")
 }
 
@@ -125,12 +125,12 @@ fn r2(evaluated: &Evaluated) -> f64 {
     score.value.number().expect("defined")
 }
 
-fn method(evaluated: &Evaluated) -> String {
+pub(crate) fn method(evaluated: &Evaluated) -> String {
     let score = evaluated.report.score("mae", "Fz").expect("scored");
     format!("{:?}", score.interval)
 }
 
-fn said(evaluated: &Evaluated) -> String {
+pub(crate) fn said(evaluated: &Evaluated) -> String {
     evaluated.report.provenance.notes.join("\n")
 }
 

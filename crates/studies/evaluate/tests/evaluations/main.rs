@@ -2,6 +2,7 @@
 
 mod angles;
 mod division;
+mod few_groups;
 mod networks;
 mod pairing;
 mod taxel_drawing;
