@@ -9,6 +9,7 @@ mod frame_plan;
 mod map;
 mod mapping;
 mod omissions;
+mod pattern_column;
 mod plan;
 mod references;
 mod resolve;

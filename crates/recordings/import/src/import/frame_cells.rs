@@ -1,6 +1,9 @@
 //! Cells of a row that name its frame.
 
+use std::borrow::Cow;
+
 use super::map::FrameNames;
+use super::pattern_column::{NumberForm, PatternColumn};
 use super::resolve::ResolvedTable;
 use crate::error::ImportError;
 
@@ -22,7 +25,7 @@ pub(super) enum FrameCells {
 
 pub(super) enum PatternPart {
     Text(String),
-    Cell(usize),
+    Cell(usize, NumberForm),
 }
 
 /// Name of a row's frame.
@@ -35,8 +38,8 @@ pub(super) enum FrameName {
 /// Joins texts and cells to a path.
 pub(super) fn filled<'c>(parts: &'c [PatternPart], cell: impl Fn(usize) -> &'c str) -> String {
     let texts = parts.iter().map(|part| match part {
-        PatternPart::Text(text) => text.as_str(),
-        PatternPart::Cell(column) => cell(*column),
+        PatternPart::Text(text) => Cow::Borrowed(text.as_str()),
+        PatternPart::Cell(column, form) => Cow::Owned(form.write(cell(*column))),
     });
     texts.collect()
 }
@@ -71,11 +74,12 @@ fn parts(pattern: &str, table: &ResolvedTable) -> Result<Vec<PatternPart>, Impor
     let mut parts = Vec::new();
     let mut rest = pattern;
     while let Some((text, after)) = rest.split_once('{') {
-        let (name, after) = after
+        let (column, after) = after
             .split_once('}')
             .ok_or_else(|| ImportError::path(pattern, "a `{` is never closed"))?;
         parts.push(PatternPart::Text(text.to_owned()));
-        parts.push(PatternPart::Cell(table.position(name)?));
+        let column = PatternColumn::parse(column);
+        parts.push(PatternPart::Cell(table.position(column.name)?, column.form));
         rest = after;
     }
     parts.push(PatternPart::Text(rest.to_owned()));

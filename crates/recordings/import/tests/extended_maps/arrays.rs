@@ -329,10 +329,12 @@ fn pictures_that_are_called_by_the_row_belong_to_one_table_alone() {
         "s1/labels.csv, line 2",
         "`images/0.png`",
         "s0/labels.csv: `{row}`",
-        "`{row}` in `pattern` starts at 0 in each of the 3 tables",
+        "`row` in `pattern` starts anew in each of the 3 tables",
     ] {
         assert!(problem.contains(expected), "{expected}: {problem}");
     }
+    let padded = planned(folder.path(), &map("{row:01}.png")).expect_err("refused");
+    assert!(padded.contains("starts anew in each"), "{padded}");
     // A column counts across all tables.
     planned(folder.path(), &map("{k}.png")).expect("planned");
 }

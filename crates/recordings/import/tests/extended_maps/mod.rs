@@ -7,6 +7,7 @@ mod codecs;
 mod joins;
 mod left_out;
 mod page;
+mod patterns;
 mod references;
 mod signals;
 mod stated;

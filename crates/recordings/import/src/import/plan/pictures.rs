@@ -8,6 +8,7 @@ use super::reading::Reading;
 use crate::error::{ImportError, Place};
 use crate::foreign::{ArrayPictures, ClipPictures, Pictures, SeveralPictures, TableForm};
 use crate::import::map::{FrameNames, OWN_ROW};
+use crate::import::pattern_column::PatternColumn;
 use crate::import::rows::MappedTable;
 use crate::import::source::matching_files;
 use taceva_dataset::internal::shown;
@@ -93,8 +94,12 @@ impl Reading<'_> {
         rows: &MappedTable<'_>,
     ) -> Result<(), ImportError> {
         let own = &mut self.views[view];
-        let is_by_row =
-            matches!(&own.map.names, FrameNames::Pattern(pattern) if pattern.contains("{row}"));
+        let is_by_row = match &own.map.names {
+            FrameNames::Pattern(pattern) => {
+                PatternColumn::all(pattern).any(|column| column.name == "row")
+            }
+            _ => false,
+        };
         if !is_by_row || rows.has_row_column || self.count < 2 {
             return Ok(());
         }
@@ -103,7 +108,7 @@ impl Reading<'_> {
             Some(first) if *first != self.current => Err(ImportError::path(
                 &inside,
                 format!(
-                    "already the picture of a row of {}: `{{row}}` in `pattern` starts at 0 in each of the {} tables; \
+                    "already the picture of a row of {}: `row` in `pattern` starts anew in each of the {} tables; \
                      replace it by a column that numbers the pictures of all of them, or put `{{path.NAME}}` before it",
                     shown(&self.folder.inside(first, "")),
                     self.count

@@ -1,6 +1,7 @@
 //! Column names in a map.
 
 use crate::import::map::{FrameNames, ImportMap};
+use crate::import::pattern_column::PatternColumn;
 
 /// Splits `ft[2,0]` into the column and the position in its cells; `None` for a name without position.
 pub(super) fn indexed(name: &str) -> Option<(&str, Vec<usize>)> {
@@ -58,9 +59,8 @@ pub(super) fn mentioned(map: &ImportMap) -> Vec<String> {
         names.push(map.drop.flag_column.clone());
     }
     let of_pattern = |pattern: &str| -> Vec<String> {
-        let parts = pattern.split('{').skip(1);
-        let parts = parts.filter_map(|part| part.split_once('}'));
-        parts.map(|(name, _)| name.to_owned()).collect()
+        let columns = PatternColumn::all(pattern);
+        columns.map(|column| column.name.to_owned()).collect()
     };
     for frame in &map.frames {
         names.extend(frame.reference_column.clone());

@@ -1,6 +1,6 @@
 //! Pictures of a table: the cells that name them, for each view.
 
-use std::path::Path;
+use std::path::{Component, Path};
 use std::sync::Arc;
 
 use super::MappedTable;
@@ -125,15 +125,39 @@ impl MappedTable<'_> {
         let rules = &self.map.drop.frames_named;
         let views = self.map.frames.iter().zip(&self.views);
         let reasons = views.filter_map(|(frame, view)| {
-            let FrameCells::Column(column) = view.cells else {
-                return None;
+            let cell = |column| self.table.cell(row, column);
+            let name = match &view.cells {
+                FrameCells::Column(column) => cell(*column).to_owned(),
+                FrameCells::Pattern(parts) => filled(parts, cell),
+                _ => return None,
             };
-            let name = self.table.cell(row, column);
             let of_view = frame.view.iter();
             let of_view: String = of_view.map(|view| format!(" of view {view}")).collect();
-            let is_named = rules.iter().any(|known| known == name);
-            is_named.then(|| format!("frame `{}`{of_view}", shown(name)))
+            let inside = self.base_of(frame).join(&name);
+            let is_named = rules
+                .iter()
+                .any(|known| *known == name || is_same(Path::new(known), &inside));
+            is_named.then(|| format!("frame `{}`{of_view}", shown(&name)))
         });
         reasons.collect()
     }
+
+    /// Folder of the pictures that the main table names, relative to the lab's folder.
+    fn base_of<'f>(&'f self, frame: &'f FrameMap) -> &'f Path {
+        match (&frame.folder, &self.map.form) {
+            (Some(folder), _) => Path::new(folder),
+            (None, TableForm::Files) => Path::new(""),
+            (None, _) => {
+                let table = Path::new(self.table.source());
+                table.parent().unwrap_or(table)
+            }
+        }
+    }
+}
+
+/// True if two relative paths lead to one file.
+fn is_same(one: &Path, other: &Path) -> bool {
+    let is_name = |part: &Component<'_>| *part != Component::CurDir;
+    let one = one.components().filter(is_name);
+    one.eq(other.components().filter(is_name))
 }
