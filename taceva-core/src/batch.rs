@@ -30,6 +30,7 @@ pub struct Batch {
     prediction: Vec<Column>,
     points: Option<Labels>,
     recordings: Option<Labels>,
+    samples: Option<Labels>,
     labels: BTreeMap<Field, Labels>,
     numbers: BTreeMap<Field, Column>,
 }
@@ -79,6 +80,7 @@ impl Batch {
             // If any row has no point, the whole batch has no clusters, as in `BatchBuilder`.
             points: points.filter(Labels::all_named),
             recordings: None,
+            samples: None,
             labels: BTreeMap::new(),
             numbers: BTreeMap::new(),
         }
@@ -122,6 +124,32 @@ impl Batch {
         }
     }
 
+    /// The same batch with the name of each sample, for intervals over single samples.
+    ///
+    /// # Panics
+    /// If the length differs from the number of rows.
+    ///
+    /// ```
+    /// use taceva_core::{Batch, Channel, Channels, Column, Labels};
+    /// let column = || vec![Column::full(vec![0.5])];
+    /// let mut samples = Labels::default();
+    /// samples.push("press 1");
+    /// let batch = Batch::from_columns(Channels::new([Channel::FZ])?, column(), column(), None).with_samples(samples);
+    /// assert_eq!(batch.samples().and_then(|samples| samples.get(0)), Some("press 1"));
+    /// # Ok::<(), taceva_core::ChannelError>(())
+    /// ```
+    #[must_use]
+    pub fn with_samples(self, samples: Labels) -> Batch {
+        assert!(
+            samples.index().len() == self.rows && samples.all_named(),
+            "a name for each row"
+        );
+        Batch {
+            samples: Some(samples),
+            ..self
+        }
+    }
+
     /// The same batch with the numbers of `field`: depth step, repeat, time in s, spacings in whole nm, intensity.
     ///
     /// # Panics
@@ -161,6 +189,7 @@ impl Batch {
             prediction: columns(&self.prediction),
             points: self.points.as_ref().map(labels),
             recordings: self.recordings.as_ref().map(labels),
+            samples: self.samples.as_ref().map(labels),
             labels: of_labels.map(|(field, of)| (*field, labels(of))).collect(),
             numbers: of_numbers
                 .map(|(field, of)| (*field, of.in_order(rows)))
@@ -240,6 +269,11 @@ impl Batch {
     /// The recording of each sample, if the batch combines several recordings.
     pub fn recordings(&self) -> Option<&Labels> {
         self.recordings.as_ref()
+    }
+
+    /// The name of each sample, if the batch carries them.
+    pub fn samples(&self) -> Option<&Labels> {
+        self.samples.as_ref()
     }
 
     /// The texts of `field`, if the batch carries them: scene, unit, phase, kind of grating or digest of the frame.

@@ -111,6 +111,7 @@ fn empty(channels: Channels, fields: FieldSet) -> Batch {
         prediction: columns,
         points: None,
         recordings: None,
+        samples: None,
         labels: labels.map(|field| (field, Labels::default())).collect(),
         numbers: numbers.map(|field| (field, Column::default())).collect(),
         channels,

@@ -85,7 +85,11 @@ impl<'a> BatchClusters<'a> {
                 self.recordings.get_or_init(find).as_ref()
             }
             ClusteredBy::Sample => {
-                let find = || Grouped::new(Cow::Owned(rows_as_clusters(self.batch)), self.seed);
+                let find = || {
+                    let named = self.batch.samples().map(Cow::Borrowed);
+                    let labels = named.unwrap_or_else(|| Cow::Owned(rows_as_clusters(self.batch)));
+                    Grouped::new(labels, self.seed)
+                };
                 Some(self.samples.get_or_init(find))
             }
         }

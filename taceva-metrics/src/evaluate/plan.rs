@@ -81,8 +81,9 @@ impl MetricPlan {
     /// cross-talk, bias by level and tolerance. Each of these intervals says `samples taken as independent`. Metrics that need to know
     /// which samples belong together keep contact points.
     ///
-    /// Presses at one location are not independent: such intervals would contain the truth too seldom (`docs/coverage.md`). Samples that
-    /// are equal in every channel share a cluster. More than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) clusters are assigned by hash to
+    /// Presses at one location are not independent: such intervals would contain the truth too seldom (`docs/coverage.md`). A cluster is
+    /// named by its sample ([`Batch::with_samples`](taceva_core::Batch::with_samples)). In a batch without these names, samples that are
+    /// equal in every channel share a cluster. More than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) clusters are assigned by hash to
     /// [`HASHED_CLUSTERS`](crate::HASHED_CLUSTERS). Scores therefore depend on the set of samples alone.
     ///
     /// ```

@@ -1,4 +1,4 @@
-//! Every sample as its own cluster.
+//! Every sample without a name as its own cluster.
 
 use taceva_core::{Batch, Column, Labels};
 

@@ -1,8 +1,8 @@
 //! Guarantees for programs that embed the crate.
 
 use taceva_metrics::{
-    Channel, Channels, Evaluation, Evaluator, FieldSet, InapplicableReason, MetricPlan, Readings,
-    Rows, Sample, SampleSink, UndefinedReason, Unit, Value, catalogue,
+    Batch, Channel, Channels, Column, Evaluation, Evaluator, FieldSet, InapplicableReason, Labels,
+    MetricPlan, Readings, Rows, Sample, SampleSink, UndefinedReason, Unit, Value, catalogue,
 };
 
 /// Predictions of 100 different samples, and their truth.
@@ -74,6 +74,29 @@ fn samples_taken_as_independent_give_the_same_in_any_order_and_split() {
         .expect("an interval");
     let expected = "jackknife, samples taken as independent, G=";
     assert!(method.starts_with(expected), "{method}");
+}
+
+#[test]
+fn the_interval_of_named_samples_depends_on_no_other_channel() {
+    let (truth, prediction) = drawn();
+    let column = |values: &[f64]| Column::full(values.to_vec());
+    let score = |channels: Vec<Channel>| {
+        let mut evaluator = Evaluator::of_channels(channels.clone()).expect("channels");
+        evaluator = evaluator.independent_samples();
+        let mut names = Labels::default();
+        (0..truth.len()).for_each(|row| names.push(&format!("press {row}")));
+        let columns = |values: &[f64]| vec![column(values); channels.len()];
+        let (truth, prediction) = (columns(&truth), columns(&prediction));
+        let channels = Channels::new(channels).expect("channels");
+        let batch = Batch::from_columns(channels, truth, prediction, None);
+        let updated = evaluator.update(&batch.with_samples(names));
+        updated.expect("its channels");
+        let scores = evaluator.finish().expect("scores");
+        format!("{:?}", scores.mae(Channel::FZ).expect("scored"))
+    };
+    let alone = score(vec![Channel::FZ]);
+    assert!(alone.contains("Jackknife"), "{alone}");
+    assert_eq!(alone, score(vec![Channel::PZ, Channel::FZ]));
 }
 
 #[test]

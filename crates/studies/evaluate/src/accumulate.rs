@@ -104,6 +104,11 @@ impl Rows for Columns<'_> {
         if plan.clustered_by() == ClusteredBy::Recording {
             batch = batch.with_recordings(recordings::labels(self.dataset, of_table()));
         }
+        if plan.clustered_by() == ClusteredBy::Sample {
+            let mut labels = Labels::default();
+            of_table().for_each(|row| labels.push(&table.samples()[row]));
+            batch = batch.with_samples(labels);
+        }
         if let (ClusteredBy::Group, Some(groups)) = (plan.clustered_by(), self.groups) {
             // The labels contain the recording, so that blocks of several shards stay distinct.
             let recording = self.dataset.digest().to_string();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use taceva_metrics::{
     ClusterSums, ComparisonError, Difference, Sides, SignFlip, TrainingSpread,
-    paired_over_trainings,
+    paired_over_trainings, plane_axes,
 };
 
 use crate::results::Study;
@@ -66,21 +66,32 @@ fn truth(study: &Study) -> Option<&str> {
 
 /// |truth − prediction| of each sample, by contact point.
 struct Errors<'a> {
-    /// Bits of the truth of each sample.
-    truths: BTreeMap<&'a str, u64>,
+    /// Bits of the truth of each sample, axis by axis.
+    truths: BTreeMap<&'a str, Vec<u64>>,
     sums: ClusterSums,
 }
 
 impl<'a> Errors<'a> {
-    /// Prediction errors of the samples of `score`, or the reason why they are unknown.
-    fn of(study: &'a Study, score: &Score) -> Result<Errors<'a>, &'static str> {
+    /// Prediction errors of the samples of `score`, or the reason why they are unknown. The error of a plane is the mean over its axes, as in its score.
+    fn of(study: &'a Study, score: &Score) -> Result<Errors<'a>, String> {
         let samples = study
             .samples
             .as_ref()
             .ok_or("a table of samples is missing beside the result")?;
-        let strange = "the score does not match the table of samples";
-        let channel = samples.channel(&score.channel).ok_or(strange)?;
-        let rows = scored(samples, channel, score.n).ok_or(strange)?;
+        let strange = || {
+            format!(
+                "the table of samples does not give the {} {}",
+                score.metric, score.channel
+            )
+        };
+        let axes = match plane_axes(&score.channel) {
+            Some(axes) => axes.to_vec(),
+            None => vec![score.channel.as_str()],
+        };
+        let channels = axes.into_iter().map(|axis| samples.channel(axis));
+        let channels: Vec<SampleChannel<'_>> =
+            channels.collect::<Option<_>>().ok_or_else(strange)?;
+        let rows = scored(samples, &channels, score.n).ok_or_else(strange)?;
         // Each sample counts as a point only if the interval of the score agrees.
         let is_alone = score
             .interval
@@ -91,7 +102,8 @@ impl<'a> Errors<'a> {
         let mut sums = ClusterSums::default();
         let (mut sum, mut count) = (0.0, 0.0);
         for row in rows {
-            let [truth, prediction] = channel.pair(row).ok_or(strange)?;
+            let pairs = channels.iter().map(|channel| channel.pair(row));
+            let pairs: Vec<[f64; 2]> = pairs.collect::<Option<_>>().ok_or_else(strange)?;
             let key = samples
                 .word(Samples::KEY, row)
                 .ok_or("sample names are missing in the table of samples")?;
@@ -100,27 +112,30 @@ impl<'a> Errors<'a> {
                 false => samples.word("point_id", row),
             };
             let point = point.ok_or("contact points are missing in the table of samples")?;
-            if truths.insert(key, truth.to_bits()).is_some() {
-                return Err("a sample occurs twice in the table of samples");
+            let truth: Vec<u64> = pairs.iter().map(|[truth, _]| truth.to_bits()).collect();
+            if truths.insert(key, truth).is_some() {
+                return Err("a sample occurs twice in the table of samples".to_owned());
             }
-            let error = (truth - prediction).abs();
-            sums.try_add(point, error).map_err(|_| strange)?;
+            let errors = pairs.iter().map(|[truth, found]| (truth - found).abs());
+            let error = errors.sum::<f64>() / pairs.len() as f64;
+            sums.try_add(point, error).map_err(|_| strange())?;
             sum += error;
             count += 1.0;
         }
-        let value = score.value.number().ok_or(strange)?;
+        let value = score.value.number().ok_or_else(strange)?;
         match (sum / count - value).abs() <= 1e-9 * sum / count {
             true => Ok(Errors { truths, sums }),
-            false => Err(strange),
+            false => Err(strange()),
         }
     }
 }
 
-/// Rows behind a score of `n` samples: all with a prediction, or those of the calibration.
-fn scored(samples: &Samples, channel: SampleChannel<'_>, n: u64) -> Option<Vec<usize>> {
+/// Rows behind a score of `n` samples: all with a prediction of each channel, or those of the calibration.
+fn scored(samples: &Samples, channels: &[SampleChannel<'_>], n: u64) -> Option<Vec<usize>> {
     let paired = |rows: Vec<usize>| -> Vec<usize> {
         let mut rows = rows;
-        rows.retain(|row| channel.pair(*row).is_some());
+        let is_paired = |row: usize| channels.iter().all(|channel| channel.pair(row).is_some());
+        rows.retain(|row| is_paired(*row));
         rows
     };
     let candidates = [

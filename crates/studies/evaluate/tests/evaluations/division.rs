@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use taceva_core::{
-    Channel, Channels, Clock, PressOutcome, Readings, Sample, SignalInfo, Signals, Stamp, Unit,
+    Batch, Channel, Channels, Clock, Column, Labels, PressOutcome, Readings, Sample, SignalInfo,
+    Signals, Stamp, Unit,
 };
 use taceva_dataset::{
     Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, SignalsSpec, Source,
@@ -14,7 +15,7 @@ use taceva_evaluate::{
     evaluate_plan,
 };
 use taceva_import::CsvTable;
-use taceva_metrics::Standing;
+use taceva_metrics::{Evaluator, Standing};
 use taceva_models::{ModelSettings, Models};
 
 use crate::taxel_drawing::Draws;
@@ -219,6 +220,31 @@ fn independent_presses_are_points_of_their_own_and_have_intervals() {
     let once = said(&found).matches("counts as one contact point").count();
     assert_eq!(once, 1, "{}", said(&found));
     assert_eq!(found.report.provenance.neighbours, None);
+}
+
+#[test]
+fn independent_samples_are_grouped_by_their_names() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let dataset = record(&folder.path().join("data"), presses(120));
+    let found = evaluated(&dataset, "ridge", None);
+    let samples = found.report.samples.as_ref().expect("samples");
+    let force = samples.channel("Fz").expect("there");
+    let rows = || 0..samples.rows();
+    let truth: Column = rows().map(|row| force.truth(row)).collect();
+    let prediction: Column = rows().map(|row| force.prediction(row)).collect();
+    let mut names = Labels::default();
+    rows().for_each(|row| names.push(samples.word("sample", row).expect("a name")));
+    let channels = Channels::new([Channel::FZ]).expect("one");
+    let batch = Batch::from_columns(channels, vec![truth], vec![prediction], None);
+    let mut evaluator = Evaluator::of_channels([Channel::FZ]).expect("one");
+    evaluator = evaluator.independent_samples();
+    let updated = evaluator.update(&batch.with_samples(names));
+    updated.expect("one channel");
+    let named = evaluator.finish().expect("scores");
+    let named = named.mae(Channel::FZ).expect("scored");
+    let score = found.report.score("mae", "Fz").expect("scored");
+    let interval = score.interval.as_ref().expect("an interval");
+    assert_eq!(interval.ends(), named.interval.ends());
 }
 
 #[test]

@@ -155,3 +155,53 @@ fn samples_that_are_taken_as_independent_are_paired_one_by_one() {
     let (test, _) = of_tables(alone("a", 0.25), alone("b", 0.5), ["sha256:1"; 2]);
     assert!(test.contains("sign"), "{test}");
 }
+
+/// A study of a shear force: errors of x are about `error`, those of y twice as large, and their mean is the score of the plane.
+fn sheared(sensor: &str, error: f64) -> Study {
+    let mut table = String::from("id,point_id,Fx,Fx_predicted,Fy,Fy_predicted\n");
+    let (mut sum, rows) = (0.0, 48);
+    for row in 0..rows {
+        let (truth, missed) = (f64::from(row), error * (1.0 + f64::from(row % 5) / 8.0));
+        sum += missed;
+        let [x, y] = [truth + missed, truth - 2.0 * missed];
+        table += &format!("s{row},p{},{truth},{x},{truth},{y}\n", row % 12);
+    }
+    let of = |times: f64| {
+        let mut mae = score(times * sum / f64::from(rows), 0.01, "N");
+        mae["n"] = rows.into();
+        mae
+    };
+    let scores = [
+        ("mae", "Fx", of(1.0)),
+        ("mae", "Fy", of(2.0)),
+        ("mae", "Fxy", of(1.5)),
+    ];
+    let mut study = study(sensor, &scores, &["Fx", "Fy", "Fxy"]);
+    study.samples = Some(Samples::read(&table).expect("samples"));
+    study.made.truth = Some("sha256:1".to_owned());
+    study
+}
+
+#[test]
+fn the_mean_over_a_plane_is_compared_sample_by_sample_as_its_axes_are() {
+    let comparison = of_metric(&[sheared("a", 0.25), sheared("b", 0.28)], "mae");
+    assert_eq!(comparison.answers.len(), 3);
+    for answer in &comparison.answers {
+        let difference = answer.difference.clone().expect("tested");
+        let test = difference.test.to_string();
+        assert!(test.contains("sign"), "{}: {test}", answer.channel);
+        assert_eq!(answer.better(), Some(0), "{}", answer.channel);
+    }
+    let notes = comparison.notes.join("\n");
+    assert!(!notes.contains("sample by sample"), "{notes}");
+}
+
+#[test]
+fn a_score_that_its_table_does_not_give_is_named() {
+    let mut stranger = sheared("b", 0.5);
+    stranger.samples = sheared("b", 0.75).samples;
+    let comparison = of_metric(&[sheared("a", 0.25), stranger], "mae");
+    let expected = "a and b predict the same truth but are not compared sample by sample: the table of samples does not give the mae Fxy of b";
+    let notes = &comparison.notes;
+    assert!(notes.iter().any(|note| note == expected), "{notes:?}");
+}
