@@ -51,7 +51,7 @@ pub fn find(name: &str) -> Option<Sensor> {
 pub fn hint(name: &str) -> String {
     match nearest(name) {
         Some(nearest) => format!("did you mean `{nearest}`? `taceva catalogue list` shows all"),
-        None => match alike(name).as_slice() {
+        None => match names_alike(name).as_slice() {
             [] => "`taceva catalogue list` shows all".to_owned(),
             names => format!(
                 "names that begin alike: {}; `taceva catalogue list` shows all",
@@ -65,7 +65,7 @@ pub fn hint(name: &str) -> String {
 const ALIKE: usize = 3;
 
 /// Names of entries that begin with the first letters of `name`.
-fn alike(name: &str) -> Vec<String> {
+fn names_alike(name: &str) -> Vec<String> {
     let start = |name: &str| name.to_lowercase().chars().take(ALIKE).collect::<String>();
     let wanted = start(name);
     let names = all().into_iter().map(|entry| entry.name);

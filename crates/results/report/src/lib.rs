@@ -49,7 +49,7 @@ pub use number::{FormattedValue, spaced, with_interval};
 pub use paper::{PaperForm, paper_form};
 pub use results::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, Fact, Made, ModelBench, ModelRow,
-    Stated, Study,
+    Statement, Study,
 };
 pub use scores::{ScoreCell, ScoreRow, ScoreTable};
 pub use short_digests::short_digests;

@@ -4,15 +4,15 @@ mod fact;
 mod model_bench;
 mod provenance;
 mod standing;
-mod stated;
+mod statement;
 
 pub use fact::Fact;
 pub use model_bench::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow,
 };
 pub(crate) use standing::by_published_r2;
-pub use stated::Stated;
-pub(crate) use stated::UNSTATED;
+pub use statement::Statement;
+pub(crate) use statement::UNSTATED;
 
 use taceva_metrics::{TrainingSpread, catalogue};
 use taceva_results::{EvaluationReport, OverSeeds, Provenance, ResultsError, Samples, Score, Skip};
@@ -36,7 +36,7 @@ pub struct Study {
     /// Published properties other than scores.
     pub facts: Vec<Fact>,
     /// Origins of the published numbers.
-    pub stated: Vec<Stated>,
+    pub statements: Vec<Statement>,
     /// Skipped metrics with the reasons.
     pub skipped: Vec<Skip>,
     /// Provenance as names and texts, in file order.
@@ -105,7 +105,7 @@ impl From<EvaluationReport> for Study {
             source: report.subject.source,
             scores: report.scores,
             facts: Vec::new(),
-            stated: Vec::new(),
+            statements: Vec::new(),
             skipped: report.skipped,
             provenance,
             made,

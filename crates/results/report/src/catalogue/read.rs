@@ -77,9 +77,10 @@ impl Sensor {
         }
         for result in &sensor.results {
             let expected = definition::of(&result.metric, &result.channel);
+            let is_left_open = definition::may_be_unstated(&result.metric) && !result.is_defined();
             if let Some(expected) = expected
                 && result.definition != expected
-                && !(definition::may_be_unstated(&result.metric) && !result.is_defined())
+                && !is_left_open
             {
                 // All numbers of a column have one definition.
                 return Err(refuse("definition", &result.definition, expected));

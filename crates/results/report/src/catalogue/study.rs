@@ -9,7 +9,7 @@ use super::entry::{Kind, Sensor};
 use super::facts::{SIZE, TESTED};
 use super::offer::Goods;
 use super::published::Published;
-use crate::results::{Fact, Made, PUBLISHED, Stated, Study, by_published_r2};
+use crate::results::{Fact, Made, PUBLISHED, Statement, Study, by_published_r2};
 use taceva_results::{Interval, Score};
 
 impl Sensor {
@@ -90,7 +90,7 @@ impl Sensor {
             source: "published".to_owned(),
             scores,
             facts: self.facts(),
-            stated: self.stated(),
+            statements: self.statements(),
             skipped: Vec::new(),
             provenance: sources.collect(),
             made: Made::default(),
@@ -140,16 +140,16 @@ impl Sensor {
 
 impl Sensor {
     /// Source, conditions and definition of each number, by the name of its row in tables.
-    fn stated(&self) -> Vec<Stated> {
+    fn statements(&self) -> Vec<Statement> {
         let text = |id: &str| {
             self.source(id)
                 .map_or_else(|| id.to_owned(), |of| of.text.clone())
         };
         let size = self.size.iter();
-        let size = size.map(|of| Stated::new("size", &text(&of.source), &of.conditions, SIZE));
+        let size = size.map(|of| Statement::new("size", &text(&of.source), &of.conditions, SIZE));
         let prices = self.prices.iter().map(|of| {
             let goods = of.goods;
-            Stated::new(
+            Statement::new(
                 goods.quantity(),
                 &text(&of.source),
                 &of.of,
@@ -159,12 +159,12 @@ impl Sensor {
         let limits = self.limits.iter().flat_map(|of| {
             let source = text(&of.source);
             of.rows().map(|(name, _, _, definition)| {
-                Stated::new(&format!("greatest {name}"), &source, TESTED, definition)
+                Statement::new(&format!("greatest {name}"), &source, TESTED, definition)
             })
         });
         let results = self.results.iter().map(|of| {
             let name = format!("{} {}", of.metric, of.channel);
-            Stated::new(&name, &text(&of.source), &of.conditions, &of.definition)
+            Statement::new(&name, &text(&of.source), &of.conditions, &of.definition)
         });
         size.chain(prices).chain(limits).chain(results).collect()
     }

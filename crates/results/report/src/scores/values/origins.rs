@@ -1,6 +1,6 @@
 //! Comparability of published numbers, by their sources, conditions and definitions.
 
-use crate::results::{Stated, Study, UNSTATED};
+use crate::results::{Statement, Study, UNSTATED};
 
 /// Meaning of the words.
 pub(super) const LEGEND: &str = "Origins of the published numbers of a row. `one source`: the same source, conditions and definition. \
@@ -9,13 +9,13 @@ pub(super) const LEGEND: &str = "Origins of the published numbers of a row. `one
 
 /// Word for the published numbers called `quantity`; empty for fewer than two sensors that have them.
 pub(super) fn of(studies: &[Study], quantity: &str) -> &'static str {
-    let named = |study: &&Study| study.stated.iter().any(|of| of.name == quantity);
+    let named = |study: &&Study| study.statements.iter().any(|of| of.name == quantity);
     if studies.iter().filter(named).count() < 2 {
         return "";
     }
-    let stated = studies.iter().flat_map(|study| &study.stated);
-    let stated: Vec<&Stated> = stated.filter(|of| of.name == quantity).collect();
-    let is_one = |part: fn(&Stated) -> &str| {
+    let stated = studies.iter().flat_map(|study| &study.statements);
+    let stated: Vec<&Statement> = stated.filter(|of| of.name == quantity).collect();
+    let is_one = |part: fn(&Statement) -> &str| {
         let mut pairs = stated.windows(2);
         pairs.all(|pair| part(pair[0]) == part(pair[1]))
     };

@@ -7,12 +7,12 @@ pub(crate) const UNSTATED: &str = "definition not stated by the source";
 ///
 /// ```
 /// let digit = taceva_report::catalogue::find("DIGIT").expect("there").as_study();
-/// let rate = digit.stated.iter().find(|of| of.name == "intrinsic frame_rate").expect("known");
+/// let rate = digit.statements.iter().find(|of| of.name == "intrinsic frame_rate").expect("known");
 /// assert_eq!(rate.definition, "pictures a second");
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Stated {
+pub struct Statement {
     /// Name of the quantity without its unit: `mae Fz`, `size`.
     pub name: String,
     /// Text of the source.
@@ -23,10 +23,10 @@ pub struct Stated {
     pub definition: String,
 }
 
-impl Stated {
+impl Statement {
     /// Origin of the number called `name`.
-    pub fn new(name: &str, source: &str, conditions: &str, definition: &str) -> Stated {
-        Stated {
+    pub fn new(name: &str, source: &str, conditions: &str, definition: &str) -> Statement {
+        Statement {
             name: name.to_owned(),
             source: source.to_owned(),
             conditions: conditions.to_owned(),
