@@ -104,7 +104,7 @@ pub(crate) struct Reseal {
     pub(crate) reason: String,
 }
 
-/// Every finding has a stable code, from TAC001 to TAC044, and a hint. `--explain` lists the checks and their defects: units, copies,
+/// Every finding has a stable code, from TAC001 to TAC045, and a hint. `--explain` lists the checks and their defects: units, copies,
 /// doubled and dropped frames, clocks that jump, lags, blank frames, saturation, leakage between parts, data that an import left out, and
 /// more. The exit code is 1 if a finding is an error.
 #[derive(Debug, Args)]

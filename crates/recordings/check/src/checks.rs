@@ -2,6 +2,7 @@
 
 mod angle_jumps;
 pub(crate) mod blank;
+mod byte_counts;
 mod changed_rest;
 mod channel_order;
 mod clipped_taxel;
@@ -42,7 +43,7 @@ mod zero_shift;
 use crate::finding::Check;
 
 /// Every check, in the order of its code.
-pub static ALL: [&Check; 38] = [
+pub static ALL: [&Check; 39] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -81,4 +82,5 @@ pub static ALL: [&Check; 38] = [
     &angle_jumps::CHECK,
     &import_warnings::CHECK,
     &equal_views::CHECK,
+    &byte_counts::CHECK,
 ];

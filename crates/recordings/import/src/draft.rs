@@ -173,8 +173,10 @@ fn are_beside(
     pictures: &FileGroup,
 ) -> bool {
     let has_pictures = frames::evidence(folder, groups, table) > 0;
-    let is_other =
-        table.is_single_array || (table.own_taxels().is_empty() && table.time().is_none());
+    let ending = table.group.ending.as_str();
+    let is_lone =
+        table.is_single_array || (table.columns.len() == 1 && matches!(ending, "npz" | "mat"));
+    let is_other = is_lone || (table.own_taxels().is_empty() && table.time().is_none());
     !has_pictures
         && is_other
         && table.channels() == 0

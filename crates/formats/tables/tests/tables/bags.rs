@@ -211,6 +211,16 @@ fn bags_of_other_versions_and_forms_are_refused_with_what_mends_them() {
         &at("newer.db3", &newer),
         &["offered_qos_overview", "ros2 bag convert"],
     );
+    // The only row of the table `schema`, whose number is its version.
+    let later = with(b"\x04\x03\0\x1brosbags", b"\x05\x03\0\x1brosbags");
+    refused(
+        &at("later.db3", &later),
+        &[
+            "rosbag2 schema version 5",
+            "up to 4 are read",
+            "ros2 bag convert",
+        ],
+    );
     let newer = with(b"CREATE TABLE metadata", b"CREATE TABLE metaDATA");
     assert!(read_all(&at("same.db3", &newer)).is_ok());
 

@@ -1,7 +1,8 @@
-//! Forces that freeze, and forces that are cut at a limit.
+//! Forces that freeze, forces that are cut at a limit, and forces of one byte.
 
 use taceva_check::CheckReport;
 
+use super::lab::{SENSOR, imported};
 use super::streams::{message, says_nothing};
 use super::{Recording, picture, readings};
 
@@ -101,4 +102,39 @@ fn a_force_that_is_zero_below_a_threshold_differs_from_rest_by_its_pictures() {
     // Rest, and the ends of presses.
     says_nothing(&of_presses(80, |force| force), "TAC027");
     says_nothing(&of_presses(0, |force| force), "TAC027");
+}
+
+/// A check of 120 forces of 0.1 N a count, of presses of 40 samples that the map names if `by_press`.
+fn in_counts(count: impl Fn(i32) -> i32, by_press: bool) -> CheckReport {
+    let rows = (0..120).map(|row| format!("{},{}\n", row / 40, count(row)));
+    let table = format!("press,counts\n{}", rows.collect::<String>());
+    let ids = match by_press {
+        true => "[ids]\npoint_id = \"press\"\n",
+        false => "",
+    };
+    let map = format!(
+        "map_version = 2\ntable = \"t.csv\"\n[columns]\nFz = {{ from = \"counts\", unit = \"N\", scale = 0.1 }}\n{ids}[time]\nclock = \"unknown\"\n{SENSOR}"
+    );
+    imported(&[("t.csv", table.into_bytes())], &map, &["TAC045"])
+}
+
+#[test]
+fn a_slow_force_that_begins_anew_above_one_byte_is_named_with_its_row() {
+    let unsigned = in_counts(|row| 3 * row % 256, false);
+    assert_eq!(
+        message(&unsigned, "TAC045"),
+        "Fz has at most 256 values, 0.100 N apart, and jumps by more than 200 of them between 1 pair of neighbouring samples, first in row \
+         87: forces beyond one byte may be stored without their upper byte"
+    );
+    let signed = in_counts(|row| (3 * row + 128) % 256 - 128, false);
+    assert!(message(&signed, "TAC045").contains("first in row 44"));
+}
+
+#[test]
+fn forces_of_two_bytes_fast_ones_and_those_of_other_presses_do_not_begin_anew() {
+    says_nothing(&in_counts(|row| 3 * row, false), "TAC045");
+    says_nothing(&in_counts(|row| 97 * row % 256, false), "TAC045");
+    let ramps = |row: i32| row % 40 * 6 + row / 40;
+    assert!(message(&in_counts(ramps, false), "TAC045").contains("2 pairs"));
+    says_nothing(&in_counts(ramps, true), "TAC045");
 }

@@ -7,6 +7,7 @@ mod coordinate_frames;
 mod drafts;
 mod held;
 mod lags;
+mod mean_pictures;
 mod numbers;
 mod packages;
 mod taxels;

@@ -14,7 +14,7 @@ use crate::taxels::WORK;
 
 /// Presses with a tip at all angles: the taxels sense the direction, and the force plus a zero offset of 0.5 N.
 fn table() -> String {
-    let mut text = "a,b,c,d,yaw,rx,ry,rz,fz\n".to_owned();
+    let mut text = "a,b,c,d,yaw,yaw_rad,rx,ry,rz,fz\n".to_owned();
     for number in 0..240_u32 {
         let yaw = (f64::from(number) * 23.7).rem_euclid(360.0) - 180.0;
         let force = match number {
@@ -25,8 +25,9 @@ fn table() -> String {
         let [rx, ry, rz] = [20.0 * cosine, 20.0 * sine, 2.0 * force * cosine];
         let _ = writeln!(
             text,
-            "{cosine},{sine},{force},{},{yaw},{rx},{ry},{rz},{}",
+            "{cosine},{sine},{force},{},{yaw},{},{rx},{ry},{rz},{}",
             cosine + sine,
+            yaw.to_radians(),
             force + 0.5
         );
     }
@@ -36,7 +37,7 @@ fn table() -> String {
 fn dataset(folder: &Path, yaw: &str, above: &str) -> Dataset {
     std::fs::write(folder.join("t.csv"), table()).expect("written");
     let map = format!(
-        "map_version = 2\ntable = \"t.csv\"\n{above}[columns]\nFz = {{ from = \"fz\", unit = \"N\" }}\nyaw = {{ from = \"yaw\", unit = \"deg\"{yaw} }}\n\
+        "map_version = 2\ntable = \"t.csv\"\n{above}[columns]\nFz = {{ from = \"fz\", unit = \"N\" }}\nyaw = {{ {yaw} }}\n\
          Rx = {{ from = \"rx\", unit = \"deg\" }}\nRy = {{ from = \"ry\", unit = \"deg\" }}\nRz = {{ from = \"rz\", unit = \"deg\" }}\n\
          [signals]\nfrom = [\"a\", \"b\", \"c\", \"d\"]\nunit = \"V\"\nplaces = [2, 2]\nchannels = [\"p\"]\norder = \"place-first\"\n\
          [zero]\nfrom = \"first 4\"\n[time]\nclock = \"unknown\"\n\
@@ -51,6 +52,11 @@ fn dataset(folder: &Path, yaw: &str, above: &str) -> Dataset {
 }
 
 fn evaluated(yaw: &str, above: &str) -> Evaluated {
+    evaluated_by(&format!("from = \"yaw\", unit = \"deg\"{yaw}"), above)
+}
+
+/// Evaluation with the yaw from this column of the map.
+fn evaluated_by(yaw: &str, above: &str) -> Evaluated {
     let folder = tempfile::tempdir().expect("a folder");
     let dataset = dataset(folder.path(), yaw, above);
     let request = EvaluateRequest {
@@ -82,6 +88,21 @@ fn a_yaw_all_around_has_small_errors_only_with_its_period_and_other_channels_do_
     assert!(number(&periodic, "r2", "yaw") > 0.99);
     assert!(number(&periodic, "skill", "yaw") > 0.99);
     assert!(number(&periodic, "mae", "Fz") < 0.1);
+}
+
+#[test]
+fn angles_in_radians_of_a_map_are_degrees_whose_period_is_in_degrees() {
+    let degrees = evaluated(", period = 360", "");
+    let radians = evaluated_by("from = \"yaw_rad\", unit = \"rad\", period = 360", "");
+    for metric in ["mae", "r2", "skill"] {
+        let [found, expected] = [&radians, &degrees].map(|of| number(of, metric, "yaw"));
+        assert!(
+            (found - expected).abs() < 1e-9,
+            "{metric}: {found} {expected}"
+        );
+    }
+    let score = radians.report.score("mae", "yaw").expect("scored");
+    assert_eq!(score.unit.symbol(), "deg");
 }
 
 #[test]

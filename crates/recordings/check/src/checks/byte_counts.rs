@@ -1,0 +1,90 @@
+//! TAC045: forces of one byte, which begin anew above its greatest count.
+
+use taceva_core::{Channel, Field, Unit, counted};
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC045",
+    name: "byte-counts",
+    looks_for: "forces in at most 256 whole counts that change slowly, but jump by more than 200 counts between neighbouring samples: one \
+        byte, which begins anew above its greatest count",
+    hint: "read both bytes of each force, or keep forces below 255 counts; drop the presses with such a jump",
+    reads: None,
+    find,
+};
+
+/// Minimum number of samples.
+const LEAST: usize = 20;
+/// Greatest count of one byte, from its least count, with room for rounding.
+const BYTE: f64 = 255.5;
+/// Minimum jump, in counts.
+const JUMP: f64 = 200.0;
+/// Greatest change of a slow force between neighbours, in counts. At most one change in `SHARE` may exceed it.
+const SLOW: f64 = 64.0;
+const SHARE: usize = 8;
+/// Rounding of values, in counts.
+const ROUNDING: f64 = 1e-3;
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let channels = evidence.table.channels().iter().enumerate();
+    let forces = channels.filter(|(_, channel)| channel.unit() == Unit::Newton);
+    forces
+        .filter_map(|(position, channel)| of_channel(evidence, position, channel))
+        .collect()
+}
+
+fn of_channel(evidence: &Evidence<'_>, position: usize, channel: &Channel) -> Option<Found> {
+    let column = evidence.table.truth(position);
+    let rows = (0..column.len()).filter_map(|row| Some((row, column.get(row)?)));
+    let rows: Vec<(usize, f64)> = rows.collect();
+    if rows.len() < LEAST {
+        return None;
+    }
+    let values: Vec<f64> = rows.iter().map(|(_, value)| *value).collect();
+    let count = count_of(&values)?;
+    let points = evidence.table.labels(Field::Point, 0..column.len())?;
+    // The next press begins where it likes.
+    let pairs = rows
+        .windows(2)
+        .filter(|pair| points.get(pair[0].0) == points.get(pair[1].0));
+    let changes: Vec<(usize, f64)> = pairs
+        .map(|pair| (pair[1].0, (pair[1].1 - pair[0].1).abs() / count))
+        .collect();
+    let fast = changes.iter().filter(|(_, change)| *change > SLOW).count();
+    let jumps = changes.iter().filter(|(_, change)| *change > JUMP);
+    let behind: Vec<usize> = jumps.map(|(row, _)| *row).collect();
+    let first = behind.first()?;
+    if fast * SHARE > changes.len() {
+        return None;
+    }
+    let message = format!(
+        "{channel} has at most 256 values, {count:.3} N apart, and jumps by more than {JUMP} of them between {} of neighbouring samples, first \
+         in row {}: forces beyond one byte may be stored without their upper byte",
+        counted(behind.len(), "pair"),
+        first + 1
+    );
+    Some(evidence.found(Severity::Warning, message, &behind))
+}
+
+/// Greatest step of which all differences of `values` are multiples. `None` unless more than [`JUMP`] and at most 255 of them span all values.
+fn count_of(values: &[f64]) -> Option<f64> {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let span = most - least;
+    let rounding = ROUNDING * span / BYTE;
+    let mut count = span;
+    for value in values {
+        let mut rest = value - least;
+        while rest > rounding {
+            let over = count % rest;
+            count = rest;
+            rest = if rest - over < rounding { 0.0 } else { over };
+        }
+        if span > BYTE * count {
+            return None;
+        }
+    }
+    (span > JUMP * count).then_some(count)
+}
