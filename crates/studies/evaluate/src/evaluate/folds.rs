@@ -1,5 +1,6 @@
 //! Cross-validation: a model fitted on the other groups, or recordings, predicts each group of samples, or each recording.
 
+mod by_default;
 mod common_model;
 
 use std::collections::BTreeSet;
@@ -15,18 +16,14 @@ use crate::cache::Cache;
 use crate::calibration_rows::PlannedRows;
 use crate::error::EvaluateError;
 use crate::fit::{FitPlan, FitRequest, Recipe};
-use crate::grouping::{Grouping, SplitFields};
+use crate::grouping::{Grouping, SplitFields, of_all_rows};
 use crate::note::Note;
 use crate::plan::Plan;
 use crate::predict::{self, Predicted, Target};
 use crate::rows::{DataPart, Divided};
 use crate::work::Work;
+use by_default::default_folds;
 use common_model::together;
-
-/// Default number of folds.
-const COUNT: usize = 5;
-/// Number of groups from which one division scores enough. Below it, cross-validation is the default, from one group a fold on.
-const GROUPS_MANY: usize = 1000;
 
 /// Divisions that together test every sample.
 pub(crate) struct Folds<'a> {
@@ -34,6 +31,8 @@ pub(crate) struct Folds<'a> {
     /// Division of all folds together.
     whole: Divided,
     folds: Vec<Fold>,
+    /// Group of every row of the dataset, if groups are of several samples; the empty text for a row without one.
+    groups: Option<Vec<String>>,
     are_recordings: bool,
 }
 
@@ -104,25 +103,6 @@ pub(crate) fn of_spec<'a>(
     .map(Some)
 }
 
-/// Default folds of a recording with few groups. `None` for a recording of a run, which its plan divides, and for joined recordings.
-fn default_folds(dataset: &Dataset) -> Result<Option<FoldSpec>, EvaluateError> {
-    if !dataset.recordings().is_empty() || PlannedRows::of(dataset)?.is_some() {
-        return Ok(None);
-    }
-    let rows = dataset.all_rows();
-    let spec = FoldSpec {
-        count: Some(COUNT),
-        by: Grouping::of(dataset, &rows).folds(),
-    };
-    let kind = SplitKind::Folds(spec.clone());
-    let fields = SplitFields::of(dataset, &rows, &kind);
-    let groups = spec.groups(&fields.input(rows.len()))?;
-    let groups: BTreeSet<&String> = groups.iter().filter(|name| !name.is_empty()).collect();
-    // At least one group in each fold, so that intervals have their least number of groups.
-    let is_default = (COUNT..GROUPS_MANY).contains(&groups.len());
-    Ok(is_default.then_some(spec))
-}
-
 impl<'a> Folds<'a> {
     fn of_recordings(
         dataset: &'a Dataset,
@@ -173,6 +153,7 @@ impl<'a> Folds<'a> {
             dataset,
             whole,
             folds,
+            groups: None,
             are_recordings: true,
         })
     }
@@ -203,6 +184,8 @@ impl<'a> Folds<'a> {
         let named = made.groups.iter().filter(|name| !name.is_empty());
         let named = named.collect::<BTreeSet<_>>().len();
         let (count, all) = (made.splits.len(), dataset.table().rows());
+        let are_several = folds.by != FoldGroups::Samples;
+        let groups_of_rows = are_several.then(|| of_all_rows(&made.groups, &rows, all));
         let mut tested: Vec<usize> = splits.iter().flat_map(|split| split.test.clone()).collect();
         tested.sort_unstable();
         let tested: Vec<usize> = tested.into_iter().map(|at| rows[at]).collect();
@@ -239,8 +222,14 @@ impl<'a> Folds<'a> {
             dataset,
             folds: folds.collect(),
             whole: divided(whole),
+            groups: groups_of_rows,
             are_recordings: false,
         })
+    }
+
+    /// Group of every row of the dataset that is left out as a whole; `None` for single samples and for recordings.
+    pub(crate) fn groups(&self) -> Option<&[String]> {
+        self.groups.as_deref()
     }
 
     /// Division of each fold.

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use taceva_core::{counted, shown};
+use taceva_models::FoldGroups;
 use taceva_results::OPTIMISTIC;
 
 /// Order that defines neighbouring samples.
@@ -86,7 +87,11 @@ pub(super) fn write(
         Division::Separated { beside, of } => write!(
             f,
             ", and {beside} of {of} test samples have a neighbour in the training part: {OPTIMISTIC}; divide with --split \
-             'cv:5 by-block'"
+             'cv:5 {}'",
+            match &found.column {
+                Some(name) => FoldGroups::Column(name.clone()),
+                None => FoldGroups::Blocks,
+            }
         ),
     }
 }
