@@ -107,3 +107,13 @@ fn a_cross_validated_fit_chooses_its_strength_by_the_groups_of_its_split() {
     let words = "N, with each sample left out in turn";
     assert!(of_all.contains(words), "{words}: {of_all}");
 }
+
+#[test]
+fn samples_whose_neighbours_resemble_each_other_are_not_independent() {
+    let bench = grasps(&["grasp"]);
+    bench.refused(
+        "evaluate data --model ridge --metrics mae --independent",
+        2,
+        "--independent: neighbours in the table resemble each other (Fz by ",
+    );
+}
