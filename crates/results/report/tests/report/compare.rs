@@ -2,6 +2,7 @@
 
 mod asked;
 mod pairs;
+mod splits;
 mod trainings;
 mod variants;
 
