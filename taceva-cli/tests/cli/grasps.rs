@@ -1,6 +1,10 @@
 //! Recordings of grasps, as groups that a column names.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
+use std::fs;
+
+use taceva_results::Samples;
 
 use crate::support::{Bench, Ran};
 
@@ -116,4 +120,26 @@ fn samples_whose_neighbours_resemble_each_other_are_not_independent() {
         2,
         "--independent: neighbours in the table resemble each other (Fz by ",
     );
+}
+
+#[test]
+fn files_of_a_cross_validation_state_the_group_and_the_fold_of_each_sample() {
+    let bench = grasps(&["grasp", "object"]);
+    let line = "taceva evaluate data --model ridge --metrics mae --split 'cv:5 by-column:object' --split-out split.json \
+                --samples-out samples.csv --format json --out result.json -q";
+    done(&bench, line);
+    let read = |name: &str| fs::read_to_string(bench.path(name)).expect("written");
+    let split: serde_json::Value = serde_json::from_str(&read("split.json")).expect("JSON");
+    let folds = split["folds"].as_array().expect("folds");
+    let sizes = folds.iter().map(|fold| fold.as_array().map_or(0, Vec::len));
+    assert_eq!(sizes.collect::<Vec<_>>(), [40; 5]);
+    let samples = Samples::read(&read("samples.csv")).expect("samples");
+    let mut fold_of = BTreeMap::new();
+    for row in 0..samples.rows() {
+        let group = samples.word(Samples::GROUP, row).expect("a group");
+        let fold = samples.word(Samples::FOLD, row).expect("a fold");
+        assert_eq!(*fold_of.entry(group).or_insert(fold), fold, "{group}");
+    }
+    let folds: BTreeSet<&str> = fold_of.values().copied().collect();
+    assert_eq!((fold_of.len(), folds.len()), (5, 5));
 }

@@ -148,6 +148,7 @@ impl<'a> Folds<'a> {
             neighbours: None,
             groups: None,
             are_independent: false,
+            folds: recordings.iter().map(|own| own.rows().collect()).collect(),
         };
         Ok(Folds {
             dataset,
@@ -189,6 +190,8 @@ impl<'a> Folds<'a> {
         let mut tested: Vec<usize> = splits.iter().flat_map(|split| split.test.clone()).collect();
         tested.sort_unstable();
         let tested: Vec<usize> = tested.into_iter().map(|at| rows[at]).collect();
+        let among = |split: &Split| split.test.iter().map(|&at| rows[at]).collect();
+        let tested_by_fold: Vec<Vec<usize>> = made.splits.iter().map(among).collect();
         let left_out = (0..all).filter(|row| tested.binary_search(row).is_err());
         let whole = Split {
             left_out: left_out.collect(),
@@ -206,6 +209,7 @@ impl<'a> Folds<'a> {
             neighbours: neighbours.clone(),
             groups: groups.clone(),
             are_independent,
+            folds: Vec::new(),
         };
         let folds = made
             .splits
@@ -221,7 +225,10 @@ impl<'a> Folds<'a> {
         Ok(Folds {
             dataset,
             folds: folds.collect(),
-            whole: divided(whole),
+            whole: Divided {
+                folds: tested_by_fold,
+                ..divided(whole)
+            },
             groups: groups_of_rows,
             are_recordings: false,
         })
