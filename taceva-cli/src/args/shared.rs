@@ -77,7 +77,7 @@ pub(crate) struct SeedArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SplitOutArgs {
-    /// Write the ids of the training, validation and test samples as JSON
+    /// Write the ids of the training, validation and test samples as JSON, and of the test samples of each fold
     #[arg(id = "split_out", long = "split-out", value_name = "SPLIT.json")]
     pub(crate) path: Option<PathBuf>,
 }
@@ -127,7 +127,7 @@ pub(crate) struct ScoringArgs {
     pub(crate) figures: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) figure: FigureArgs,
-    /// Write truth and prediction of every sample as CSV, for `taceva compare`
+    /// Write truth and prediction of every sample as CSV, with its group and fold, for `taceva compare`
     #[arg(long, value_name = "SAMPLES.csv")]
     pub(crate) samples_out: Option<PathBuf>,
     #[command(flatten)]

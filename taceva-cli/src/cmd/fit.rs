@@ -6,7 +6,9 @@ use taceva_core::{counted, shown};
 
 use anyhow::Context as _;
 use taceva_evaluate::{Effort, Fitted, fit_validated};
-use taceva_models::{Checkpoints, Foreign};
+use taceva_metrics::Standing;
+use taceva_models::{Checkpoints, ChosenBy, FoldGroups, Foreign, SplitKind, SplitSpec};
+use taceva_results::OPTIMISTIC;
 
 use super::{Context, cache, effort, fit_request, open_seen};
 use crate::args::Fit;
@@ -81,25 +83,45 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     if let Some(validation) = &card.provenance.validation {
         writeln!(
             out,
-            "validated by {}, seed {}: {}, each predicted by a model that had not seen its group",
+            "validated by {}, seed {}: {}, each predicted by a model that had not seen its {}",
             validation.split,
             validation.seed,
-            counted(validation.samples, "sample")
+            counted(validation.samples, "sample"),
+            held_out(&validation.split)
         )?;
+        let neighbours = validation.neighbours.as_deref();
+        let neighbours = neighbours.filter(|words| words.contains(OPTIMISTIC));
+        let standing = neighbours.and_then(|_| Standing::Neighbours.phrase());
+        let standing = standing.map_or_else(String::new, |phrase| format!("  {phrase}"));
+        if let Some(words) = neighbours {
+            writeln!(out, "warning  {words}")?;
+        }
         for score in &validation.scores {
             let interval = score.interval.map_or_else(String::new, |[low, high]| {
                 format!("  ({low:.4} … {high:.4})")
             });
             let (metric, channel) = (&score.metric, &score.channel);
-            writeln!(out, "  {metric} {channel}  {:.4}{interval}", score.value)?;
+            writeln!(
+                out,
+                "  {metric} {channel}  {:.4}{interval}{standing}",
+                score.value
+            )?;
         }
     }
+    if let Some(note) = fitted.divided.neighbours.as_ref().map(ToString::to_string)
+        && note.contains(OPTIMISTIC)
+    {
+        writeln!(out, "warning  {note}")?;
+    }
+    let split = card.provenance.validation.as_ref();
+    let split = split.map_or(&fitted.manifest.split, |validation| &validation.split);
+    let measured = measured_on(card.choice.by, &held_out(split));
     for (channel, choice) in card.channels.iter().zip(&card.choice.channels) {
         let setting = card.choice.setting.as_deref().zip(choice.value);
         let chosen =
             setting.map_or_else(String::new, |(name, value)| format!("  {name} {value:.3e}"));
         let error = choice.rmse.map_or_else(String::new, |rmse| {
-            format!("  rmse {rmse:.4} {}", channel.unit)
+            format!("  rmse {rmse:.4} {}{measured}", channel.unit)
         });
         let edge = if choice.at_edge {
             "  (at the edge of the tried range)"
@@ -125,4 +147,34 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
         )?;
     }
     writeln!(out, "wrote    {}", shown(&args.out))
+}
+
+/// What the cross-validation `split` leaves out together: `group of `object``.
+fn held_out(split: &str) -> String {
+    let by = match split.parse::<SplitSpec>().map(|spec| spec.kind) {
+        Ok(SplitKind::Folds(folds)) => folds.by,
+        Ok(SplitKind::ByColumn(by)) => FoldGroups::Column(by.column),
+        Ok(SplitKind::ByBlock) => FoldGroups::Blocks,
+        Ok(SplitKind::LeaveOneRecordingOut) => FoldGroups::Recordings,
+        _ => FoldGroups::Points,
+    };
+    match by {
+        FoldGroups::Column(name) => format!("group of `{}`", shown(&name)),
+        FoldGroups::Samples => "own label".to_owned(),
+        FoldGroups::Blocks => "block of time".to_owned(),
+        FoldGroups::Recordings => "recording".to_owned(),
+        FoldGroups::Points | FoldGroups::Detected => "contact point".to_owned(),
+    }
+}
+
+/// The samples of the error by which settings were chosen, in words.
+fn measured_on(by: ChosenBy, group: &str) -> String {
+    match by {
+        ChosenBy::Nobody | ChosenBy::Validation | ChosenBy::Likelihood => {
+            ", on the part `validation`".to_owned()
+        }
+        ChosenBy::LeaveOneGroupOut => format!(", with each {group} left out in turn"),
+        ChosenBy::LeaveOneOut => ", with each sample left out in turn".to_owned(),
+        ChosenBy::TenFolds => ", with each of ten folds left out in turn".to_owned(),
+    }
 }

@@ -151,7 +151,7 @@ impl Standing {
             ),
             Standing::NotAboveNoiseFloor => Some("More presses at each place would narrow this."),
             Standing::Neighbours => {
-                Some("A split by groups or blocks (--split by-block) avoids this.")
+                Some("Leave --split out: the default keeps neighbours together.")
             }
             Standing::LowStimulus => Some("Stronger light or more different presses avoid this."),
             Standing::Bounded => Some("A model fitted on a wider range of labels avoids this."),

@@ -26,6 +26,9 @@ pub struct SplitManifest {
     pub validation: Vec<String>,
     /// Ids of the test samples.
     pub test: Vec<String>,
+    /// Ids of the test samples of each fold; empty for one division.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub folds: Vec<Vec<String>>,
 }
 
 /// Number of samples in each part.
@@ -89,6 +92,13 @@ impl SplitManifest {
             train: of(Part::Train),
             validation: of(Part::Validation),
             test: of(Part::Test),
+            folds: Vec::new(),
         })
+    }
+
+    /// The same record with the ids of the test samples of each fold.
+    #[must_use]
+    pub fn with_folds(self, folds: Vec<Vec<String>>) -> SplitManifest {
+        SplitManifest { folds, ..self }
     }
 }

@@ -7,6 +7,7 @@ mod paired;
 mod remarks;
 mod render;
 mod request;
+mod splits;
 mod ties;
 
 pub(crate) use estimate::estimate as estimate_of;
@@ -287,7 +288,9 @@ fn pairs<'a>(
                     b: &names[b],
                 };
                 let of_studies = Sides { a: study, b: other };
-                let (difference, unpaired) = match comparability::barred(scores, of_both) {
+                let barred = comparability::barred(scores, of_both);
+                let barred = barred.or_else(|| splits::barred(of_studies, of_both));
+                let (difference, unpaired) = match barred {
                     Some(reason) => (Err(reason), None),
                     None => difference(scores, of_studies, of_both, request.seed),
                 };

@@ -8,7 +8,7 @@ use taceva_core::{Channel, Column, Unit, shown};
 use crate::formula::{escape_csv, unescape_csv};
 
 /// Columns of words.
-const WORDS: [&str; 9] = [
+const WORDS: [&str; 11] = [
     Samples::KEY,
     "recording",
     "protocol",
@@ -18,6 +18,8 @@ const WORDS: [&str; 9] = [
     "scene",
     "phase",
     "kind",
+    Samples::GROUP,
+    Samples::FOLD,
 ];
 /// Columns of numbers other than channels.
 const NUMBERS: [&str; 6] = [
@@ -87,6 +89,10 @@ pub enum SamplesError {
 impl Samples {
     /// Name of the id column in all tables that this program writes.
     pub const KEY: &'static str = "sample";
+    /// Name of the column of groups that a split keeps together.
+    pub const GROUP: &'static str = "group";
+    /// Name of the column of folds, from 1, each predicted by its own model.
+    pub const FOLD: &'static str = "fold";
 
     /// Samples called `ids` from the recordings in these folders.
     pub fn new(ids: Vec<Option<String>>, recordings: Vec<PathBuf>) -> Samples {

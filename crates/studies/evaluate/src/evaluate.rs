@@ -35,6 +35,7 @@ pub fn evaluate(
     request: &EvaluateRequest,
     work: Work<'_>,
 ) -> Result<Evaluated, EvaluateError> {
+    request.check_independence(dataset)?;
     match &request.model {
         ModelChoice::Fit(fit) => {
             // Checked first, so that an unknown metric does not cost a fit.

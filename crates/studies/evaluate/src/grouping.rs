@@ -231,12 +231,17 @@ impl SplitFields {
             (None, Some((_, cells))) if !is_by_point => cells,
             _ => return None,
         };
-        let mut groups = vec![String::new(); dataset.table().rows()];
-        for (row, name) in rows.iter().zip(names) {
-            groups[*row].clone_from(name);
-        }
-        Some(groups)
+        Some(of_all_rows(names, rows, dataset.table().rows()))
     }
+}
+
+/// The `names` of `rows` as names of all rows of a dataset; the empty text for other rows.
+pub(crate) fn of_all_rows(names: &[String], rows: &[usize], all: usize) -> Vec<String> {
+    let mut groups = vec![String::new(); all];
+    for (row, name) in rows.iter().zip(names) {
+        groups[*row].clone_from(name);
+    }
+    groups
 }
 
 /// Counts the tested samples of `split` with a neighbour in the training or validation part.

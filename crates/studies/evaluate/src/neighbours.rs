@@ -19,9 +19,10 @@ const DEVIATIONS: f64 = 3.5;
 const PAIRS_LEAST: usize = 20;
 /// Least number of groups for which a column is preferred to blocks of time.
 const GROUPS_LEAST: usize = 5;
-/// Names of columns whose values are groups, in order of preference.
-const GROUP_NAMES: [&str; 10] = [
-    "clip", "video", "episode", "take", "trial", "press", "repeat", "session", "run", "object",
+/// Parts of names of columns whose values are groups, in order of preference. The last is general, as a draft names groups of HDF5.
+const GROUP_NAMES: [&str; 12] = [
+    "clip", "video", "episode", "take", "trial", "press", "grasp", "repeat", "session", "run",
+    "object", "group",
 ];
 
 /// Resemblance of neighbouring samples, from the labels of a recording.

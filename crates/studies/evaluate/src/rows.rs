@@ -72,6 +72,8 @@ pub struct Divided {
     pub groups: Option<Vec<String>>,
     /// True if no contact point repeats and neighbours do not resemble each other, so that each sample counts as one contact point.
     pub are_independent: bool,
+    /// Tested rows of each fold; empty for one division.
+    pub folds: Vec<Vec<usize>>,
 }
 
 impl Divided {
@@ -189,6 +191,7 @@ impl Divided {
             neighbours,
             groups,
             are_independent,
+            folds: Vec::new(),
         })
     }
 
@@ -228,17 +231,15 @@ impl Divided {
         ))
     }
 
-    /// Sample names of each part.
+    /// Sample names of each part, and of each fold.
     ///
     /// # Errors
     /// [`EvaluateError::Split`] if `table` is not the divided table.
     pub fn manifest(&self, table: &Table) -> Result<SplitManifest, EvaluateError> {
-        Ok(SplitManifest::new(
-            &self.spec,
-            self.seed,
-            &self.split,
-            table.samples(),
-        )?)
+        let names = table.samples();
+        let named = |rows: &Vec<usize>| rows.iter().map(|&row| names[row].clone()).collect();
+        let manifest = SplitManifest::new(&self.spec, self.seed, &self.split, names)?;
+        Ok(manifest.with_folds(self.folds.iter().map(named).collect()))
     }
 
     /// Number of samples by part, for provenance.

@@ -9,7 +9,7 @@ use taceva_results::Samples;
 use crate::error::EvaluateError;
 use crate::predict::{Predicted, truth};
 use crate::recordings;
-use crate::rows::BESIDE_CHANNELS;
+use crate::rows::{BESIDE_CHANNELS, Divided};
 
 /// Samples of `rows` of `dataset`, in that order, without predictions.
 pub fn of(dataset: &Dataset, rows: &[usize]) -> Result<Samples, EvaluateError> {
@@ -32,6 +32,22 @@ pub fn of(dataset: &Dataset, rows: &[usize]) -> Result<Samples, EvaluateError> {
         samples.push_numbers(channel.name(), truth(dataset, channel, rows)?);
     }
     Ok(samples)
+}
+
+/// Adds the group and the fold of each of `rows`, if `divided` makes groups or folds.
+pub(crate) fn add_division(samples: &mut Samples, rows: &[usize], divided: &Divided) {
+    if let Some(groups) = &divided.groups {
+        let words = rows.iter().map(|&row| Some(groups[row].clone()));
+        samples.push_words(Samples::GROUP, words.collect());
+    }
+    if !divided.folds.is_empty() {
+        let mut fold: BTreeMap<usize, String> = BTreeMap::new();
+        for (number, tested) in (1_usize..).zip(&divided.folds) {
+            fold.extend(tested.iter().map(|&row| (row, number.to_string())));
+        }
+        let words = rows.iter().map(|row| fold.get(row).cloned());
+        samples.push_words(Samples::FOLD, words.collect());
+    }
 }
 
 /// Protocol phases of each of `rows`, such as `calibration light-sweep`.

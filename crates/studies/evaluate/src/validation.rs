@@ -7,14 +7,14 @@ use taceva_results::{EvaluationReport, Interval};
 use crate::cache::Cache;
 use crate::error::EvaluateError;
 use crate::evaluate::{EvaluateRequest, ModelChoice, folds};
-use crate::fit::{FitRequest, Fitted, fit};
+use crate::fit::{FitPlan, FitRequest, Fitted, fit};
 use crate::work::Work;
 
 /// Metrics in the card of a model.
 const METRICS: [&str; 2] = ["mae", "r2"];
 
 /// Fits like [`fit`]. If the split of `request` is a cross-validation, the models of the folds give scores on unseen samples. The final model is
-/// fitted on every sample and states those scores. Features are computed once.
+/// fitted on every sample and states those scores. Its settings are chosen by leaving out whole groups of the split. Features are computed once.
 ///
 /// # Errors
 /// As [`fit`] and [`evaluate`](crate::evaluate).
@@ -44,7 +44,15 @@ pub fn fit_validated(
         split: Some("all".to_owned()),
         ..request.clone()
     };
-    let fitted = fit(dataset, &of_all, checkpoints, work)?;
+    let mut plan = FitPlan::new(dataset, &of_all)?;
+    // As in the folds, settings are chosen by whole groups.
+    if let Some(groups) = folds.groups() {
+        plan.leave_out_groups(groups);
+    }
+    if let Some(checkpoints) = checkpoints {
+        plan.keep_checkpoints(checkpoints);
+    }
+    let fitted = plan.run(work)?;
     Ok(Fitted {
         model: fitted.model.with_validation(card(&report)),
         // Reused features of the folds are counted once.

@@ -21,8 +21,8 @@ pub struct Pick {
     pub error: f64,
 }
 
-/// The four worst and the four best predicted samples of a study. Each is from another contact point, because frames of one press or place fail
-/// alike. Fewer if there are few points; empty without samples.
+/// The four worst and the four best predicted samples of a study. Each is from another group of the split or contact point, because frames of one
+/// press or place fail alike. Fewer if there are few; empty without samples.
 pub fn picks(study: &Study) -> Vec<Pick> {
     let Some(samples) = &study.samples else {
         return Vec::new();
@@ -67,10 +67,11 @@ pub fn picks(study: &Study) -> Vec<Pick> {
     worst.chain(best.into_iter().map(pick(false))).collect()
 }
 
-/// Contact point of a sample; without one, each sample is its own point.
+/// Group of a sample, or its contact point; without both, each sample is its own.
 fn place(samples: &Samples, row: usize) -> Option<&str> {
     samples
-        .word("point_id", row)
+        .word(Samples::GROUP, row)
+        .or_else(|| samples.word("point_id", row))
         .or_else(|| samples.word(Samples::KEY, row))
 }
 

@@ -46,11 +46,20 @@ pub(super) fn section(report: &ReportPage<'_>) -> Option<(usize, Markup)> {
             card(samples, pick, at, &names[at], picture, place.as_ref())
         }));
     }
+    let mut samples = report
+        .studies
+        .iter()
+        .filter_map(|study| study.samples.as_ref());
+    let apart = match samples.any(|samples| samples.has(Samples::GROUP)) {
+        true => "group of the split",
+        false => "contact point",
+    };
     let sensors = names.iter().enumerate();
     let sensors = sensors.map(|(at, name)| (format!("s{at}"), name));
     let body = html! {
         p.note {
-            "The samples with the greatest and the smallest error among those that the model has not seen, each of a different contact point. The error is the mean over channels of |true − predicted| divided by the range of the true values. "
+            "The samples with the greatest and the smallest error among those that the model has not seen, each of a different "
+            (apart) ". The error is the mean over channels of |true − predicted| divided by the range of the true values. "
             "The circle is the same for all samples of a sensor; in it the true place (ring) and the predicted one (dot), with the shear force as a line from each."
         } "\n"
         fieldset {
@@ -77,6 +86,7 @@ fn card(
             p.error { "error " (numeral(pick.error * 100.0)) " % of the range" }
             p {
                 "sample " (middle_cut(&pick.id, 14))
+                @if let Some(group) = samples.word(Samples::GROUP, pick.row) { ", group " (middle_cut(group, 10)) }
                 @if let Some(point) = samples.word("point_id", pick.row) { ", point " (middle_cut(point, 10)) }
             }
             @if let Some(picture) = picture {

@@ -301,6 +301,24 @@ fn samples_that_are_shown_are_of_different_contact_points() {
 }
 
 #[test]
+fn samples_that_are_shown_are_of_different_groups_of_the_split() {
+    let mut studies = [drawn("one", 200, 1.0)];
+    let samples = studies[0].samples.as_mut().expect("samples");
+    let group = |row: usize| Some(format!("object {}", row % 6));
+    let groups = (0..samples.rows()).map(group).collect();
+    samples.push_words("group", groups);
+    let samples = studies[0].samples.as_ref().expect("samples");
+    let picked = picks(&studies[0]);
+    let groups = picked
+        .iter()
+        .filter_map(|pick| samples.word("group", pick.row));
+    let groups: std::collections::BTreeSet<&str> = groups.collect();
+    assert_eq!([picked.len(), groups.len()], [6, 6]);
+    let page = page(&studies);
+    assert!(page.contains("each of a different group of the split."));
+}
+
+#[test]
 fn scores_over_seeds_stand_on_the_page_where_there_are_any() {
     let mut result = support::results("seeded", 1.0);
     let without = support::read(&result).expect("a result");

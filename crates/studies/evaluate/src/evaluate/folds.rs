@@ -1,5 +1,6 @@
 //! Cross-validation: a model fitted on the other groups, or recordings, predicts each group of samples, or each recording.
 
+mod by_default;
 mod common_model;
 
 use std::collections::BTreeSet;
@@ -15,18 +16,14 @@ use crate::cache::Cache;
 use crate::calibration_rows::PlannedRows;
 use crate::error::EvaluateError;
 use crate::fit::{FitPlan, FitRequest, Recipe};
-use crate::grouping::{Grouping, SplitFields};
+use crate::grouping::{Grouping, SplitFields, of_all_rows};
 use crate::note::Note;
 use crate::plan::Plan;
 use crate::predict::{self, Predicted, Target};
 use crate::rows::{DataPart, Divided};
 use crate::work::Work;
+use by_default::default_folds;
 use common_model::together;
-
-/// Default number of folds.
-const COUNT: usize = 5;
-/// Number of groups from which one division scores enough. Below it, cross-validation is the default, from one group a fold on.
-const GROUPS_MANY: usize = 1000;
 
 /// Divisions that together test every sample.
 pub(crate) struct Folds<'a> {
@@ -34,6 +31,8 @@ pub(crate) struct Folds<'a> {
     /// Division of all folds together.
     whole: Divided,
     folds: Vec<Fold>,
+    /// Group of every row of the dataset, if groups are of several samples; the empty text for a row without one.
+    groups: Option<Vec<String>>,
     are_recordings: bool,
 }
 
@@ -104,25 +103,6 @@ pub(crate) fn of_spec<'a>(
     .map(Some)
 }
 
-/// Default folds of a recording with few groups. `None` for a recording of a run, which its plan divides, and for joined recordings.
-fn default_folds(dataset: &Dataset) -> Result<Option<FoldSpec>, EvaluateError> {
-    if !dataset.recordings().is_empty() || PlannedRows::of(dataset)?.is_some() {
-        return Ok(None);
-    }
-    let rows = dataset.all_rows();
-    let spec = FoldSpec {
-        count: Some(COUNT),
-        by: Grouping::of(dataset, &rows).folds(),
-    };
-    let kind = SplitKind::Folds(spec.clone());
-    let fields = SplitFields::of(dataset, &rows, &kind);
-    let groups = spec.groups(&fields.input(rows.len()))?;
-    let groups: BTreeSet<&String> = groups.iter().filter(|name| !name.is_empty()).collect();
-    // At least one group in each fold, so that intervals have their least number of groups.
-    let is_default = (COUNT..GROUPS_MANY).contains(&groups.len());
-    Ok(is_default.then_some(spec))
-}
-
 impl<'a> Folds<'a> {
     fn of_recordings(
         dataset: &'a Dataset,
@@ -168,11 +148,13 @@ impl<'a> Folds<'a> {
             neighbours: None,
             groups: None,
             are_independent: false,
+            folds: recordings.iter().map(|own| own.rows().collect()).collect(),
         };
         Ok(Folds {
             dataset,
             whole,
             folds,
+            groups: None,
             are_recordings: true,
         })
     }
@@ -203,9 +185,13 @@ impl<'a> Folds<'a> {
         let named = made.groups.iter().filter(|name| !name.is_empty());
         let named = named.collect::<BTreeSet<_>>().len();
         let (count, all) = (made.splits.len(), dataset.table().rows());
+        let are_several = folds.by != FoldGroups::Samples;
+        let groups_of_rows = are_several.then(|| of_all_rows(&made.groups, &rows, all));
         let mut tested: Vec<usize> = splits.iter().flat_map(|split| split.test.clone()).collect();
         tested.sort_unstable();
         let tested: Vec<usize> = tested.into_iter().map(|at| rows[at]).collect();
+        let among = |split: &Split| split.test.iter().map(|&at| rows[at]).collect();
+        let tested_by_fold: Vec<Vec<usize>> = made.splits.iter().map(among).collect();
         let left_out = (0..all).filter(|row| tested.binary_search(row).is_err());
         let whole = Split {
             left_out: left_out.collect(),
@@ -223,6 +209,7 @@ impl<'a> Folds<'a> {
             neighbours: neighbours.clone(),
             groups: groups.clone(),
             are_independent,
+            folds: Vec::new(),
         };
         let folds = made
             .splits
@@ -238,9 +225,18 @@ impl<'a> Folds<'a> {
         Ok(Folds {
             dataset,
             folds: folds.collect(),
-            whole: divided(whole),
+            whole: Divided {
+                folds: tested_by_fold,
+                ..divided(whole)
+            },
+            groups: groups_of_rows,
             are_recordings: false,
         })
+    }
+
+    /// Group of every row of the dataset that is left out as a whole; `None` for single samples and for recordings.
+    pub(crate) fn groups(&self) -> Option<&[String]> {
+        self.groups.as_deref()
     }
 
     /// Division of each fold.

@@ -17,6 +17,7 @@ use crate::rows::{DataPart, Divided};
 /// # Errors
 /// [`EvaluateError`] if the request is not valid.
 pub fn evaluate_plan(dataset: &Dataset, request: &EvaluateRequest) -> Result<Plan, EvaluateError> {
+    request.check_independence(dataset)?;
     let mut plan = Plan::default();
     let rows = counted(dataset.table().rows(), "row");
     plan.step("read", format!("{rows} of {}", shown(&dataset.path())));

@@ -1,9 +1,11 @@
 //! Requests and results of an evaluation.
 
-use taceva_dataset::SensorFile;
+use taceva_dataset::{Dataset, SensorFile};
 use taceva_models::{Model, SplitManifest};
 
+use crate::error::EvaluateError;
 use crate::fit::FitRequest;
+use crate::neighbours::Resemblance;
 use crate::rows::DataPart;
 use crate::state_file::StateFile;
 use taceva_results::EvaluationReport;
@@ -40,6 +42,20 @@ impl EvaluateRequest {
             part: self.part,
             sensor: self.sensor.as_ref(),
             is_independent: self.is_independent,
+        }
+    }
+
+    /// Rejects a statement of independence that the order of the samples contradicts.
+    pub(super) fn check_independence(&self, dataset: &Dataset) -> Result<(), EvaluateError> {
+        if !self.is_independent {
+            return Ok(());
+        }
+        match Resemblance::of(dataset, &dataset.all_rows()) {
+            Resemblance::Alike(found) => Err(EvaluateError::Request(format!(
+                "--independent: {found}, so samples depend on each other, and intervals over samples would be too narrow; leave \
+                 --independent out, or shuffle the rows and import them again if they were only sorted"
+            ))),
+            Resemblance::Apart | Resemblance::Unknown => Ok(()),
         }
     }
 }

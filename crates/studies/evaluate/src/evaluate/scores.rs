@@ -136,6 +136,9 @@ pub fn score(
         ..provenance::of(dataset)
     };
     let mut samples = samples::of(dataset, &target.rows)?;
+    if let Some(divided) = divided {
+        samples::add_division(&mut samples, &target.rows, divided);
+    }
     samples::add_predictions(&mut samples, &target.rows, predicted, &target.rows);
     let rows = ScoredRows::Accumulated {
         evaluator: Box::new(evaluator),

@@ -6,7 +6,6 @@ use taceva_core::{ErrorKind, Features, InputInfo};
 use taceva_models::{FeatureChoice, FeatureSpec, Model, ModelEstimator, OpenFeatures};
 
 use super::FitPlan;
-use super::training::groups;
 use crate::error::EvaluateError;
 use crate::features::kinds;
 use crate::work::Work;
@@ -96,7 +95,7 @@ impl FitPlan<'_> {
         self.losses(&model, &left_out, parts)
     }
 
-    /// Leaves out every third contact point, or the last third of the samples if there are too few points.
+    /// Leaves out every third contact point or group, or the last third of the samples if there are too few points.
     fn parts(&self) -> Result<Parts, EvaluateError> {
         let samples = self.train.len();
         if samples < RUNS * LEFT_OUT_OF {
@@ -106,7 +105,7 @@ impl FitPlan<'_> {
             )));
         }
         let is_left_out = |number: u32| number as usize % LEFT_OUT_OF == LEFT_OUT_OF - 1;
-        let points = groups(self.dataset, &self.train).filter(|points| {
+        let points = self.groups_of(&self.train).filter(|points| {
             let left_out = points.iter().filter(|number| is_left_out(**number));
             left_out.collect::<BTreeSet<_>>().len() >= POINTS_LEAST
         });

@@ -35,6 +35,8 @@ pub struct FitPlan<'a> {
     pub train: Vec<usize>,
     /// Rows to choose settings by.
     pub validation: Vec<usize>,
+    /// Group of every row of the dataset, left out as a whole to choose settings; `None` for contact points.
+    pub(super) groups: Option<Vec<String>>,
     pub(super) left_out: usize,
 }
 
@@ -117,6 +119,7 @@ impl<'a> FitPlan<'a> {
             open: open.filter(|_| model_reads),
             closer,
             channels,
+            groups: divided.groups.clone(),
             divided,
             train,
             validation,
@@ -181,6 +184,11 @@ impl<'a> FitPlan<'a> {
                 }
             ),
         );
+    }
+
+    /// Leaves out whole `groups` to choose settings; one name for every row of the dataset.
+    pub(crate) fn leave_out_groups(&mut self, groups: &[String]) {
+        self.groups = Some(groups.to_vec());
     }
 
     /// Stores checkpoints of a long training in `checkpoints`, and resumes from an existing one.

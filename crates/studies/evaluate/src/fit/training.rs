@@ -93,7 +93,7 @@ impl FitPlan<'_> {
         let (spec, input, (train_features, held_features)) = parts(seen);
         let closer = closer.map(parts);
         let (train_labels, held_labels) = (self.labels(&train), self.labels(&self.validation));
-        let groups = groups(self.dataset, &train);
+        let groups = self.groups_of(&train);
         let set = |features, values, groups| {
             TrainingSet::new(features, Targets::new(&self.channels, values)).with_groups(groups)
         };
@@ -118,6 +118,23 @@ impl FitPlan<'_> {
                 Model::fit_closer(whole, closer, work.progress)?
             }
         })
+    }
+
+    /// Number of the group, or of the contact point, of each row; `None` if a row has no contact point.
+    pub(super) fn groups_of(&self, rows: &[usize]) -> Option<Vec<u32>> {
+        let points = self.dataset.table().point_id();
+        let name = |row: usize| match &self.groups {
+            Some(groups) => Some(groups[row].as_str()),
+            None => points[row].as_deref(),
+        };
+        let mut numbers: BTreeMap<&str, u32> = BTreeMap::new();
+        rows.iter()
+            .map(|&row| {
+                let name = name(row)?;
+                let next = u32::try_from(numbers.len()).ok()?;
+                Some(*numbers.entry(name).or_insert(next))
+            })
+            .collect()
     }
 
     pub(super) fn labels(&self, rows: &[usize]) -> Vec<f64> {
@@ -177,17 +194,4 @@ impl FitPlan<'_> {
             validation: None,
         }
     }
-}
-
-/// Number of the contact point of each row; `None` if a row has none.
-pub(super) fn groups(dataset: &Dataset, rows: &[usize]) -> Option<Vec<u32>> {
-    let points = dataset.table().point_id();
-    let mut numbers: BTreeMap<&str, u32> = BTreeMap::new();
-    rows.iter()
-        .map(|&row| {
-            let point = points[row].as_deref()?;
-            let next = u32::try_from(numbers.len()).ok()?;
-            Some(*numbers.entry(point).or_insert(next))
-        })
-        .collect()
 }

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use taceva_core::{counted, shown};
+use taceva_models::FoldGroups;
 use taceva_results::OPTIMISTIC;
 
 /// Order that defines neighbouring samples.
@@ -59,21 +60,27 @@ pub enum Independence {
     Found,
 }
 
+impl fmt::Display for Neighbours {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let order = match self.order {
+            SampleOrder::Time => "in time",
+            SampleOrder::Table => "in the table",
+        };
+        write!(
+            f,
+            "neighbours {order} resemble each other ({} by {:.2}, where 1 is equal and 0 independent)",
+            self.channel, self.resemblance
+        )
+    }
+}
+
 /// Writes the findings and the division as one sentence.
 pub(super) fn write(
     found: &Neighbours,
     division: &Division,
     f: &mut fmt::Formatter<'_>,
 ) -> fmt::Result {
-    let order = match found.order {
-        SampleOrder::Time => "in time",
-        SampleOrder::Table => "in the table",
-    };
-    write!(
-        f,
-        "neighbours {order} resemble each other ({} by {:.2}, where 1 is equal and 0 independent)",
-        found.channel, found.resemblance
-    )?;
+    write!(f, "{found}")?;
     match division {
         Division::Blocks { count, gap } => write!(
             f,
@@ -86,7 +93,11 @@ pub(super) fn write(
         Division::Separated { beside, of } => write!(
             f,
             ", and {beside} of {of} test samples have a neighbour in the training part: {OPTIMISTIC}; divide with --split \
-             'cv:5 by-block'"
+             'cv:5 {}'",
+            match &found.column {
+                Some(name) => FoldGroups::Column(name.clone()),
+                None => FoldGroups::Blocks,
+            }
         ),
     }
 }

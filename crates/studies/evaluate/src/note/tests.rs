@@ -116,3 +116,27 @@ fn a_detection_limit_names_the_presses_that_it_stands_on_or_the_reason_that_ther
     );
     assert_eq!(said(&[score("mae", Some(0.1))]), None);
 }
+
+#[test]
+fn separated_neighbours_are_kept_together_by_the_column_of_their_groups() {
+    let note = |column: Option<&str>| {
+        let found = Neighbours {
+            channel: "Fz".to_owned(),
+            resemblance: 0.99,
+            lag: 5,
+            order: SampleOrder::Table,
+            column: column.map(str::to_owned),
+        };
+        let division = Division::Separated {
+            beside: 662,
+            of: 696,
+        };
+        Note::Neighbours { found, division }.to_string()
+    };
+    let by_object = note(Some("object"));
+    assert!(
+        by_object.ends_with("--split 'cv:5 by-column:object'"),
+        "{by_object}"
+    );
+    assert!(note(None).ends_with("--split 'cv:5 by-block'"));
+}

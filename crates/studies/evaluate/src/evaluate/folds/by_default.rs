@@ -1,0 +1,34 @@
+//! Folds of a recording whose split is not named.
+
+use std::collections::BTreeSet;
+
+use taceva_dataset::Dataset;
+use taceva_models::{FoldSpec, SplitKind};
+
+use crate::calibration_rows::PlannedRows;
+use crate::error::EvaluateError;
+use crate::grouping::{Grouping, SplitFields};
+
+/// Default number of folds.
+const COUNT: usize = 5;
+/// Number of groups from which one division scores enough. Below it, cross-validation is the default, from one group a fold on.
+const GROUPS_MANY: usize = 1000;
+
+/// Default folds of a recording with few groups. `None` for a recording of a run, which its plan divides, and for joined recordings.
+pub(super) fn default_folds(dataset: &Dataset) -> Result<Option<FoldSpec>, EvaluateError> {
+    if !dataset.recordings().is_empty() || PlannedRows::of(dataset)?.is_some() {
+        return Ok(None);
+    }
+    let rows = dataset.all_rows();
+    let spec = FoldSpec {
+        count: Some(COUNT),
+        by: Grouping::of(dataset, &rows).folds(),
+    };
+    let kind = SplitKind::Folds(spec.clone());
+    let fields = SplitFields::of(dataset, &rows, &kind);
+    let groups = spec.groups(&fields.input(rows.len()))?;
+    let groups: BTreeSet<&String> = groups.iter().filter(|name| !name.is_empty()).collect();
+    // At least one group in each fold, so that intervals have their least number of groups.
+    let is_default = (COUNT..GROUPS_MANY).contains(&groups.len());
+    Ok(is_default.then_some(spec))
+}

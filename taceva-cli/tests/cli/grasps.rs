@@ -1,0 +1,145 @@
+//! Recordings of grasps, as groups that a column names.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::fs;
+
+use taceva_results::Samples;
+
+use crate::support::{Bench, Ran};
+
+const MAP: &str = r#"map_version = 2
+table = "grasps.csv"
+[columns]
+Fz = { from = "fz", unit = "N" }
+[signals]
+from = "c0..15"
+unit = "uT"
+places = [4, 4]
+channels = ["p"]
+order = "place-first"
+[time]
+clock = "unknown"
+[attributes]
+COLUMNS
+[sensor]
+model = "lab hand"
+serial = "unknown"
+gel = "unknown"
+opaque = "unknown"
+"#;
+
+/// Ten grasps of five objects: the force rises in each from another start, and half of the taxels sense it.
+fn grasps(columns: &[&str]) -> Bench {
+    let bench = Bench::new();
+    let mut table = String::from("fz,grasp,object");
+    (0..16).for_each(|at| write!(table, ",c{at}").expect("written"));
+    for grasp in 0..10 {
+        for row in 0..20 {
+            let force = f64::from(grasp * 7 % 10) * 2.0 + f64::from(row) * 0.08;
+            let object = grasp / 2;
+            write!(table, "\n{force:.2},g{grasp},o{object}").expect("written");
+            for at in 0..16_i32 {
+                let own = f64::from((grasp * 5 + row * 3 + at * 11) % 17);
+                write!(table, ",{:.2}", force * f64::from(at % 2) + own).expect("written");
+            }
+        }
+    }
+    table.push('\n');
+    let lines = columns.iter().map(|pair| {
+        let (name, from) = pair.split_once('=').unwrap_or((pair, pair));
+        format!("{name} = \"{from}\"")
+    });
+    let lines: Vec<String> = lines.collect();
+    bench.write("lab/grasps.csv", &table);
+    bench.write("lab/map.toml", &MAP.replace("COLUMNS", &lines.join("\n")));
+    bench.ok("import lab --map lab/map.toml --out data -q");
+    bench
+}
+
+fn done(bench: &Bench, line: &str) -> String {
+    let Ran { code, out, err } = bench.shell(line);
+    assert_eq!(code, 0, "{line}\n{out}{err}");
+    out
+}
+
+#[test]
+fn columns_called_grasp_and_group_name_the_groups_of_the_default_split() {
+    for (columns, expected) in [
+        (&["grasp"][..], "cv:5 by-column:grasp"),
+        (&["group=grasp"][..], "cv:5 by-column:group"),
+        (&["group=grasp", "object"][..], "cv:5 by-column:object"),
+        (&["grasp", "object"][..], "cv:5 by-column:grasp"),
+    ] {
+        let report = grasps(columns).json("evaluate data --model ridge --metrics mae");
+        assert_eq!(report["provenance"]["split"], expected, "{columns:?}");
+    }
+}
+
+#[test]
+fn a_fit_validated_at_random_says_that_neighbours_were_learnt() {
+    let bench = grasps(&["grasp"]);
+    let said = bench.ok("fit data --model ridge --split random --out one.taceva");
+    assert!(said.contains("the scores are optimistic"), "{said}");
+    let line = "taceva fit data --model ridge --split 'cv:5 random' --out m.taceva";
+    let said = done(&bench, line);
+    for words in [
+        "a model that had not seen its own label",
+        "the scores are optimistic; divide with --split 'cv:5 by-column:grasp'",
+        "tested on neighbours of training samples",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+}
+
+#[test]
+fn a_cross_validated_fit_chooses_its_strength_by_the_groups_of_its_split() {
+    let bench = grasps(&["grasp", "object"]);
+    let fitted = |split: &str, out: &str| {
+        let line = format!("taceva fit data --model ridge --split '{split}' --out {out}.taceva");
+        done(&bench, &line)
+    };
+    let by_object = fitted("cv:5 by-column:object", "object");
+    for words in [
+        "a model that had not seen its group of `object`",
+        "N, with each group of `object` left out in turn",
+    ] {
+        assert!(by_object.contains(words), "{words}: {by_object}");
+    }
+    assert!(!by_object.contains("optimistic"), "{by_object}");
+    let of_all = fitted("all", "all");
+    let words = "N, with each sample left out in turn";
+    assert!(of_all.contains(words), "{words}: {of_all}");
+}
+
+#[test]
+fn samples_whose_neighbours_resemble_each_other_are_not_independent() {
+    let bench = grasps(&["grasp"]);
+    bench.refused(
+        "evaluate data --model ridge --metrics mae --independent",
+        2,
+        "--independent: neighbours in the table resemble each other (Fz by ",
+    );
+}
+
+#[test]
+fn files_of_a_cross_validation_state_the_group_and_the_fold_of_each_sample() {
+    let bench = grasps(&["grasp", "object"]);
+    let line = "taceva evaluate data --model ridge --metrics mae --split 'cv:5 by-column:object' --split-out split.json \
+                --samples-out samples.csv --format json --out result.json -q";
+    done(&bench, line);
+    let read = |name: &str| fs::read_to_string(bench.path(name)).expect("written");
+    let split: serde_json::Value = serde_json::from_str(&read("split.json")).expect("JSON");
+    let folds = split["folds"].as_array().expect("folds");
+    let sizes = folds.iter().map(|fold| fold.as_array().map_or(0, Vec::len));
+    assert_eq!(sizes.collect::<Vec<_>>(), [40; 5]);
+    let samples = Samples::read(&read("samples.csv")).expect("samples");
+    let mut fold_of = BTreeMap::new();
+    for row in 0..samples.rows() {
+        let group = samples.word(Samples::GROUP, row).expect("a group");
+        let fold = samples.word(Samples::FOLD, row).expect("a fold");
+        assert_eq!(*fold_of.entry(group).or_insert(fold), fold, "{group}");
+    }
+    let folds: BTreeSet<&str> = fold_of.values().copied().collect();
+    assert_eq!((fold_of.len(), folds.len()), (5, 5));
+}
