@@ -2,7 +2,7 @@
 
 use taceva_core::Unit;
 use taceva_metrics::{Better, Standing};
-use taceva_results::{Interval, Score, Value};
+use taceva_results::{EvaluationReport, Interval, Score, Value};
 
 /// One number of a report, or the reason why there is none.
 pub(super) struct Line<'a> {
@@ -120,15 +120,21 @@ pub(super) fn standings(scores: &[Score]) -> Vec<String> {
     said
 }
 
-/// Steps that may let verdicts use the scores that they exclude, each once.
-pub(super) fn remedies(scores: &[Score]) -> Vec<&'static str> {
+/// Steps that may let verdicts use the scores of `report` that they exclude, each once.
+pub(super) fn remedies(report: &EvaluationReport) -> Vec<&'static str> {
+    let scores = &report.scores;
+    let is_cross_validated = report.provenance.cross_validation().is_some();
     let is_met = |standing: &Standing| {
         let mut valued = scores.iter().filter(|score| score.value.number().is_some());
         valued.any(|score| score.standing == *standing)
     };
     let met = Standing::ALL.into_iter().filter(is_met);
-    let mut remedies: Vec<&str> = met.filter_map(Standing::remedy).collect();
-    remedies.dedup();
+    let mut remedies: Vec<&str> = Vec::new();
+    for remedy in met.filter_map(|standing| standing.remedy(is_cross_validated)) {
+        if !remedies.contains(&remedy) {
+            remedies.push(remedy);
+        }
+    }
     remedies
 }
 

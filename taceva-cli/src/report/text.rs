@@ -168,7 +168,7 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     for standing in standings(&report.scores) {
         writeln!(out, "standing   {standing}")?;
     }
-    for remedy in remedies(&report.scores) {
+    for remedy in remedies(report) {
         writeln!(out, "narrow it  {remedy}")?;
     }
     for picture in pictures(&report.scores) {
