@@ -1,8 +1,10 @@
 //! Scores and their variants in sequence: the rows of tables.
 
+use std::collections::BTreeMap;
+
 use taceva_core::Unit;
 use taceva_metrics::{Better, Standing};
-use taceva_results::{EvaluationReport, Interval, Score, Value};
+use taceva_results::{EvaluationReport, Interval, Score, Value, described_method};
 
 /// One number of a report, or the reason why there is none.
 pub(super) struct Line<'a> {
@@ -70,6 +72,26 @@ impl Line<'_> {
             "skill.constant" | "sr.of_constant" | "tolerance.of_constant"
         )
     }
+}
+
+/// Methods of intervals with their metrics: `jackknife, 460 samples taken as independent in 32 groups, logarithmic (mae, rmse)`.
+pub(super) fn methods(scores: &[Score]) -> Vec<String> {
+    let mut methods: BTreeMap<&str, (u64, Vec<&str>)> = BTreeMap::new();
+    for score in scores {
+        if let Some(method) = score.interval.as_ref().and_then(Interval::method) {
+            let (n, metrics) = methods.entry(method).or_default();
+            *n = score.n.max(*n);
+            if !metrics.contains(&score.metric.as_str()) {
+                metrics.push(&score.metric);
+            }
+        }
+    }
+    let methods = methods.into_iter();
+    methods
+        .map(|(method, (n, metrics))| {
+            format!("{} ({})", described_method(method, n), metrics.join(", "))
+        })
+        .collect()
 }
 
 /// Flags of scores, one line for each flag of a metric: `uniformity Fz: one bin`, `skill Pz Fz: constant is the mean of truth`.
