@@ -1,8 +1,10 @@
 //! Scores and their variants in sequence: the rows of tables.
 
+use std::collections::BTreeMap;
+
 use taceva_core::Unit;
 use taceva_metrics::{Better, Standing};
-use taceva_results::{Interval, Score, Value};
+use taceva_results::{EvaluationReport, Interval, Score, Value, described_method};
 
 /// One number of a report, or the reason why there is none.
 pub(super) struct Line<'a> {
@@ -72,6 +74,26 @@ impl Line<'_> {
     }
 }
 
+/// Methods of intervals with their metrics: `jackknife, 460 samples taken as independent in 32 groups, logarithmic (mae, rmse)`.
+pub(super) fn methods(scores: &[Score]) -> Vec<String> {
+    let mut methods: BTreeMap<&str, (u64, Vec<&str>)> = BTreeMap::new();
+    for score in scores {
+        if let Some(method) = score.interval.as_ref().and_then(Interval::method) {
+            let (n, metrics) = methods.entry(method).or_default();
+            *n = score.n.max(*n);
+            if !metrics.contains(&score.metric.as_str()) {
+                metrics.push(&score.metric);
+            }
+        }
+    }
+    let methods = methods.into_iter();
+    methods
+        .map(|(method, (n, metrics))| {
+            format!("{} ({})", described_method(method, n), metrics.join(", "))
+        })
+        .collect()
+}
+
 /// Flags of scores, one line for each flag of a metric: `uniformity Fz: one bin`, `skill Pz Fz: constant is the mean of truth`.
 pub(super) fn flags(scores: &[Score]) -> Vec<String> {
     let mut groups: Vec<(&str, &str, Vec<&str>)> = Vec::new();
@@ -120,15 +142,21 @@ pub(super) fn standings(scores: &[Score]) -> Vec<String> {
     said
 }
 
-/// Steps that may let verdicts use the scores that they exclude, each once.
-pub(super) fn remedies(scores: &[Score]) -> Vec<&'static str> {
+/// Steps that may let verdicts use the scores of `report` that they exclude, each once.
+pub(super) fn remedies(report: &EvaluationReport) -> Vec<&'static str> {
+    let scores = &report.scores;
+    let is_cross_validated = report.provenance.cross_validation().is_some();
     let is_met = |standing: &Standing| {
         let mut valued = scores.iter().filter(|score| score.value.number().is_some());
         valued.any(|score| score.standing == *standing)
     };
     let met = Standing::ALL.into_iter().filter(is_met);
-    let mut remedies: Vec<&str> = met.filter_map(Standing::remedy).collect();
-    remedies.dedup();
+    let mut remedies: Vec<&str> = Vec::new();
+    for remedy in met.filter_map(|standing| standing.remedy(is_cross_validated)) {
+        if !remedies.contains(&remedy) {
+            remedies.push(remedy);
+        }
+    }
     remedies
 }
 

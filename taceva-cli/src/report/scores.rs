@@ -1,14 +1,12 @@
 //! Scores of one evaluation as tables: every number for programs, one column for each channel for pages and papers.
 
-use std::collections::BTreeSet;
-
 use taceva_report::{
     Align, Cell, Column, Estimate, FormattedValue, Table, Words, escape_markdown, latex_symbol,
     short_digests,
 };
 use taceva_results::{EvaluationReport, Interval};
 
-use super::line::{Line, lines, read_lines, standings};
+use super::line::{Line, lines, methods, read_lines, standings};
 use super::number::{formatted, no_interval};
 
 /// One row for each score or variant, numbers in full.
@@ -160,17 +158,10 @@ fn caption(report: &EvaluationReport) -> String {
 fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> String {
     let subject = &report.subject;
     let n = report.scores.iter().map(|score| score.n).max().unwrap_or(0);
-    let intervals = report
-        .scores
-        .iter()
-        .filter_map(|score| score.interval.as_ref());
-    let methods: BTreeSet<&str> = intervals.filter_map(Interval::method).collect();
-    let intervals = match methods.len() {
-        0 => "No intervals".to_owned(),
-        _ => format!(
-            "95 % intervals: {}",
-            methods.into_iter().collect::<Vec<_>>().join("; ")
-        ),
+    let methods = methods(&report.scores);
+    let intervals = match methods.is_empty() {
+        true => "No intervals".to_owned(),
+        false => format!("95 % intervals: {}", methods.join("; ")),
     };
     let provenance = &report.provenance;
     let model = provenance.model.as_ref();

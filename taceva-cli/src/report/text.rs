@@ -1,14 +1,13 @@
 //! An evaluation as text: subject, scores, skipped metrics, and provenance.
 
-use std::collections::BTreeSet;
 use std::io::{self, Write};
 
 use taceva_core::{Limit, PressOutcome, counted};
 use taceva_metrics::Better;
 use taceva_report::{Align, Column, Table, escape_terminal, short_digests};
-use taceva_results::{EvaluationReport, Interval, Provenance, not_measured};
+use taceva_results::{EvaluationReport, Provenance, not_measured};
 
-use super::line::{Line, flags, pictures, read_lines, remedies, standings};
+use super::line::{Line, flags, methods, pictures, read_lines, remedies, standings};
 use super::number::formatted;
 use super::recordings;
 
@@ -153,13 +152,8 @@ fn folds(provenance: &Provenance) -> Option<String> {
 }
 
 fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
-    let intervals = report
-        .scores
-        .iter()
-        .filter_map(|score| score.interval.as_ref());
-    let methods: BTreeSet<&str> = intervals.filter_map(Interval::method).collect();
     writeln!(out)?;
-    for method in methods {
+    for method in methods(&report.scores) {
         writeln!(out, "intervals  {method}")?;
     }
     for flag in flags(&report.scores) {
@@ -168,7 +162,7 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     for standing in standings(&report.scores) {
         writeln!(out, "standing   {standing}")?;
     }
-    for remedy in remedies(&report.scores) {
+    for remedy in remedies(report) {
         writeln!(out, "narrow it  {remedy}")?;
     }
     for picture in pictures(&report.scores) {

@@ -165,3 +165,25 @@ fn presses_are_independent_by_the_word_of_the_caller() {
         "{notes}"
     );
 }
+
+#[test]
+fn an_interval_names_its_samples_its_groups_and_its_metrics() {
+    let bench = Bench::new();
+    let rows = |by: f64| -> String {
+        let row = |row: i32| format!("{}\n", f64::from(row) + by * f64::from(row % 7));
+        (0..400).map(row).collect()
+    };
+    bench.write("truth.csv", &format!("Fz\n{}", rows(0.0)));
+    bench.write("pred.csv", &format!("Fz\n{}", rows(0.125)));
+    let words = "score --truth truth.csv --pred pred.csv --metrics mae,rmse --independent";
+    let method = "jackknife, 400 samples taken as independent in 32 groups, logarithmic (mae, rmse";
+    let text = bench.ok(&format!("{words} -q"));
+    assert!(text.contains(&format!("intervals  {method}")), "{text}");
+    let tex = bench.ok(&format!("{words} --format tex --table all -q"));
+    assert!(tex.contains("400 samples taken as independent"), "{tex}");
+    let page = bench.path("page.html");
+    bench.ok(&format!("{words} --html {} -q", page.display()));
+    let page = fs::read_to_string(page).expect("written");
+    let listed = "400 samples taken as independent in 32 groups, logarithmic: mae, rmse";
+    assert!(page.contains(listed), "{page}");
+}

@@ -176,6 +176,15 @@ fn what_a_model_has_seen_shows_no_skill_on_others() {
 }
 
 #[test]
+fn a_cross_validation_is_not_asked_to_score_every_point() {
+    let bench = Bench::new();
+    bench.record("data", 32);
+    let text = bench.ok("evaluate data --model baseline --split cv:5 --metrics mae -q");
+    let remedy = "narrow it  More contact points would narrow this.\n";
+    assert!(text.contains(remedy), "{text}");
+}
+
+#[test]
 fn two_models_whose_skill_is_on_different_test_parts_are_compared_with_that_said() {
     let bench = Bench::new();
     bench.record("data", 32);

@@ -136,19 +136,33 @@ impl Standing {
         }
     }
 
-    /// Step that may let verdicts use such a score, in a sentence; `None` if they use it.
+    /// Step that may let verdicts use such a score, in a sentence; `None` if they use it. A cross-validation scores every point already.
     ///
     /// ```
     /// use taceva_metrics::Standing;
-    /// assert!(Standing::NoSkill.remedy().is_some_and(|step| step.contains("--split cv:5")));
-    /// assert_eq!(Standing::Counts.remedy(), None);
+    /// let steps = [false, true].map(|is_cross_validated| Standing::NoSkill.remedy(is_cross_validated));
+    /// assert!(steps[0].is_some_and(|step| step.contains("--split cv:5")));
+    /// assert_eq!(steps[1], Some("More contact points would narrow this."));
+    /// assert_eq!(Standing::Counts.remedy(false), None);
     /// ```
-    pub fn remedy(self) -> Option<&'static str> {
+    pub fn remedy(self, is_cross_validated: bool) -> Option<&'static str> {
         match self {
             Standing::Counts | Standing::SkillUnknown => None,
-            Standing::NoSkill | Standing::NoInterval | Standing::NotAboveConstant => Some(
-                "More contact points, or a score of every point (--split cv:5), would narrow this.",
-            ),
+            Standing::NoSkill | Standing::NotAboveConstant => Some(match is_cross_validated {
+                true => "More contact points would narrow this.",
+                false => {
+                    "More contact points, or a score of every point (--split cv:5), would narrow this."
+                }
+            }),
+            Standing::NoInterval => Some(match is_cross_validated {
+                true => {
+                    "An interval needs five contact points: name them by `point_id`, or pass --independent if no two samples share a press."
+                }
+                false => {
+                    "An interval needs five contact points: name them by `point_id`, score every point (--split cv:5), or pass \
+                        --independent if no two samples share a press."
+                }
+            }),
             Standing::NotAboveNoiseFloor => Some("More presses at each place would narrow this."),
             Standing::Neighbours => {
                 Some("Leave --split out: the default keeps neighbours together.")
@@ -222,7 +236,12 @@ mod tests {
             assert_eq!(standing.reason().is_none(), standing.takes_part());
             let phrase = standing.phrase().unwrap_or_default();
             assert_eq!(phrase.is_empty(), standing == Standing::Counts);
-            assert_eq!(standing.remedy().is_none(), standing.takes_part());
+            for is_cross_validated in [false, true] {
+                let remedy = standing.remedy(is_cross_validated);
+                assert_eq!(remedy.is_none(), standing.takes_part());
+                let asks = remedy.is_some_and(|step| step.contains("cv:5"));
+                assert!(!(asks && is_cross_validated), "{standing}");
+            }
             let reason = standing.reason();
             assert!(reason.is_none_or(|reason| reason.starts_with(&format!("{phrase}: "))));
         }

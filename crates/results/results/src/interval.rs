@@ -86,6 +86,27 @@ impl Interval {
     }
 }
 
+/// Method of an interval for readers, of a score of `n` samples. States the samples behind groups of independent samples.
+///
+/// ```
+/// use taceva_results::described_method;
+/// let method = "jackknife, samples taken as independent, G=32, logarithmic";
+/// let words = "jackknife, 460 samples taken as independent in 32 groups, logarithmic";
+/// assert_eq!(described_method(method, 460), words);
+/// assert_eq!(described_method(method, 32), method);
+/// ```
+pub fn described_method(method: &str, n: u64) -> String {
+    let parts = method.split_once("samples taken as independent, G=");
+    let described = parts.and_then(|(before, after)| {
+        let digits = after.find(|letter: char| !letter.is_ascii_digit());
+        let (groups, after) = after.split_at(digits.unwrap_or(after.len()));
+        let is_hashed = groups.parse::<u64>().is_ok_and(|groups| groups < n);
+        is_hashed
+            .then(|| format!("{before}{n} samples taken as independent in {groups} groups{after}"))
+    });
+    described.unwrap_or_else(|| method.to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

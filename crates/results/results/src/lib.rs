@@ -17,7 +17,7 @@ mod value;
 
 pub use error::ResultsError;
 pub use formula::{escape_csv, unescape_csv};
-pub use interval::Interval;
+pub use interval::{Interval, described_method};
 pub use origin::not_measured;
 pub use provenance::{ModelProvenance, OPTIMISTIC, Provenance, RecordingProvenance};
 pub use report::{EVALUATION_SCHEMA, EvaluationReport, RecordingScores, Skip};

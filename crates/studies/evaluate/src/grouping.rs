@@ -196,7 +196,8 @@ impl SplitFields {
         Some(Note::Neighbours { found, division })
     }
 
-    /// True if each of `rows` is its own contact point: points are not named, the division is random, and neighbours do not resemble each other.
+    /// True if each of `rows` is its own contact point: points are not named, the division makes no groups, and neighbours do not resemble each
+    /// other.
     pub(crate) fn are_independent(
         &self,
         dataset: &Dataset,
@@ -204,9 +205,9 @@ impl SplitFields {
         kind: &SplitKind,
     ) -> bool {
         let is_by_sample = match kind {
-            SplitKind::Random => true,
+            SplitKind::Random | SplitKind::Chronological | SplitKind::Declared => true,
             SplitKind::Folds(folds) => folds.by == FoldGroups::Samples,
-            _ => false,
+            kind => names_parts(kind),
         };
         let is_unnamed = || {
             rows.iter()
@@ -228,7 +229,7 @@ impl SplitFields {
         let is_by_point = matches!(kind, SplitKind::ByColumn(_)) && has_repeats(dataset, rows);
         let names = match (&self.blocks, &self.column) {
             (Some(blocks), _) => &blocks.names,
-            (None, Some((_, cells))) if !is_by_point => cells,
+            (None, Some((_, cells))) if !is_by_point && !names_parts(kind) => cells,
             _ => return None,
         };
         Some(of_all_rows(names, rows, dataset.table().rows()))
@@ -242,6 +243,17 @@ pub(crate) fn of_all_rows(names: &[String], rows: &[usize], all: usize) -> Vec<S
         groups[*row].clone_from(name);
     }
     groups
+}
+
+/// True if the column of `kind` holds names of parts. Its values are no groups.
+fn names_parts(kind: &SplitKind) -> bool {
+    match kind {
+        SplitKind::ByColumn(by) => {
+            let mut values = by.parts.keys();
+            !by.parts.is_empty() && values.all(|value| Part::from_name(value).is_some())
+        }
+        _ => false,
+    }
 }
 
 /// Counts the tested samples of `split` with a neighbour in the training or validation part.

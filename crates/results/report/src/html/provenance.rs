@@ -1,6 +1,6 @@
 //! Provenance section.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use maud::{Markup, html};
 
@@ -8,14 +8,10 @@ use crate::markup::terms;
 use crate::names::names;
 use crate::results::Study;
 use crate::scores::ScoreTable;
+use taceva_results::described_method;
 
 pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
-    let methods: BTreeSet<&str> = table
-        .rows
-        .iter()
-        .flat_map(|row| row.cells.iter().flatten())
-        .filter_map(|cell| cell.method.as_deref())
-        .collect();
+    let methods = methods(table);
     html! {
         @for (study, name) in studies.iter().zip(names(studies)) {
             h3 { (name) } "\n"
@@ -25,9 +21,28 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
             } "\n"
         }
         h3 { "Intervals" } "\n"
-        p { "All intervals are of 95 %, by contact point unless a line says otherwise." }
-        ul { @for method in methods { li { (method) } } }
+        p { "All intervals are of 95 %. Each method is followed by its metrics." }
+        ul { @for method in &methods { li { (method) } } }
     }
+}
+
+/// Methods of intervals with their metrics: `jackknife by point_id, G=20, logarithmic: mae, rmse`.
+fn methods(table: &ScoreTable) -> Vec<String> {
+    let mut methods: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+    for row in &table.rows {
+        for cell in row.cells.iter().flatten() {
+            if let Some(method) = &cell.method {
+                let metrics = methods.entry(described_method(method, cell.n)).or_default();
+                if !metrics.contains(&row.metric.as_str()) {
+                    metrics.push(&row.metric);
+                }
+            }
+        }
+    }
+    let methods = methods.into_iter();
+    methods
+        .map(|(method, metrics)| format!("{method}: {}", metrics.join(", ")))
+        .collect()
 }
 
 /// Renames left-out samples, which belong to other parts of the protocol, for other metrics.

@@ -53,7 +53,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
 /// Verdict; for lighting scores, followed by the effect of light.
 fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Markup> {
     let verdict = match studies {
-        [_] => alone(row)?,
+        [study] => alone(study, row)?,
         _ => verdict(studies, table, row)?,
     };
     let light = light::words(studies, &table.names, &row.metric, &row.channel);
@@ -61,7 +61,7 @@ fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Marku
 }
 
 /// Score of a single sensor.
-fn alone(row: &ScoreRow) -> Option<Markup> {
+fn alone(study: &Study, row: &ScoreRow) -> Option<Markup> {
     let cell = row.cells.first()?.as_ref()?;
     if cell.value.is_none() {
         let reason = cell.formatted.reason.as_deref()?;
@@ -70,7 +70,7 @@ fn alone(row: &ScoreRow) -> Option<Markup> {
     Some(html! {
         (phrase(cell, row)) ", n = " (cell.n) "."
         @if let Some(why) = cell.standing.reason() { " Not used in verdicts: " (why) "." }
-        @if let Some(remedy) = cell.standing.remedy() { " " (remedy) }
+        @if let Some(remedy) = cell.standing.remedy(study.made.folds.is_some()) { " " (remedy) }
     })
 }
 

@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use taceva_core::{Channels, Field, FieldSet};
+use taceva_core::{Channel, Channels, Field, FieldSet};
 use taceva_dataset::Dataset;
 use taceva_metrics::{MetricPlan, catalogue};
 use taceva_models::Model;
@@ -74,7 +74,7 @@ pub fn score(
     let clusters = Clusters::of(dataset, &target.rows);
     let divided = target.divided.as_ref();
     let groups = divided.and_then(|divided| divided.groups.as_deref());
-    let independence = independence(asked, target);
+    let independence = independence(dataset, asked, target);
     let plan = match (independence, groups) {
         (Some(_), _) => plan.independent_samples(),
         (None, Some(_)) => plan.by_group(),
@@ -161,14 +161,18 @@ pub fn score(
 }
 
 /// Reason why samples of `target` are treated as independent; `None` if they are not.
-fn independence(asked: Asked<'_>, target: &Target) -> Option<Independence> {
+fn independence(dataset: &Dataset, asked: Asked<'_>, target: &Target) -> Option<Independence> {
     let found = target.divided.as_ref();
+    let channels = dataset.table().channels();
+    let has_places = [Channel::PX, Channel::PY]
+        .iter()
+        .all(|place| channels.position(place.name()).is_some());
     match (
         asked.is_independent,
         found.is_some_and(|divided| divided.are_independent),
     ) {
         (true, _) => Some(Independence::Stated),
-        (false, true) => Some(Independence::Found),
+        (false, true) => Some(Independence::Found { has_places }),
         (false, false) => None,
     }
 }

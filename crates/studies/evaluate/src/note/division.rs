@@ -56,8 +56,11 @@ pub enum Division {
 pub enum Independence {
     /// The caller stated it.
     Stated,
-    /// No point repeats, and neighbours do not resemble each other.
-    Found,
+    /// Points are not named, and neighbours do not resemble each other.
+    Found {
+        /// True if the labels hold places.
+        has_places: bool,
+    },
 }
 
 impl fmt::Display for Neighbours {

@@ -19,9 +19,18 @@ impl fmt::Display for Note {
                 "the caller declared the samples independent, so each counts as one contact point; intervals are too narrow if samples \
                  depend on each other",
             ),
-            Note::Independent(Independence::Found) => f.write_str(
-                "each sample counts as one contact point: no point_id repeats, and neighbouring samples are dissimilar",
-            ),
+            Note::Independent(Independence::Found { has_places }) => {
+                f.write_str(
+                    "each sample counts as one contact point, because neighbouring samples are dissimilar",
+                )?;
+                match has_places {
+                    true => Ok(()),
+                    false => f.write_str(
+                        "; the recording names no places, so it is unknown if the tested places were seen in training: name them by \
+                         point_id or Px, Py in the map",
+                    ),
+                }
+            }
             Note::Clusters {
                 recordings,
                 points,

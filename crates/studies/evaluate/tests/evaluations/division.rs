@@ -219,7 +219,30 @@ fn independent_presses_are_points_of_their_own_and_have_intervals() {
     );
     let once = said(&found).matches("counts as one contact point").count();
     assert_eq!(once, 1, "{}", said(&found));
+    assert!(said(&found).contains("names no places"), "{}", said(&found));
     assert_eq!(found.report.provenance.neighbours, None);
+}
+
+#[test]
+fn presses_are_independent_in_every_split_that_makes_no_groups() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let parts = presses(120).into_iter().zip(0_u8..).map(|(row, at)| Row {
+        time_s: Some(3.0 * f64::from(at)),
+        unit: Some(if at < 90 { "train" } else { "test" }.to_owned()),
+        ..row
+    });
+    let dataset = record(&folder.path().join("data"), parts);
+    for split in [
+        "random",
+        "chronological",
+        "by-column:unit_id=train:train;test:test",
+    ] {
+        let found = method(&evaluated(&dataset, "ridge", Some(split)));
+        assert!(
+            found.contains("samples taken as independent"),
+            "{split}: {found}"
+        );
+    }
 }
 
 #[test]
