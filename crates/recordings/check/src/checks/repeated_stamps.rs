@@ -12,7 +12,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC036",
     name: "repeated-stamps",
     looks_for: "labels joined by time although several rows share a time: the error of a match is unknown",
-    hint: "join by a clock with fractions of a second; if there is none, join by row number (`row = true`) if both tables were written in \
+    hint: "join by a clock with fractions of a second; if there is none, join by row number (`on = \"row\"`) if both tables were written in \
         step",
     reads: None,
     find,

@@ -123,6 +123,9 @@ pub(super) fn resolve(
     sources.read_times()?;
     sources.warn_of_grouped_digits();
     sources.warn_of_cuts(folder);
+    let repeated = sources.joined.iter().filter_map(Joined::repeated_stamps);
+    let repeated: Vec<ImportWarning> = repeated.collect();
+    sources.warnings.extend(repeated);
     let coordinate_frames = sources.coordinate_frames()?;
     let class_cells = classes::of(&sources)?;
     let rows = sources.main.rows();

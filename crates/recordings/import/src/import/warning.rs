@@ -49,6 +49,15 @@ pub enum ImportWarning {
         /// Rule of the map, in words.
         rule: String,
     },
+    /// Rows of a table that is joined by time share their times.
+    RepeatedStamps {
+        /// Name of the join in the map.
+        join: String,
+        /// Number of rows with a time.
+        rows: u64,
+        /// Number of different times, whose first rows are the ones taken.
+        times: u64,
+    },
     /// Only the complete messages before the cut of a recording are read.
     CutRecording {
         /// File, relative to the folder of the lab.
@@ -61,7 +70,8 @@ pub enum ImportWarning {
 }
 
 impl ImportWarning {
-    /// Stable code for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight`, `zero-spread` or `cut-recording`.
+    /// Stable code for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight`, `zero-spread`, `repeated-stamps` or
+    /// `cut-recording`.
     pub fn code(&self) -> &'static str {
         match self {
             ImportWarning::ColumnTwice { .. } => "column-twice",
@@ -69,6 +79,7 @@ impl ImportWarning {
             ImportWarning::ZoneUnstated { .. } => "zone-unstated",
             ImportWarning::Midnight { .. } => "midnight",
             ImportWarning::ZeroSpread { .. } => "zero-spread",
+            ImportWarning::RepeatedStamps { .. } => "repeated-stamps",
             ImportWarning::CutRecording { .. } => "cut-recording",
         }
     }
@@ -110,6 +121,13 @@ impl fmt::Display for ImportWarning {
             ImportWarning::ZeroSpread { channel, rule } => write!(
                 f,
                 "the rows taken for the zero of {channel} ({rule}) differ by more than a fifth of all its labels: contacts may be among them; correct `from` of [zero]"
+            ),
+            ImportWarning::RepeatedStamps { join, rows, times } => write!(
+                f,
+                "the {rows} rows of join `{}` have only {}, and the first row of each is taken: the true time between a row and its label is \
+                 unknown; join by a clock with fractions of a second, or by `on = \"row\"` if both tables were written in step",
+                taceva_core::shown(join),
+                taceva_core::counted(*times, "different time")
             ),
             ImportWarning::CutRecording {
                 file,

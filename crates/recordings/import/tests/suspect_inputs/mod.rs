@@ -10,6 +10,7 @@ mod lags;
 mod mean_pictures;
 mod numbers;
 mod packages;
+mod stamps;
 mod taxels;
 mod text_forms;
 mod times;

@@ -18,6 +18,7 @@ use crate::csv_table::number;
 use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
 use crate::import::map::{JoinBy, JoinMap, Lag, TimeJoin, Unmatched};
+use crate::import::warning::ImportWarning;
 use crate::source_folder::SourceFolder;
 use candidates::{Candidates, TakenRow};
 use interpolation::{Gap, Interpolation};
@@ -103,6 +104,19 @@ impl<'a> Joined<'a> {
     /// Tables from which rows are taken.
     pub(super) fn tables(&self) -> impl Iterator<Item = &ForeignTable> {
         self.tables.iter().map(|candidates| &candidates.table)
+    }
+
+    /// Warning on a join by time whose rows mostly share their times.
+    pub(super) fn repeated_stamps(&self) -> Option<ImportWarning> {
+        /// Least number of rows for a warning: a few equal times are no clock of whole seconds.
+        const LEAST: usize = 10;
+        let rows: usize = self.tables.iter().map(|of| of.timed).sum();
+        let times: usize = self.tables.iter().map(|of| of.by_time.len()).sum();
+        (rows >= LEAST && 2 * times <= rows).then(|| ImportWarning::RepeatedStamps {
+            join: self.map.name.clone(),
+            rows: rows as u64,
+            times: times as u64,
+        })
     }
 
     pub(super) fn is_matched(&self, row: usize) -> bool {

@@ -23,6 +23,8 @@ pub(super) struct Candidates {
     pub(super) by_key: HashMap<Vec<String>, Vec<usize>>,
     /// For a join by time: time, s, and row, in order of time.
     pub(super) by_time: Vec<(f64, usize)>,
+    /// For a join by time: number of rows with a time, of which `by_time` has the first of each time.
+    pub(super) timed: usize,
     /// For a join with `until`: number and row, in order of the number.
     pub(super) until: Vec<(u64, usize)>,
 }
@@ -79,6 +81,7 @@ impl Candidates {
             in_other_frames,
             by_key: HashMap::new(),
             by_time: Vec::new(),
+            timed: 0,
             until: Vec::new(),
         };
         let Candidates {
@@ -86,6 +89,7 @@ impl Candidates {
             rows,
             by_key,
             by_time,
+            timed,
             until,
             ..
         } = &mut candidates;
@@ -146,6 +150,7 @@ impl Candidates {
                 }
                 let back = by_time.windows(2).find(|pair| pair[1].0 < pair[0].0);
                 let back = back.map(<[_]>::to_vec);
+                *timed = by_time.len();
                 // The first of several rows at one time is kept.
                 by_time.dedup_by(|later, first| later.0.total_cmp(&first.0).is_eq());
                 if let Some([_, (_, row)]) = back.as_deref() {
