@@ -4,7 +4,7 @@ use std::fs::Permissions;
 use std::os::unix::fs::{MetadataExt, PermissionsExt};
 use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 
 use taceva_needs::{Need, skip};
 use taceva_tests::{Form, Lab, taceva};
@@ -164,6 +164,26 @@ fn a_temporary_directory_of_another_owner_is_used_where_it_may_be_and_named_wher
         assert_eq!(count(&temporary), 1, "{words}");
         assert!(theirs.join(".taceva-temporary").exists(), "{words}");
     }
+}
+
+/// K4.
+#[test]
+fn drafts_of_one_archive_at_once_all_succeed() {
+    let bench = Bench::new();
+    let words = "import lab.tar --draft";
+    let expected = bench.run(words).stdout;
+    let start = |_| {
+        let mut command = bench.command(words);
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        command.spawn().expect("it starts")
+    };
+    let running: Vec<Child> = (0..8).map(start).collect();
+    for draft in running {
+        let output = draft.wait_with_output().expect("it ends");
+        assert!(output.status.success(), "{}", complaint(&output));
+        assert_eq!(output.stdout, expected);
+    }
+    assert_eq!(count(&bench.path("temporary")), 0);
 }
 
 /// K11.
