@@ -32,5 +32,7 @@ mod source_digests;
 mod structure;
 mod study;
 mod taxels;
+#[cfg(target_os = "linux")]
+mod temporary_directory;
 mod waiting;
 mod wire_faults;

@@ -13,14 +13,14 @@ use crate::args::{Cli, ManArgs};
 use crate::{exit, output};
 
 pub(crate) fn run(args: &ManArgs, context: &Context) -> anyhow::Result<u8> {
-    let mut command = Cli::documented();
+    let command = Cli::documented();
     let Some(folder) = &args.folder else {
         output::write(None, |out| Man::new(command).render(&mut &mut *out))?;
         return Ok(exit::DONE);
     };
     let problem = || format!("cannot write manual pages into {}", shown(folder));
     fs::create_dir_all(folder).with_context(problem)?;
-    command = command.disable_help_subcommand(true);
+    let mut command = command.disable_help_subcommand(true);
     command.build();
     write_pages(&command, folder)?;
     let page = folder.join("taceva.1");

@@ -56,11 +56,11 @@ fn a_signal_ends_a_draft_and_an_import_while_they_read_long_tables() {
     );
     for signal in ["TERM", "INT"] {
         let running = Running::start(&bench, "import lab --draft --out draft.toml");
-        std::thread::sleep(Duration::from_millis(300));
+        std::thread::sleep(Duration::from_millis(700));
         stopped(running, signal);
     }
     let running = Running::start(&bench, "import lab --map map.toml --out set");
-    std::thread::sleep(Duration::from_millis(300));
+    std::thread::sleep(Duration::from_millis(700));
     stopped(running, "TERM");
     assert_eq!(names(&bench.path(".")), ["lab", "map.toml"]);
 }

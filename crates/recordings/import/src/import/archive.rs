@@ -73,7 +73,7 @@ impl UnpackedArchive {
         progress: &dyn Progress,
     ) -> Result<UnpackedArchive, ImportError> {
         let temporary = TemporaryFolder::create(beside, PREFIX);
-        let temporary = temporary.map_err(ImportError::io("make a folder in", beside))?;
+        let temporary = temporary.map_err(unusable(beside))?;
         let content = temporary.path().join("content");
         fs::create_dir(&content).map_err(ImportError::io("create", &content))?;
         let (mut file, length) = open_regular(archive, u64::MAX)?;
@@ -95,7 +95,10 @@ impl UnpackedArchive {
         if progress.is_cancelled() {
             return Err(DatasetError::Cancelled.into());
         }
-        outcome.map_err(|error| ImportError::table(archive, error.to_string()))?;
+        outcome.map_err(|error| match error {
+            TarError::Read(error) if is_of_disk(error.kind()) => unusable(beside)(error),
+            error => ImportError::table(archive, error.to_string()),
+        })?;
         Ok(UnpackedArchive {
             folder: innermost(&content)?,
             archive: archive.to_owned(),
@@ -143,6 +146,26 @@ impl UnpackedArchive {
     pub fn folder(&self) -> &Path {
         &self.folder
     }
+}
+
+/// The error of a folder that takes no files, with the remedy.
+fn unusable(beside: &Path) -> impl FnOnce(io::Error) -> ImportError {
+    let refused = ImportError::io("unpack into", beside);
+    move |error| {
+        let problem = format!(
+            "{error}; name another folder, with room for the content of the archive, by --out or TMPDIR"
+        );
+        refused(io::Error::new(error.kind(), problem))
+    }
+}
+
+/// True if a write failed because of the disk.
+fn is_of_disk(kind: io::ErrorKind) -> bool {
+    use io::ErrorKind::{FileTooLarge, QuotaExceeded, ReadOnlyFilesystem, StorageFull};
+    matches!(
+        kind,
+        FileTooLarge | QuotaExceeded | ReadOnlyFilesystem | StorageFull
+    )
 }
 
 /// Unpacks all members, or some if the work is cancelled.

@@ -120,6 +120,17 @@ mod tests {
         }
     }
 
+    impl Sensor for Slow {
+        fn frame_info(&self) -> FrameInfo {
+            FRAME
+        }
+
+        fn capture(&mut self, _: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
+            std::thread::sleep(self.delays.next().expect("a delay for each frame"));
+            Ok(Stamp::at(MonotonicClock.now()))
+        }
+    }
+
     /// A camera whose clock jumps ahead by an hour once.
     struct Jumping {
         frames: u32,
@@ -181,6 +192,30 @@ mod tests {
             error.starts_with("test/device: cannot read the force: 10 samples in a row"),
             "{error}"
         );
+    }
+
+    #[test]
+    fn a_sensor_that_is_ten_times_too_slow_for_ten_frames_is_an_error_of_that_device() {
+        let facts = SensorFacts::default()
+            .with_frame(FRAME)
+            .with_rate(Hertz(200.0));
+        let device = Slow {
+            delays: eleven_periods(10).into_iter(),
+        };
+        let facts = Facts::Sensor(Box::new(facts));
+        let slow = opened::<dyn Sensor>(Box::new(device), DriverSource::Real, facts);
+        let mut slow = slow.timely(false, |_| None);
+        let mut bytes = [0];
+        let errors = (0..10).filter_map(|number| {
+            let frame = FrameMut::new(FRAME, &mut bytes).expect("a byte");
+            let error = slow.capture(frame, Deadline::PASSED).err()?;
+            Some((number, error))
+        });
+        let errors: Vec<(usize, DriverError)> = errors.collect();
+        assert_eq!(errors.len(), 1, "{errors:?}");
+        let (number, error) = &errors[0];
+        assert_eq!((*number, error.kind()), (9, ErrorKind::DeviceFault));
+        assert!(error.to_string().contains("10 samples in a row"), "{error}");
     }
 
     #[test]
