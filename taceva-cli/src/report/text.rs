@@ -1,6 +1,6 @@
 //! An evaluation as text: subject, scores, skipped metrics, and provenance.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
 use taceva_core::{Limit, PressOutcome, counted};
@@ -153,14 +153,27 @@ fn folds(provenance: &Provenance) -> Option<String> {
 }
 
 fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
-    let intervals = report
-        .scores
-        .iter()
-        .filter_map(|score| score.interval.as_ref());
-    let methods: BTreeSet<&str> = intervals.filter_map(Interval::method).collect();
+    let mut methods: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for score in &report.scores {
+        if let Some(method) = score.interval.as_ref().and_then(Interval::method) {
+            let metrics = methods.entry(method).or_default();
+            if !metrics.contains(&score.metric.as_str()) {
+                metrics.push(&score.metric);
+            }
+        }
+    }
     writeln!(out)?;
-    for method in methods {
-        writeln!(out, "intervals  {method}")?;
+    for (method, metrics) in &methods {
+        let method = match report.provenance.group() {
+            Some(group) => method.replace(" by group", &format!(" by {group}")),
+            None => (*method).to_owned(),
+        };
+        // A single method is that of every metric.
+        let of = match methods.len() {
+            1 => String::new(),
+            _ => format!(" ({})", metrics.join(", ")),
+        };
+        writeln!(out, "intervals  {}{of}", escape_terminal(&method))?;
     }
     for flag in flags(&report.scores) {
         writeln!(out, "flag       {flag}")?;

@@ -143,3 +143,27 @@ fn files_of_a_cross_validation_state_the_group_and_the_fold_of_each_sample() {
     let folds: BTreeSet<&str> = fold_of.values().copied().collect();
     assert_eq!((fold_of.len(), folds.len()), (5, 5));
 }
+
+#[test]
+fn intervals_name_the_column_of_their_groups_and_the_metrics_of_each_method() {
+    let bench = grasps(&["grasp", "object"]);
+    let line =
+        "taceva evaluate data --model ridge --metrics mae,r2 --split 'cv:5 by-column:object'";
+    let text = done(&bench, line);
+    let lines: Vec<&str> = text
+        .lines()
+        .filter(|line| line.starts_with("intervals  "))
+        .collect();
+    let [first, ..] = lines.as_slice() else {
+        panic!("{text}");
+    };
+    assert!(
+        first.starts_with("intervals  jackknife by object, G=5"),
+        "{first}"
+    );
+    let is_one = lines.len() == 1;
+    assert!(
+        is_one || lines.iter().all(|line| line.ends_with(')')),
+        "{text}"
+    );
+}

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use maud::{Markup, html};
 
+use super::methods::clusters;
 use crate::markup::terms;
 use crate::names::names;
 use crate::results::Study;
@@ -25,7 +26,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
             } "\n"
         }
         h3 { "Intervals" } "\n"
-        p { "All intervals are of 95 %, by contact point unless a line says otherwise." }
+        p { "All intervals are of 95 %, over " (clusters(studies)) " unless a line says otherwise." }
         ul { @for method in methods { li { (method) } } }
     }
 }
