@@ -167,3 +167,27 @@ fn intervals_name_the_column_of_their_groups_and_the_metrics_of_each_method() {
         "{text}"
     );
 }
+
+#[test]
+fn requested_metrics_that_the_main_table_leaves_out_are_named() {
+    let bench = grasps(&["grasp"]);
+    for table in ["--format tex", "--table main --format md"] {
+        let ran = bench.run(&format!(
+            "evaluate data --model ridge --metrics mae,rmse,bias,r2 {table}"
+        ));
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        let words = "the main table leaves out rmse, bias: --table all prints every score";
+        assert!(ran.err.contains(words), "{table}: {}", ran.err);
+    }
+    let ran = bench.run("evaluate data --model ridge --metrics mae,r2 --format tex");
+    assert!(!ran.err.contains("leaves out"), "{}", ran.err);
+}
+
+#[test]
+fn a_page_table_names_scores_without_a_value_instead_of_their_rows() {
+    let bench = grasps(&["grasp"]);
+    let table = bench.ok("evaluate data --model ridge --metrics mae,crosstalk --format md -q");
+    assert!(table.starts_with("| metric | Fz |\n"), "{table}");
+    assert!(!table.contains("undefined"), "{table}");
+    assert!(table.contains(" No value: crosstalk all."), "{table}");
+}
