@@ -43,6 +43,8 @@ use std::path::{Path, PathBuf};
 use taceva_dataset::Dataset;
 use taceva_evaluate::{DataPart, EvaluateError, FitRequest};
 use taceva_models::{Model, ModelSettings, Models};
+use taceva_report::{ScoreTable, Study};
+use taceva_results::EvaluationReport;
 
 use crate::args::{
     Format, Output, PartArg, START, ScoringArgs, SettingArgs, SplitArgs, TableArgs, TableScores,
@@ -148,6 +150,29 @@ pub(crate) fn table_scores(args: &TableArgs, format: Format) -> anyhow::Result<T
         )),
         (Some(scores), _) => Ok(scores),
         (None, format) => Ok(TableScores::usual(format)),
+    }
+}
+
+/// Names the requested metrics that the main table leaves out.
+fn say_left_out(
+    asked: &[String],
+    report: &EvaluationReport,
+    format: Format,
+    table: TableScores,
+    context: &Context,
+) {
+    if table != TableScores::Main || format == Format::Json {
+        return;
+    }
+    let scores = ScoreTable::of(&[Study::from(report.clone())]);
+    let beside = scores.beside_main();
+    let left_out = asked.iter().map(String::as_str);
+    let left_out: Vec<&str> = left_out.filter(|metric| beside.contains(metric)).collect();
+    if !left_out.is_empty() {
+        context.say(format_args!(
+            "the main table leaves out {}: --table all prints every score",
+            left_out.join(", ")
+        ));
     }
 }
 

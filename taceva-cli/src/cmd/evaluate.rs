@@ -82,6 +82,13 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::evaluation(&evaluated.report, args.output.format, table, out)
     })?;
+    super::say_left_out(
+        &scoring.metrics,
+        &evaluated.report,
+        args.output.format,
+        table,
+        context,
+    );
     if let Some(path) = &scoring.state_out {
         output::write(Some(path), |out| evaluated.state.write(out))?;
     }

@@ -61,6 +61,13 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
         report::evaluation(&scored.report, args.output.format, table, out)
     })?;
+    super::say_left_out(
+        &asked.metrics,
+        &scored.report,
+        args.output.format,
+        table,
+        context,
+    );
     attachments.write(&scored.report, context)?;
     if let Some(path) = &asked.state_out {
         output::write(Some(path), |out| scored.state.write(out))?;

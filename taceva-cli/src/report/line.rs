@@ -75,9 +75,9 @@ impl Line<'_> {
 }
 
 /// Methods of intervals with their metrics: `jackknife, 460 samples taken as independent in 32 groups, logarithmic (mae, rmse)`.
-pub(super) fn methods(scores: &[Score]) -> Vec<String> {
+pub(super) fn methods(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> Vec<String> {
     let mut methods: BTreeMap<&str, (u64, Vec<&str>)> = BTreeMap::new();
-    for score in scores {
+    for score in &report.scores {
         if let Some(method) = score.interval.as_ref().and_then(Interval::method) {
             let (n, metrics) = methods.entry(method).or_default();
             *n = score.n.max(*n);
@@ -89,7 +89,12 @@ pub(super) fn methods(scores: &[Score]) -> Vec<String> {
     let methods = methods.into_iter();
     methods
         .map(|(method, (n, metrics))| {
-            format!("{} ({})", described_method(method, n), metrics.join(", "))
+            let method = described_method(method, n);
+            let method = match report.provenance.group() {
+                Some(group) => method.replace(" by group", &format!(" by {}", foreign(group))),
+                None => method,
+            };
+            format!("{method} ({})", metrics.join(", "))
         })
         .collect()
 }

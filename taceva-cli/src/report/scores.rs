@@ -4,7 +4,7 @@ use taceva_report::{
     Align, Cell, Column, Estimate, FormattedValue, Table, Words, escape_markdown, latex_symbol,
     short_digests,
 };
-use taceva_results::{EvaluationReport, Interval};
+use taceva_results::{EvaluationReport, Interval, Value};
 
 use super::line::{Line, lines, methods, read_lines, standings};
 use super::number::{formatted, no_interval};
@@ -85,16 +85,44 @@ fn numbers(line: &Line<'_>, source: &str) -> [Cell; 15] {
     ]
 }
 
-/// One row for each metric, one column for each channel, as in papers.
-pub(super) fn by_channel(report: &EvaluationReport) -> Table {
-    let mut channels: Vec<&str> = Vec::new();
-    for score in &report.scores {
-        if !channels.contains(&score.channel.as_str()) {
-            channels.push(&score.channel);
+/// Lines and channels of a table by channel: those with any value, or all of them if there is none.
+struct ShownLines<'a> {
+    lines: Vec<Line<'a>>,
+    channels: Vec<&'a str>,
+}
+
+impl<'a> ShownLines<'a> {
+    fn of(report: &'a EvaluationReport) -> ShownLines<'a> {
+        let mut lines = read_lines(&report.scores);
+        let valued = lines.iter().filter(|line| has_value(line));
+        let valued: BTreeSet<String> = valued.map(|line| line.name.clone()).collect();
+        let is_all = valued.is_empty();
+        lines.retain(|line| is_all || valued.contains(&line.name));
+        let mut channels: Vec<&str> = Vec::new();
+        for line in &lines {
+            if (is_all || has_value(line)) && !channels.contains(&line.channel) {
+                channels.push(line.channel);
+            }
         }
+        ShownLines { lines, channels }
     }
+
+    fn holds(&self, line: &Line<'_>) -> bool {
+        let mut lines = self.lines.iter();
+        lines.any(|own| own.name == line.name) && self.channels.contains(&line.channel)
+    }
+}
+
+/// True if the value is neither undefined nor inapplicable.
+fn has_value(line: &Line<'_>) -> bool {
+    !matches!(line.value, Value::Undefined(_) | Value::NotApplicable(_))
+}
+
+/// One row for each metric, one column for each channel, as in papers. Scores without a value in any channel are named in the caption.
+pub(super) fn by_channel(report: &EvaluationReport) -> Table {
+    let ShownLines { lines, channels } = ShownLines::of(report);
     let mut rows: Vec<(String, Vec<Option<Estimate>>)> = Vec::new();
-    for line in read_lines(&report.scores) {
+    for line in lines {
         let at = rows.iter().position(|(name, _)| *name == line.name);
         let at = at.unwrap_or_else(|| {
             rows.push((line.name.clone(), vec![None; channels.len()]));
@@ -158,12 +186,22 @@ fn caption(report: &EvaluationReport) -> String {
 fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> String {
     let subject = &report.subject;
     let n = report.scores.iter().map(|score| score.n).max().unwrap_or(0);
-    let methods = methods(&report.scores);
+    let provenance = &report.provenance;
+    let methods = methods(report, &foreign);
     let intervals = match methods.is_empty() {
         true => "No intervals".to_owned(),
         false => format!("95 % intervals: {}", methods.join("; ")),
     };
-    let provenance = &report.provenance;
+    let shown = ShownLines::of(report);
+    let all = read_lines(&report.scores).into_iter();
+    let left_out = all.filter(|line| line.is_headline && !shown.holds(line));
+    let left_out: Vec<String> = left_out
+        .map(|line| format!("{} {}", line.name, foreign(line.channel)))
+        .collect();
+    let left_out = match left_out.is_empty() {
+        true => String::new(),
+        false => format!(" No value: {}.", left_out.join(", ")),
+    };
     let model = provenance.model.as_ref();
     let model = model.map_or_else(String::new, |model| format!(" Model: {}.", model.name));
     let split = provenance.split.as_ref();
@@ -187,7 +225,7 @@ fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> 
         .map(|standing| format!(" Not or only partly used in verdicts: {standing}."))
         .collect();
     format!(
-        "{subject}, n = {n}.{recordings}{model}{split}{neighbours} {intervals}.{standings} TacEva {}.",
+        "{subject}, n = {n}.{recordings}{model}{split}{neighbours} {intervals}.{standings}{left_out} TacEva {}.",
         provenance.taceva
     )
 }

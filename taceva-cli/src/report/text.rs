@@ -153,8 +153,8 @@ fn folds(provenance: &Provenance) -> Option<String> {
 
 fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)?;
-    for method in methods(&report.scores) {
-        writeln!(out, "intervals  {method}")?;
+    for method in methods(report, str::to_owned) {
+        writeln!(out, "intervals  {}", escape_terminal(&method))?;
     }
     for flag in flags(&report.scores) {
         writeln!(out, "flag       {flag}")?;

@@ -143,3 +143,51 @@ fn files_of_a_cross_validation_state_the_group_and_the_fold_of_each_sample() {
     let folds: BTreeSet<&str> = fold_of.values().copied().collect();
     assert_eq!((fold_of.len(), folds.len()), (5, 5));
 }
+
+#[test]
+fn intervals_name_the_column_of_their_groups_and_the_metrics_of_each_method() {
+    let bench = grasps(&["grasp", "object"]);
+    let line =
+        "taceva evaluate data --model ridge --metrics mae,r2 --split 'cv:5 by-column:object'";
+    let text = done(&bench, line);
+    let lines: Vec<&str> = text
+        .lines()
+        .filter(|line| line.starts_with("intervals  "))
+        .collect();
+    let [first, ..] = lines.as_slice() else {
+        panic!("{text}");
+    };
+    assert!(
+        first.starts_with("intervals  jackknife by object, G=5"),
+        "{first}"
+    );
+    let is_one = lines.len() == 1;
+    assert!(
+        is_one || lines.iter().all(|line| line.ends_with(')')),
+        "{text}"
+    );
+}
+
+#[test]
+fn requested_metrics_that_the_main_table_leaves_out_are_named() {
+    let bench = grasps(&["grasp"]);
+    for table in ["--format tex", "--table main --format md"] {
+        let ran = bench.run(&format!(
+            "evaluate data --model ridge --metrics mae,rmse,bias,r2 {table}"
+        ));
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        let words = "the main table leaves out rmse, bias: --table all prints every score";
+        assert!(ran.err.contains(words), "{table}: {}", ran.err);
+    }
+    let ran = bench.run("evaluate data --model ridge --metrics mae,r2 --format tex");
+    assert!(!ran.err.contains("leaves out"), "{}", ran.err);
+}
+
+#[test]
+fn a_page_table_names_scores_without_a_value_instead_of_their_rows() {
+    let bench = grasps(&["grasp"]);
+    let table = bench.ok("evaluate data --model ridge --metrics mae,crosstalk --format md -q");
+    assert!(table.starts_with("| metric | Fz |\n"), "{table}");
+    assert!(!table.contains("undefined"), "{table}");
+    assert!(table.contains(" No value: crosstalk all."), "{table}");
+}

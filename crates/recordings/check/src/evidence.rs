@@ -17,6 +17,8 @@ pub struct Evidence<'a> {
     pub table: &'a Table,
     /// Division of the recording into parts.
     pub divided: Option<&'a Divided>,
+    /// Division whose test part an evaluation scores: the folds of the default split together, or `divided`.
+    pub scored: Option<&'a Divided>,
     /// Statistics of each row's frame; empty if no check reads frames.
     pub frames: &'a [Option<FrameFacts>],
     /// Statistics of the frame without contact.

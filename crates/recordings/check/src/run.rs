@@ -12,7 +12,7 @@ use crate::finding::{Check, CheckReport, Finding};
 use crate::signal_facts::SignalFacts;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Plan;
-use taceva_evaluate::{Divided, require_samples};
+use taceva_evaluate::{Divided, require_samples, scored_by_default};
 
 /// Request of checks.
 #[derive(Clone, Debug)]
@@ -99,6 +99,10 @@ pub(crate) fn check_seen(
         }
         divided => Some(divided?),
     };
+    let folds = match request.split {
+        None => scored_by_default(dataset, request.seed)?,
+        Some(_) => None,
+    };
     let (frames, reference) = if reads(dataset, &wanted, Field::Frame) {
         look(dataset, request.jobs, progress)?
     } else {
@@ -120,6 +124,7 @@ pub(crate) fn check_seen(
         header: dataset.header(),
         table: dataset.table(),
         divided: divided.as_ref(),
+        scored: folds.as_ref().or(divided.as_ref()),
         frames: &frames,
         reference: reference.as_ref(),
         signals: signals.as_ref(),

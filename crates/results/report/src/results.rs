@@ -15,8 +15,12 @@ pub use statement::Statement;
 pub(crate) use statement::UNSTATED;
 
 use taceva_metrics::{TrainingSpread, catalogue};
-use taceva_results::{EvaluationReport, OverSeeds, Provenance, ResultsError, Samples, Score, Skip};
+use taceva_results::{
+    EvaluationReport, Interval, OverSeeds, Provenance, ResultsError, Samples, Score, Skip,
+};
 
+/// Words in the method of an interval that leaves out groups of the split.
+pub(crate) const BY_GROUP: &str = " by group";
 /// Definition of numbers that were published without one.
 pub(crate) const PUBLISHED: &str = "published";
 
@@ -72,6 +76,8 @@ pub struct Made {
     pub recordings: usize,
     /// Cross-validation in words, if each sample was held out once: `5-fold cross-validation by point`.
     pub folds: Option<String>,
+    /// Groups that the split keeps together: the column `object`, or `block of time`; `None` for contact points.
+    pub group: Option<String>,
 }
 
 impl From<EvaluationReport> for Study {
@@ -80,9 +86,11 @@ impl From<EvaluationReport> for Study {
         let presses = report.provenance.press_counts();
         let seen_part = seen_part(&report.provenance);
         let folds = report.provenance.cross_validation();
+        let group = report.provenance.group().map(str::to_owned);
         let samples = report.provenance.samples.into_iter();
         let made = Made {
             folds,
+            group,
             presses: presses.values().sum(),
             samples: samples.map(|(part, count)| (part, count as u64)).collect(),
             truth: report.provenance.tables.get("truth").cloned(),
@@ -183,6 +191,27 @@ impl Study {
         let reads = catalogue::find(&score.metric).is_some_and(|metric| metric.reads_predictions());
         let draws = self.made.settings.iter().any(|(key, _)| key == "seed");
         reads && draws && self.trainings(score).is_none()
+    }
+
+    /// The group of the split that intervals leave out; `None` if they leave out contact points.
+    pub(crate) fn clustered_by(&self) -> Option<&str> {
+        let methods = self
+            .scores
+            .iter()
+            .filter_map(|score| score.interval.as_ref());
+        let mut methods = methods.filter_map(Interval::method);
+        let group = self.made.group.as_deref()?;
+        methods
+            .any(|method| method.contains(BY_GROUP))
+            .then_some(group)
+    }
+
+    /// Method of an interval, with the name of the groups: `jackknife by object, G=5`.
+    pub(crate) fn method_named(&self, method: &str) -> String {
+        match &self.made.group {
+            Some(group) => method.replace(BY_GROUP, &format!(" by {group}")),
+            None => method.to_owned(),
+        }
     }
 
     /// True if its samples are simulated or synthetic, without a real sensor.

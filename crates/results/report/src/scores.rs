@@ -15,7 +15,7 @@ use taceva_metrics::{Standing, catalogue, plane_of};
 
 use crate::compare::{Answer, CompareRequest, compare};
 use crate::number::{FormattedValue, fixed};
-use crate::results::Study;
+use crate::results::{BY_GROUP, Study};
 use taceva_results::{Interval, Score, Value};
 
 /// Scores of studies side by side.
@@ -60,6 +60,8 @@ pub struct ScoreCell {
     pub ends: Option<[f64; 2]>,
     /// Method of the interval.
     pub method: Option<String>,
+    /// Number of groups of the split that the interval leaves out; `None` for an interval over contact points.
+    pub groups: Option<usize>,
     /// Degrees of freedom of Student's t for the interval, if the result states them.
     pub degrees_of_freedom: Option<f64>,
     /// Number of samples.
@@ -97,7 +99,7 @@ impl ScoreTable {
                 let is_wanted =
                     request.metrics.is_empty() || request.metrics.contains(&score.metric);
                 for line in lines(score).into_iter().filter(|_| is_wanted) {
-                    line.enter(at, studies.len(), &mut rows);
+                    line.enter(at, studies, &mut rows);
                 }
             }
         }
@@ -181,7 +183,7 @@ fn lines(score: &Score) -> Vec<Line<'_>> {
 }
 
 impl Line<'_> {
-    fn enter(&self, at: usize, studies: usize, rows: &mut Vec<ScoreRow>) {
+    fn enter(&self, at: usize, studies: &[Study], rows: &mut Vec<ScoreRow>) {
         let is_mine = |row: &ScoreRow| {
             let is_named = row.metric == self.metric && row.channel == self.score.channel;
             // A score without a value has no unit, and joins the row of scores with a value.
@@ -194,7 +196,7 @@ impl Line<'_> {
                 channel: self.score.channel.clone(),
                 unit: self.unit,
                 is_headline: self.is_headline,
-                cells: vec![None; studies],
+                cells: vec![None; studies.len()],
             });
             rows.len() - 1
         });
@@ -202,11 +204,16 @@ impl Line<'_> {
         if row.is_without_value() {
             row.unit = self.unit;
         }
+        let method = self.interval.and_then(Interval::method);
         row.cells[at] = Some(ScoreCell {
             value: self.value.number(),
             formatted: FormattedValue::of(self.value, self.interval),
             ends: self.interval.and_then(Interval::ends),
-            method: self.interval.and_then(Interval::method).map(str::to_owned),
+            method: method.map(|method| studies[at].method_named(method)),
+            groups: self
+                .interval
+                .filter(|_| method.is_some_and(|method| method.contains(BY_GROUP)))
+                .and_then(Interval::clusters),
             degrees_of_freedom: self.interval.and_then(Interval::degrees_of_freedom),
             n: self.score.n,
             n_invalid: self.score.n_invalid,

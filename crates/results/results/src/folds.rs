@@ -52,6 +52,40 @@ impl Provenance {
     }
 }
 
+impl Provenance {
+    /// Groups that the split keeps together and that intervals leave out: the column `object`, or `block of time`. `None` for other splits.
+    ///
+    /// ```
+    /// use taceva_results::Provenance;
+    /// let mut made = Provenance::default();
+    /// made.split = Some("loo by-column:object".to_owned());
+    /// assert_eq!(made.group(), Some("object"));
+    /// ```
+    pub fn group(&self) -> Option<&str> {
+        match kept_together(self.split.as_deref()?) {
+            "by-block" => Some("block of time"),
+            by => by.strip_prefix("by-column:"),
+        }
+    }
+}
+
+/// A split without its number of folds, its shares and its named parts: what it keeps together.
+///
+/// ```
+/// assert_eq!(taceva_results::kept_together("cv:5 by-column:object"), "by-column:object");
+/// assert_eq!(taceva_results::kept_together("by-point 70/20/10"), "by-point");
+/// ```
+pub fn kept_together(split: &str) -> &str {
+    let shares = split.rsplit_once(' ');
+    let shares = shares.filter(|(_, last)| last.split('/').count() == 3);
+    let text = shares.map_or(split, |(text, _)| text);
+    let text = match text.split_once(' ') {
+        Some((word, by)) if word == "loo" || word.starts_with("cv:") => by,
+        _ => text,
+    };
+    text.split('=').next().unwrap_or(text)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -90,5 +124,25 @@ mod tests {
             assert_eq!(words(split, 4), (None, None), "one model was fitted");
         }
         assert_eq!(words("by-point 70/20/10", 0), (None, None));
+    }
+
+    #[test]
+    fn folds_and_shares_do_not_change_what_is_kept_together() {
+        for (split, expected) in [
+            ("cv:5 by-point", "by-point"),
+            ("by-point 70/20/10", "by-point"),
+            ("loo by-column:object", "by-column:object"),
+            (
+                "by-column:object=train:a,b;test:c 70/20/10",
+                "by-column:object",
+            ),
+            (
+                "leave-one-recording-out 70/20/10",
+                "leave-one-recording-out",
+            ),
+            ("declared", "declared"),
+        ] {
+            assert_eq!(kept_together(split), expected);
+        }
     }
 }

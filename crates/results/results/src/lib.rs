@@ -16,6 +16,7 @@ mod subject;
 mod value;
 
 pub use error::ResultsError;
+pub use folds::kept_together;
 pub use formula::{escape_csv, unescape_csv};
 pub use interval::{Interval, described_method};
 pub use origin::not_measured;

@@ -48,7 +48,7 @@ pub use effort::Effort;
 pub use error::EvaluateError;
 pub use evaluate::{
     Asked, Behind, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows, ModelChoice,
-    evaluate, evaluate_plan, fold_divisions, score,
+    evaluate, evaluate_plan, fold_divisions, score, scored_by_default,
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};

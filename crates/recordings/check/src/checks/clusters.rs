@@ -20,13 +20,13 @@ pub(super) static CHECK: Check = Check {
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let points = evidence.table.point_id();
     let all: Vec<usize> = (0..points.len()).collect();
-    let rows = evidence.divided.map_or(&all, |divided| &divided.split.test);
-    if let Some(groups) = evidence.divided.and_then(|divided| divided.groups.as_ref()) {
+    let rows = evidence.scored.map_or(&all, |divided| &divided.split.test);
+    if let Some(groups) = evidence.scored.and_then(|divided| divided.groups.as_ref()) {
         let distinct: BTreeSet<_> = rows.iter().map(|&row| &groups[row]).collect();
         return few(distinct.len(), "group");
     }
     if evidence
-        .divided
+        .scored
         .is_some_and(|divided| divided.are_independent)
     {
         return few(rows.len(), "independent sample");

@@ -3,6 +3,7 @@
 use taceva_metrics::Sides;
 
 use crate::results::Study;
+use taceva_results::kept_together;
 
 /// Reason why two results of one dataset give no verdict: their splits keep different samples together.
 pub(super) fn barred(studies: Sides<&Study>, names: Sides<&str>) -> Option<String> {
@@ -18,41 +19,4 @@ pub(super) fn barred(studies: Sides<&Study>, names: Sides<&str>) -> Option<Strin
             names.a, names.b
         )
     })
-}
-
-/// The groups of a split without its number of folds, its shares and its named parts.
-fn kept_together(split: &str) -> &str {
-    let shares = split.rsplit_once(' ');
-    let shares = shares.filter(|(_, last)| last.split('/').count() == 3);
-    let text = shares.map_or(split, |(text, _)| text);
-    let text = match text.split_once(' ') {
-        Some((word, by)) if word == "loo" || word.starts_with("cv:") => by,
-        _ => text,
-    };
-    text.split('=').next().unwrap_or(text)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn folds_and_shares_do_not_change_what_is_kept_together() {
-        for (split, expected) in [
-            ("cv:5 by-point", "by-point"),
-            ("by-point 70/20/10", "by-point"),
-            ("loo by-column:object", "by-column:object"),
-            (
-                "by-column:object=train:a,b;test:c 70/20/10",
-                "by-column:object",
-            ),
-            (
-                "leave-one-recording-out 70/20/10",
-                "leave-one-recording-out",
-            ),
-            ("declared", "declared"),
-        ] {
-            assert_eq!(kept_together(split), expected);
-        }
-    }
 }

@@ -219,11 +219,33 @@ fn unseen(studies: &[Study]) -> String {
 
 /// Sentence on the scope of intervals and p values.
 fn scope(studies: &[Study]) -> String {
-    let is_own = |study: &Study| study.source != "published" && !study.scores.is_empty();
-    match studies.iter().any(is_own) {
-        true => " Intervals and p values apply to other contact points on the same units with the same trained models; they do not include the variation between units and trainings.".to_owned(),
-        false => String::new(),
+    let own = studies.iter();
+    let own = own.filter(|study| study.source != "published" && !study.scores.is_empty());
+    let own: Vec<&Study> = own.collect();
+    if own.is_empty() {
+        return String::new();
     }
+    let models = match own.iter().all(|study| study.made.folds.is_some()) {
+        true => "with models fitted in the same way",
+        false => "with the same trained models",
+    };
+    format!(
+        " Intervals and p values apply to other {} on the same units {models}; they do not include the variation between units and trainings.",
+        clusters(studies)
+    )
+}
+
+/// Clusters that intervals leave out, in the plural: `contact points`, `groups by object`.
+pub(super) fn clusters(studies: &[Study]) -> String {
+    let kind = |study: &Study| match study.clustered_by() {
+        Some("block of time") => "blocks of time".to_owned(),
+        Some(group) => format!("groups by {group}"),
+        None => "contact points".to_owned(),
+    };
+    let mut kinds: Vec<String> = studies.iter().map(kind).collect();
+    kinds.sort();
+    kinds.dedup();
+    listed(&kinds)
 }
 
 /// Sentence on the prediction of grating spacings, from the notes of the results.

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use maud::{Markup, html};
 
+use super::methods::clusters;
 use crate::markup::terms;
 use crate::names::names;
 use crate::results::Study;
@@ -21,7 +22,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
             } "\n"
         }
         h3 { "Intervals" } "\n"
-        p { "All intervals are of 95 %. Each method is followed by its metrics." }
+        p { "All intervals are of 95 %, over " (clusters(studies)) " unless a line says otherwise. Each method is followed by its metrics." }
         ul { @for method in &methods { li { (method) } } }
     }
 }

@@ -1,6 +1,7 @@
 //! Summary of the results in words.
 
 use maud::{Markup, html};
+use taceva_core::counted;
 
 use crate::compare::{Answer, QUESTIONS};
 use crate::light;
@@ -68,7 +69,7 @@ fn alone(study: &Study, row: &ScoreRow) -> Option<Markup> {
         return Some(html! { "no value (" (reason) ")." });
     }
     Some(html! {
-        (phrase(cell, row)) ", n = " (cell.n) "."
+        (phrase(cell, row)) ", n = " (cell.n) @if let Some(groups) = cell.groups { " of " (counted(groups, "group")) } "."
         @if let Some(why) = cell.standing.reason() { " Not used in verdicts: " (why) "." }
         @if let Some(remedy) = cell.standing.remedy(study.made.folds.is_some()) { " " (remedy) }
     })

@@ -19,6 +19,8 @@ pub(super) struct About {
     pub(super) optimistic: Vec<String>,
     /// Cross-validation in words, if each sample was held out once.
     folds: Option<String>,
+    /// Groups that the split keeps together.
+    group: Option<String>,
 }
 
 impl About {
@@ -33,6 +35,7 @@ impl About {
             }),
             recordings: study.made.recordings,
             folds: study.made.folds.clone(),
+            group: study.made.group.clone(),
             optimistic: study
                 .notes
                 .iter()
@@ -132,7 +135,26 @@ impl ScoreTable {
             [one] if one.recordings > 1 => format!(" of {} recordings", one.recordings),
             _ => String::new(),
         };
-        format!(" on {many}{source}{part}{noun}{each}{recordings}{held_out}")
+        let groups = self.groups();
+        format!(" on {many}{source}{part}{noun}{each}{groups}{recordings}{held_out}")
+    }
+
+    /// ` of 5 groups by object`, if all intervals leave out as many groups of one split.
+    fn groups(&self) -> String {
+        let groups: BTreeSet<Option<&str>> =
+            self.about.iter().map(|of| of.group.as_deref()).collect();
+        let counts: BTreeSet<Option<usize>> = self.valued().map(|cell| cell.groups).collect();
+        let one = |count: usize| match groups.first() {
+            Some(Some("block of time")) => format!("{count} blocks of time"),
+            Some(Some(group)) => format!("{} by {group}", counted(count, "group")),
+            _ => String::new(),
+        };
+        match (groups.len(), counts.len(), counts.first()) {
+            (1, 1, Some(Some(count))) if groups.first() != Some(&None) => {
+                format!(" of {}", one(*count))
+            }
+            _ => String::new(),
+        }
     }
 
     /// Common number of samples behind all values, if known.

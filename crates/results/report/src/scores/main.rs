@@ -1,5 +1,7 @@
 //! Main scores for a paper.
 
+use std::collections::BTreeSet;
+
 use super::{ScoreRow, ScoreTable};
 
 /// Metrics of the main table, in order.
@@ -23,6 +25,15 @@ impl ScoreTable {
             true => headlines,
             false => ScoreTable { rows, ..headlines },
         }
+    }
+
+    /// Metrics that [`main`](ScoreTable::main) leaves out.
+    pub fn beside_main(&self) -> BTreeSet<&str> {
+        let main = self.main();
+        let is_shown = |row: &&ScoreRow| main.rows.iter().any(|own| own.metric == row.metric);
+        let rows = self.rows.iter().filter(|row| row.is_headline);
+        let left_out = rows.filter(|row| !is_shown(row));
+        left_out.map(|row| row.metric.as_str()).collect()
     }
 
     /// True if every row has a metric of the main table.

@@ -248,6 +248,39 @@ fn a_caption_of_folds_says_that_each_sample_was_held_out() {
 }
 
 #[test]
+fn caption_and_page_name_the_groups_that_intervals_leave_out() {
+    let mut result = result("GelSight", &PLANES);
+    result["provenance"]["split"] = "cv:5 by-column:object".into();
+    result["provenance"]["samples"] = json!({"test": 20, "train": 0, "validation": 0});
+    for channels in result["metrics"].as_object_mut().into_iter().flatten() {
+        for (_, score) in channels.1.as_object_mut().into_iter().flatten() {
+            score["method"] = "jackknife by group, G=5, logarithmic".into();
+        }
+    }
+    let study = support::study(&result);
+    let caption = ScoreTable::of(std::slice::from_ref(&study)).caption();
+    assert_eq!(
+        caption,
+        "Accuracy of GelSight (ridge) on 20 simulated samples of 5 groups by object, each held out once (5-fold cross-validation by \
+         object), with 95 % intervals."
+    );
+    let page = taceva_report::report(&taceva_report::ReportPage {
+        title: "groups",
+        studies: &[study],
+        pictures: &[],
+        triples: &[],
+    });
+    for words in [
+        "n = 20 of 5 groups.",
+        "apply to other groups by object on the same units with models fitted in the same way;",
+        "All intervals are of 95 %, over groups by object unless a line says otherwise.",
+        "<li>jackknife by object, G=5, logarithmic</li>",
+    ] {
+        assert!(page.contains(words), "{words}: {page}");
+    }
+}
+
+#[test]
 fn results_without_accuracy_keep_their_other_scores() {
     let mut result = result("GelSight", &["Fz"]);
     let metrics = result["metrics"].as_object_mut().expect("metrics");

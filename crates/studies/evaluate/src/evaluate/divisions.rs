@@ -27,3 +27,12 @@ pub fn fold_divisions(
     })?;
     Ok(folds.into_divisions())
 }
+
+/// Samples that [`evaluate`](crate::evaluate) scores if no split is named and its default is a cross-validation: the test part of the division. `None`
+/// if the default makes one division.
+///
+/// # Errors
+/// [`EvaluateError::Split`] if the default split cannot be made.
+pub fn scored_by_default(dataset: &Dataset, seed: u64) -> Result<Option<Divided>, EvaluateError> {
+    Ok(folds::by_default(dataset, seed)?.map(folds::Folds::into_whole))
+}

@@ -1,7 +1,7 @@
 //! Cross-validation: a model fitted on the other groups, or recordings, predicts each group of samples, or each recording.
 
-mod by_default;
 mod common_model;
+mod default_split;
 
 use std::collections::BTreeSet;
 
@@ -22,8 +22,8 @@ use crate::plan::Plan;
 use crate::predict::{self, Predicted, Target};
 use crate::rows::{DataPart, Divided};
 use crate::work::Work;
-use by_default::default_folds;
 use common_model::together;
+use default_split::default_split;
 
 /// Divisions that together test every sample.
 pub(crate) struct Folds<'a> {
@@ -54,16 +54,18 @@ pub(crate) fn of<'a>(
     match request.split.as_deref() {
         Some(text) => of_spec(dataset, request.seed, text.parse()?),
         None if part.is_some() => Ok(None),
-        None => match default_folds(dataset)? {
-            Some(folds) => {
-                let spec = SplitSpec {
-                    kind: SplitKind::Folds(folds),
-                    fractions: Fractions::default(),
-                };
-                of_spec(dataset, request.seed, spec)
-            }
-            None => Ok(None),
-        },
+        None => by_default(dataset, request.seed),
+    }
+}
+
+/// Default folds of a recording with few groups; `None` for any other.
+///
+/// # Errors
+/// As [`of`].
+pub(crate) fn by_default(dataset: &Dataset, seed: u64) -> Result<Option<Folds<'_>>, EvaluateError> {
+    match default_split(dataset)? {
+        Some(spec) => of_spec(dataset, seed, spec),
+        None => Ok(None),
     }
 }
 
@@ -237,6 +239,11 @@ impl<'a> Folds<'a> {
     /// Group of every row of the dataset that is left out as a whole; `None` for single samples and for recordings.
     pub(crate) fn groups(&self) -> Option<&[String]> {
         self.groups.as_deref()
+    }
+
+    /// Division of all folds together: every sample of a group is in its test part.
+    pub(crate) fn into_whole(self) -> Divided {
+        self.whole
     }
 
     /// Division of each fold.

@@ -1,9 +1,9 @@
-//! Folds of a recording whose split is not named.
+//! Cross-validation of a recording whose split is not named.
 
 use std::collections::BTreeSet;
 
 use taceva_dataset::Dataset;
-use taceva_models::{FoldSpec, SplitKind};
+use taceva_models::{FoldSpec, Fractions, SplitKind, SplitSpec};
 
 use crate::calibration_rows::PlannedRows;
 use crate::error::EvaluateError;
@@ -14,8 +14,8 @@ const COUNT: usize = 5;
 /// Number of groups from which one division scores enough. Below it, cross-validation is the default, from one group a fold on.
 const GROUPS_MANY: usize = 1000;
 
-/// Default folds of a recording with few groups. `None` for a recording of a run, which its plan divides, and for joined recordings.
-pub(super) fn default_folds(dataset: &Dataset) -> Result<Option<FoldSpec>, EvaluateError> {
+/// Cross-validation of a recording with few groups. `None` for a recording of a run, which its plan divides, and for joined recordings.
+pub(super) fn default_split(dataset: &Dataset) -> Result<Option<SplitSpec>, EvaluateError> {
     if !dataset.recordings().is_empty() || PlannedRows::of(dataset)?.is_some() {
         return Ok(None);
     }
@@ -30,5 +30,8 @@ pub(super) fn default_folds(dataset: &Dataset) -> Result<Option<FoldSpec>, Evalu
     let groups: BTreeSet<&String> = groups.iter().filter(|name| !name.is_empty()).collect();
     // At least one group in each fold, so that intervals have their least number of groups.
     let is_default = (COUNT..GROUPS_MANY).contains(&groups.len());
-    Ok(is_default.then_some(spec))
+    Ok(is_default.then(|| SplitSpec {
+        kind,
+        fractions: Fractions::default(),
+    }))
 }
