@@ -7,6 +7,7 @@ mod coordinate_frames;
 mod drafts;
 mod held;
 mod lags;
+mod numbered;
 mod numbers;
 mod packages;
 mod taxels;
