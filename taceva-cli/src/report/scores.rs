@@ -1,5 +1,7 @@
 //! Scores of one evaluation as tables: every number for programs, one column for each channel for pages and papers.
 
+use std::collections::BTreeSet;
+
 use taceva_report::{
     Align, Cell, Column, Estimate, FormattedValue, Table, Words, escape_markdown, latex_symbol,
     short_digests,

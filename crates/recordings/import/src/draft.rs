@@ -39,13 +39,22 @@ pub struct MapDraft {
 }
 
 impl MapDraft {
-    /// Examines the files in `folder`: names, headers, 200 rows of each kind of table, the first picture of each array.
+    /// Examines the files in a folder: names, headers, 200 rows of each kind of table, the first picture of each array. If `path` is a
+    /// file, examines that file, and the pictures and clips in its folder; the map is one for that folder.
     ///
     /// # Errors
     /// [`ImportError::Dataset`] if the folder cannot be read, or contains neither a table nor a picture.
-    pub fn of(folder: &Path) -> Result<MapDraft, ImportError> {
+    pub fn of(path: &Path) -> Result<MapDraft, ImportError> {
+        let file = path.file_name().filter(|_| path.is_file());
+        let folder = match file {
+            Some(_) => taceva_files::parent_of(path),
+            None => path,
+        };
         let source = SourceFolder::open(folder)?;
-        let groups = survey::groups(&source)?;
+        let mut groups = survey::groups(&source)?;
+        if let Some(file) = file {
+            groups = survey::beside(groups, &file.to_string_lossy());
+        }
         let (pictures, others): (Vec<&FileGroup>, Vec<&FileGroup>) = groups
             .iter()
             .partition(|group| frames::is_picture(&group.ending));

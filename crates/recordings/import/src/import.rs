@@ -28,6 +28,7 @@ pub use map::{
     ArrayFrames, ArrayLayout, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap,
     PixelRange, Placeholder, TimeMap, VideoFrames,
 };
+pub(crate) use pattern_column::{DIGITS_MAX, whole_number};
 pub use plan::ImportPlan;
 pub use summary::{Conversion, FrameSummary, ImportSummary, JoinSummary, ZeroSummary};
 pub use suspicion::{Suspicion, magnitude_suspicion};

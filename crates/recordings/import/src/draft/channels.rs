@@ -21,10 +21,12 @@ impl Offered<'_> {
         self.candidate.unit.map_or("?", |(unit, _)| unit)
     }
 
-    /// Rank among the candidates of a channel; the lowest is the best.
-    fn rank(&self) -> (bool, Reason, bool, u32) {
+    /// Rank among the candidates of a channel; the lowest is the best. If a unit of one of them `is_stated`, numbers without a scale come
+    /// after it.
+    fn rank(&self, is_stated: bool) -> (bool, bool, Reason, bool, u32) {
         (
             self.candidate.open.is_some(),
+            is_stated && self.candidate.is_unscaled,
             self.candidate.reason,
             !self.is_own,
             self.place_in_pose(),
@@ -66,13 +68,14 @@ pub(super) fn lines(offered: &[Offered<'_>]) -> String {
             .iter()
             .filter(|one| one.candidate.channel == channel);
         let mut ranked: Vec<&Offered<'_>> = of_channel.collect();
-        ranked.sort_by_key(|one| one.rank());
+        let is_stated = ranked.iter().any(|one| one.candidate.unit.is_some());
+        ranked.sort_by_key(|one| one.rank(is_stated));
         let Some((first, others)) = ranked.split_first() else {
             continue;
         };
         let alike: Vec<&&Offered<'_>> = others
             .iter()
-            .take_while(|other| other.rank() == first.rank())
+            .take_while(|other| other.rank(is_stated) == first.rank(is_stated))
             .collect();
         match (&first.candidate.open, alike.as_slice()) {
             (Some(why), _) => {
@@ -140,6 +143,17 @@ mod tests {
         );
         assert!(first[1].starts_with("# or: Fz = { from = \"Fz_N\", unit = \"N\" }"));
         assert!(first[2].starts_with("# or: Fz = { from = \"force_z\""));
+    }
+
+    #[test]
+    fn counts_and_raw_numbers_come_after_a_column_that_states_its_unit() {
+        for raw in ["force_z_adc", "force_z_raw"] {
+            let text = drafted(&[raw, "left_force_z_N"]);
+            let expected = "Fz = { from = \"left_force_z_N\", unit = \"N\" }";
+            assert!(text.starts_with(expected), "{text}");
+            let other = format!("# or: Fz = {{ from = {raw:?}, unit = \"?\" }}");
+            assert!(text.contains(&other), "{text}");
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Finds the frames of a table.
 
+mod numbered;
 mod picture_lines;
 mod stems;
 
@@ -9,6 +10,7 @@ use super::survey::FileGroup;
 use super::tables::{SeenColumn, SeenTable};
 use super::views::{Sided, sided};
 use crate::source_folder::SourceFolder;
+pub(super) use numbered::none_found;
 use picture_lines::{in_array, in_table};
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
@@ -35,10 +37,12 @@ pub(super) struct FrameLines {
     pub(super) drop: Option<String>,
 }
 
-/// Evidence that rows of `table` have pictures: 2 if they hold or name them, 1 if cells are names without their ending, 0 for none.
+/// Evidence that rows of `table` have pictures: 2 if they hold or name them, 1 if cells are parts of their names, 0 for none.
 pub(super) fn evidence(folder: &SourceFolder, groups: &[FileGroup], table: &SeenTable<'_>) -> u8 {
     match table.pictures.is_empty() && file_columns(folder, table).is_empty() {
-        true => u8::from(stems::of(folder, groups, table).is_some()),
+        true => u8::from(
+            stems::of(folder, groups, table).is_some() || numbered::has_column(groups, table),
+        ),
         false => 2,
     }
 }
@@ -257,7 +261,10 @@ pub(super) fn of(
     match (views.is_empty(), tables.is_empty()) {
         (false, _) => views,
         (true, false) => vec![beside(0)],
-        (true, true) => stems::of(folder, groups, main).into_iter().collect(),
+        (true, true) => match stems::of(folder, groups, main) {
+            Some(lines) => vec![lines],
+            None => numbered::of(folder, groups, main),
+        },
     }
 }
 

@@ -1,10 +1,9 @@
 //! Map as text: certain lines as they are, guesses with a reason, and `"?"` for facts that only the lab knows.
 
 mod ids;
+mod listed;
 mod sections;
 mod signals;
-
-use std::fmt::Write;
 
 use super::channels::{self, Offered};
 use super::clips;
@@ -16,11 +15,11 @@ use super::roles::candidate::Candidate;
 use super::survey::FileGroup;
 use super::tables::{SeenTable, Taxels};
 use crate::source_folder::SourceFolder;
-use ids::{add_parts, attribute_name, shared_points};
+use ids::{add_parts, attribute_name, group_points, repeat_column, shared_points};
+use listed::lists;
 use sections::{HEAD, Lines, add_frames, add_path, add_section, begun, ended, line};
 use signals::signals;
 use taceva_core::counted;
-use taceva_dataset::internal::first_names;
 
 /// Limit of unread items that a draft names.
 const UNREAD: usize = 8;
@@ -90,10 +89,16 @@ pub(super) fn of_table(
     } else if let Some(path) = frames.iter().find_map(|frame| frame.path.as_ref()) {
         add_section(&mut text, "path", path);
     }
+    if frames.is_empty() {
+        line(&mut text, &frames::none_found(groups, main));
+    }
     add_frames(&mut text, &frames);
     let columns = table_columns(main, &joins);
     let mut attributes = attribute_lines(main, &columns);
     let mut ids = Lines::default();
+    if let Some(column) = repeat_column(main) {
+        ids.add("repeat", &format!("{column:?}   # by its name"));
+    }
     let mut of_path = Vec::new();
     if let Some(parts) = parts {
         of_path = add_parts(parts, &mut ids, &mut attributes);
@@ -111,24 +116,11 @@ pub(super) fn of_table(
     let offered = offered(&columns, &of_path);
     let mut channels = channels::lines(&offered);
     let own_taxels = main.own_taxels();
-    let numbers: Vec<String> = columns
-        .iter()
-        .filter(|column| {
-            !(column.is_own && own_taxels.iter().any(|taxels| taxels.holds(&column.name)))
-        })
-        .filter_map(|column| match column.role {
-            Role::Number => Some(column.name.clone()),
-            Role::Numbers(count) => Some(format!("{} ({count} numbers)", column.name)),
-            _ => None,
-        })
-        .collect();
-    let excluded: Vec<String> = columns
-        .iter()
-        .filter_map(|column| match column.role {
-            Role::Excluded(why) => Some(format!("{} ({why})", column.name)),
-            _ => None,
-        })
-        .collect();
+    let is_free = |column: &&NamedColumn<'_>| {
+        let is_taxel = |taxels: &Taxels| taxels.holds(&column.name);
+        !(column.is_own && own_taxels.iter().any(is_taxel))
+    };
+    let free: Vec<&NamedColumn<'_>> = columns.iter().filter(is_free).collect();
     let mut joined = joins.iter().map(|join| join.table.has_guessed_channels);
     if main.has_guessed_channels || joined.any(|is_guessed| is_guessed) {
         channels.insert_str(
@@ -136,16 +128,7 @@ pub(super) fn of_table(
             "# A guess: three or six numbers without a header are mostly these, in this order.\n",
         );
     }
-    let mut comments = String::new();
-    for (said, names) in [
-        ("Numbers with unknown names", numbers),
-        ("No channels", excluded),
-    ] {
-        if !names.is_empty() {
-            let _ = writeln!(comments, "# {said}: {}", first_names(&names, NAMED));
-        }
-    }
-    add_section(&mut text, "columns", &format!("{comments}{channels}"));
+    let mut rest = String::new();
     match main.time() {
         Some(time) => {
             let clock = if time.is_unix { "unix" } else { "monotonic" };
@@ -155,25 +138,26 @@ pub(super) fn of_table(
                 time.unit,
                 time.mark()
             );
-            add_section(&mut text, "time", &lines);
+            add_section(&mut rest, "time", &lines);
         }
-        None => add_section(&mut text, "time", "clock = \"unknown\"\n"),
+        None => add_section(&mut rest, "time", "clock = \"unknown\"\n"),
     }
     for join in &joins {
         let guess = join.table.header_guess.iter();
         let lines = guess.chain(&join.lines);
         let lines: String = lines.map(|line| format!("{line}\n")).collect();
         add_section(
-            &mut text,
+            &mut rest,
             "[join]",
             &format!("name = {:?}\ntable = {}\n{lines}", join.name, join.written),
         );
     }
     let shared = shared_points(main, parts);
-    add_section(&mut text, "ids", &format!("{}{shared}", ids.0));
-    add_section(&mut text, "attributes", &attributes.0);
+    let groups = group_points(main);
+    add_section(&mut rest, "ids", &format!("{}{groups}{shared}", ids.0));
+    add_section(&mut rest, "attributes", &attributes.0);
     if let Some(drop) = frames.iter().find_map(|frame| frame.drop.as_ref()) {
-        add_section(&mut text, "drop", drop);
+        add_section(&mut rest, "drop", drop);
     }
     let mut classes = Lines::default();
     for (column, names) in &main.classes {
@@ -183,7 +167,7 @@ pub(super) fn of_table(
             &format!("{{ from = {column:?}, names = [{}] }}", names.join(", ")),
         );
     }
-    add_section(&mut text, "classes", &classes.0);
+    add_section(&mut rest, "classes", &classes.0);
     let beside = tables
         .iter()
         .filter(|table| table.rows == main.rows && table.written != main.written)
@@ -197,8 +181,17 @@ pub(super) fn of_table(
     let mut taxels = own_taxels.into_iter().chain(beside);
     if let Some(first) = taxels.next() {
         let others: Vec<String> = taxels.map(|other| other.from).collect();
-        add_section(&mut text, "signals", &signals(&first, &others));
+        add_section(&mut rest, "signals", &signals(&first, &others));
     }
+    let lines = [text.as_str(), channels.as_str(), rest.as_str()].concat();
+    let keys: String = joins
+        .iter()
+        .flat_map(|join| &join.lines)
+        .map(String::as_str)
+        .collect();
+    let comments = lists(&free, &lines, &keys);
+    add_section(&mut text, "columns", &format!("{comments}{channels}"));
+    text.push_str(&rest);
     ended(text)
 }
 
@@ -214,6 +207,10 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
         ),
     );
     let (mut ids, mut attributes) = (Lines::default(), Lines::default());
+    ids.add(
+        "sample",
+        "\"file\"   # results and predictions name the pictures",
+    );
     let mut of_path = Vec::new();
     if group.parts.names.is_empty() {
         line(

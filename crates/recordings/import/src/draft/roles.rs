@@ -12,7 +12,7 @@ use candidate::{Candidate, Named, Quantity, Reason};
 use exclusion::{Exclusion, is_counting};
 use times::time;
 
-pub(super) use times::median_step;
+pub(super) use times::{is_logged, median_step};
 pub(super) use words::words;
 
 /// Guessed role of a column.

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use super::clips::is_clip;
+use super::frames::is_picture;
 use super::path_parts::{PathParts, varying};
 use crate::error::ImportError;
 use crate::source_folder::SourceFolder;
@@ -80,15 +82,33 @@ pub(super) fn groups(folder: &SourceFolder) -> Result<Vec<FileGroup>, ImportErro
     Ok(grouped(files))
 }
 
+/// Groups of the pictures and clips among `groups`, and a group of `file` alone.
+pub(super) fn beside(mut groups: Vec<FileGroup>, file: &str) -> Vec<FileGroup> {
+    groups.retain(|group| is_picture(&group.ending) || is_clip(&group.ending));
+    let is_known = groups
+        .iter()
+        .any(|group| group.paths.iter().any(|path| path == file));
+    let parts = varying(&[file]).filter(|_| !is_known);
+    groups.extend(parts.map(|parts| FileGroup {
+        paths: vec![file.to_owned()],
+        ending: ending_of(file),
+        parts,
+    }));
+    groups
+}
+
+/// Ending of a name, in lower case.
+fn ending_of(name: &str) -> String {
+    let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
+    ending.to_ascii_lowercase()
+}
+
 /// Groups files of one ending and depth whose names differ only in numbers and words.
 fn grouped(files: Vec<String>) -> Vec<FileGroup> {
     let mut by_shape: BTreeMap<(String, usize, String), Vec<String>> = BTreeMap::new();
     for path in files {
         let name = path.rsplit('/').next().unwrap_or_default();
-        let ending = name
-            .rsplit_once('.')
-            .map_or("", |(_, ending)| ending)
-            .to_ascii_lowercase();
+        let ending = ending_of(name);
         let shape = match is_table_ending(&ending) {
             true => last_word(name),
             false => String::new(),

@@ -8,8 +8,8 @@ use std::path::Path;
 use taceva_arrays::ArrayFormat;
 use taceva_core::SourceUnit;
 
-use super::roles::candidate::{Candidate, Reason, UnitSource, kept_unit};
-use super::roles::{Role, of_named, role, words};
+use super::roles::candidate::{Candidate, Reason};
+use super::roles::{Role, is_logged, of_named, role, words};
 use super::survey::FileGroup;
 use crate::csv_table::number;
 use crate::foreign::{ForeignTable, PictureColumn, TableForm, Topics, cell_list};
@@ -245,12 +245,8 @@ impl<'g> SeenTable<'g> {
 
     /// Time column, preferring acquisition time over log time.
     pub(super) fn time(&self) -> Option<SeenTime<'_>> {
-        let is_logged = |column: &&SeenColumn| {
-            ["log_time", "publish_time"]
-                .iter()
-                .any(|name| column.name.starts_with(name))
-        };
-        let (logged, taken): (Vec<_>, Vec<_>) = self.columns.iter().partition(is_logged);
+        let columns = self.columns.iter();
+        let (logged, taken): (Vec<_>, Vec<_>) = columns.partition(|column| is_logged(&column.name));
         taken
             .into_iter()
             .chain(logged)
@@ -300,10 +296,8 @@ fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
     let rows = table.rows();
     let step = rows.div_ceil(SPREAD).max(1);
     for candidate in candidates {
-        if let Some(unit) = stated
-            && kept_unit(candidate.channel) == Some(unit.unit())
-        {
-            candidate.unit = Some((unit.symbol(), UnitSource::File));
+        if let Some(unit) = stated {
+            candidate.take_unit(unit);
         }
         let at: Vec<usize> = candidate
             .index
@@ -389,6 +383,7 @@ fn guess_channels(columns: &mut [SeenColumn]) -> bool {
                 index: String::new(),
                 reason: Reason::Guess,
                 unit: None,
+                is_unscaled: false,
                 open: None,
             }]);
         }

@@ -28,6 +28,16 @@ pub(super) enum PatternPart {
     Cell(usize, NumberForm),
 }
 
+impl PatternPart {
+    /// True if it is an empty cell.
+    pub(super) fn is_empty<'c>(&self, cell: impl Fn(usize) -> &'c str) -> bool {
+        match self {
+            PatternPart::Text(_) => false,
+            PatternPart::Cell(column, _) => cell(*column).is_empty(),
+        }
+    }
+}
+
 /// Name of a row's frame.
 pub(super) enum FrameName {
     File(String),

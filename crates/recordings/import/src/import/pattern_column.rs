@@ -1,7 +1,7 @@
 //! Column in the pattern of a file name: `{n}`, padded with zeros `{n:05}`, or from 1 `{row+1:05}`.
 
 /// Limit of digits that a number is padded to.
-const DIGITS_MAX: usize = 20;
+pub(crate) const DIGITS_MAX: usize = 20;
 
 /// Column that a pattern names, with the form of its whole numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,7 +57,7 @@ impl NumberForm {
         let NumberForm { add, digits } = self;
         let number = match (add, digits) {
             (0, 0) => None,
-            _ => whole(cell).and_then(|number| number.checked_add(add)),
+            _ => whole_number(cell).and_then(|number| number.checked_add(add)),
         };
         match number {
             Some(number) => format!("{number:0digits$}"),
@@ -67,7 +67,7 @@ impl NumberForm {
 }
 
 /// Whole number in a cell: `7`, `007` or `7.0`.
-fn whole(cell: &str) -> Option<u64> {
+pub(crate) fn whole_number(cell: &str) -> Option<u64> {
     let digits = match cell.split_once('.') {
         Some((digits, fraction)) if fraction.bytes().all(|digit| digit == b'0') => digits,
         Some(_) => return None,

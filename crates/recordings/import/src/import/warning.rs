@@ -67,11 +67,18 @@ pub enum ImportWarning {
         /// End of the complete records, byte.
         end: u64,
     },
+    /// The map names neither pictures nor signals, and the folder has pictures.
+    NoPictures {
+        /// Number of pictures in the folder.
+        pictures: u64,
+        /// First of them, relative to the folder.
+        first: String,
+    },
 }
 
 impl ImportWarning {
-    /// Stable code for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight`, `zero-spread`, `repeated-stamps` or
-    /// `cut-recording`.
+    /// Stable code for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight`, `zero-spread`, `repeated-stamps`,
+    /// `cut-recording` or `no-pictures`.
     pub fn code(&self) -> &'static str {
         match self {
             ImportWarning::ColumnTwice { .. } => "column-twice",
@@ -81,6 +88,7 @@ impl ImportWarning {
             ImportWarning::ZeroSpread { .. } => "zero-spread",
             ImportWarning::RepeatedStamps { .. } => "repeated-stamps",
             ImportWarning::CutRecording { .. } => "cut-recording",
+            ImportWarning::NoPictures { .. } => "no-pictures",
         }
     }
 }
@@ -139,6 +147,12 @@ impl fmt::Display for ImportWarning {
                 taceva_core::shown(file),
                 taceva_core::counted(*messages, "complete message"),
                 taceva_core::by_count(*messages, "is", "are")
+            ),
+            ImportWarning::NoPictures { pictures, first } => write!(
+                f,
+                "the map has no [frame], so no row has a picture; the folder has {pictures} pictures, such as {}: name them by `column` or \
+                 `pattern` of [frame] and import again",
+                taceva_core::shown(first)
             ),
         }
     }

@@ -127,6 +127,20 @@ fn draft_of(files: &[(&str, Vec<u8>)]) -> String {
     draft.text().to_owned()
 }
 
+#[test]
+fn a_draft_offers_the_groups_of_a_file_as_contacts_beside_the_column_of_objects() {
+    let draft = MapDraft::of(bare("hdf5-groups").path()).expect("a draft");
+    let text = draft.text();
+    assert!(
+        text.contains("\n# point_id = \"group\"   # only if each group"),
+        "{text}"
+    );
+    assert!(
+        text.contains("\n# point_id = \"@object\"   # only if"),
+        "{text}"
+    );
+}
+
 /// A NumPy file of bytes.
 fn npy(shape: &str, data: &[u8]) -> Vec<u8> {
     let header = format!("{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}");

@@ -2,7 +2,7 @@
 
 use super::{case, draft, imported, lab, line, planned};
 
-/// Draft of a folder with one table of `rows` rows, whose cells a function writes.
+/// Draft of a folder with one table of 40 rows, whose cells a function writes.
 fn drafted(header: &str, row: impl Fn(usize) -> String) -> String {
     let rows: Vec<String> = (0..40).map(row).collect();
     let folder = lab(&[("labels.csv", &format!("{header}\n{}\n", rows.join("\n")))]);
@@ -27,7 +27,7 @@ fn taken(draft: &str, channel: &str) -> String {
     from.split('"').next().unwrap_or_default().to_owned()
 }
 
-fn filled(draft: &str) -> String {
+pub(super) fn filled(draft: &str) -> String {
     draft
         .replace("model = \"?\"", "model = \"gel\"")
         .replace("unit = \"?\"", "unit = \"N\"")
@@ -178,12 +178,49 @@ fn pictures_come_before_an_array_beside_them() {
         "{draft}"
     );
     assert!(!draft.contains("[signals]"), "{draft}");
+    // Results name the pictures, not their positions.
+    assert!(draft.contains("[ids]\nsample = \"file\""), "{draft}");
+}
+
+#[test]
+fn every_column_is_listed_as_used_as_a_candidate_or_as_neither() {
+    let draft = drafted("Fz_N,fz_cmd,gain,frame_no,note,fz_left", |row| {
+        let (force, count) = (wave(row), row * 3);
+        format!("{force},{force},{force},{count},text {row},{force}")
+    });
+    assert_eq!(line(&draft, "# Not used: "), "# Not used: frame_no, note");
+    let numbers = line(&draft, "# Numbers with unknown names: ");
+    assert_eq!(numbers, "# Numbers with unknown names: gain");
+    assert!(
+        line(&draft, "# No channels: ").contains("fz_cmd ("),
+        "{draft}"
+    );
+    assert!(
+        line(&draft, "# or: Fz = ").contains("\"fz_left\""),
+        "{draft}"
+    );
+}
+
+#[test]
+fn a_column_of_repeats_is_drafted_as_an_id_and_refused_as_an_attribute_with_the_section() {
+    let text = drafted("repeat,Fz_N", |row| format!("{},{}", row % 5, wave(row)));
+    assert!(
+        text.contains("\nrepeat = \"repeat\"   # by its name\n"),
+        "{text}"
+    );
+    assert!(!text.contains("unknown names"), "{text}");
+    let folder = lab(&[("labels.csv", "repeat,Fz_N\n1,0.5\n2,1.5\n")]);
+    let as_attribute = filled(&text).replace("[ids]", "[attributes]");
+    let problem = planned(folder.path(), &as_attribute).expect_err("refused");
+    let expected = "`repeat` is a key of [ids]: write this line there";
+    assert!(problem.contains(expected), "{problem}");
+    planned(folder.path(), &filled(&text)).expect("an import");
 }
 
 const PICTURE: &[u8] = include_bytes!("../cases/times-as-text/img/00.png");
 
 /// A folder with a table and copies of one picture.
-fn with_pictures(files: &[(&str, &str)], pictures: &[&str]) -> tempfile::TempDir {
+pub(super) fn with_pictures(files: &[(&str, &str)], pictures: &[&str]) -> tempfile::TempDir {
     let folder = lab(files);
     for path in pictures {
         let path = folder.path().join(path);

@@ -8,6 +8,7 @@ mod drafts;
 mod held;
 mod lags;
 mod mean_pictures;
+mod numbered;
 mod numbers;
 mod packages;
 mod stamps;

@@ -42,13 +42,7 @@ pub(super) fn of(
     let stems = stems(groups);
     let mut found: Vec<Match<'_>> = Vec::new();
     for (&(base, ending), stems) in &stems {
-        let within = match own {
-            "" => Some(base),
-            own if base == own => Some(""),
-            own => base
-                .strip_prefix(own)
-                .and_then(|rest| rest.strip_prefix('/')),
-        };
+        let within = within(own, base);
         // Each of several tables has its pictures in its own folder.
         if within.is_none() && main.group.paths.len() > 1 {
             continue;
@@ -89,6 +83,26 @@ pub(super) fn of(
     })
 }
 
+/// The folder `base` relative to the folder `own`; `None` outside of it.
+pub(super) fn within<'b>(own: &str, base: &'b str) -> Option<&'b str> {
+    match own {
+        "" => Some(base),
+        own if base == own => Some(""),
+        own => base
+            .strip_prefix(own)
+            .and_then(|rest| rest.strip_prefix('/')),
+    }
+}
+
+/// True if the cells of `column` may name files.
+pub(super) fn may_name(column: &SeenColumn) -> bool {
+    let is_free = matches!(
+        column.role,
+        Role::Attribute | Role::Index | Role::Number | Role::Other
+    );
+    is_free && !column.name.contains(['{', '}'])
+}
+
 /// Names of the pictures without their ending, by folder and ending.
 fn stems(groups: &[FileGroup]) -> BTreeMap<(&str, &str), HashSet<&str>> {
     let mut found: BTreeMap<(&str, &str), HashSet<&str>> = BTreeMap::new();
@@ -105,10 +119,6 @@ fn stems(groups: &[FileGroup]) -> BTreeMap<(&str, &str), HashSet<&str>> {
 /// True if each cell of `column` is another one of `stems`. Plain numbers also count the rows of a log: they name pictures only if there are
 /// as many numbered ones as `rows`.
 fn names(column: &SeenColumn, stems: &HashSet<&str>, rows: usize) -> bool {
-    let may_name = matches!(
-        column.role,
-        Role::Attribute | Role::Index | Role::Number | Role::Other
-    ) && !column.name.contains(['{', '}']);
     let cells = column.cells.iter().filter(|cell| !cell.is_empty());
     let cells: Vec<&str> = cells.map(String::as_str).collect();
     let different: HashSet<&str> = cells.iter().copied().collect();
@@ -120,7 +130,7 @@ fn names(column: &SeenColumn, stems: &HashSet<&str>, rows: usize) -> bool {
         let numbered = stems.iter().filter(|stem| is_count(stem)).count();
         numbered == rows.saturating_sub(column.empty)
     };
-    may_name
+    may_name(column)
         && cells.len() > 1
         && different.len() == cells.len()
         && cells.iter().all(|cell| stems.contains(cell))

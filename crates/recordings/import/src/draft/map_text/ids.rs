@@ -5,6 +5,7 @@ use crate::draft::path_parts::PathParts;
 use crate::draft::roles::candidate::{Candidate, Named};
 use crate::draft::roles::words;
 use crate::draft::tables::{SeenColumn, SeenTable};
+use crate::import::whole_number;
 use taceva_dataset::internal::is_attribute_name;
 
 /// Words of columns whose equal values mark rows that belong together.
@@ -12,6 +13,27 @@ const SHARED: [&str; 12] = [
     "episode", "session", "trial", "object", "video", "clip", "take", "press", "run", "repeat",
     "grasp", "sequence",
 ];
+
+/// Line for the groups of a file, which may be contacts.
+pub(super) fn group_points(main: &SeenTable<'_>) -> &'static str {
+    match main.has_groups() {
+        true => {
+            "# point_id = \"group\"   # only if each group of the file is one contact, such as a grasp or a press, for intervals and --split by-point\n"
+        }
+        false => "",
+    }
+}
+
+/// Column with the number of the repeat, if its name says so.
+pub(super) fn repeat_column<'t>(main: &'t SeenTable<'_>) -> Option<&'t str> {
+    let is_repeat = |column: &&SeenColumn| {
+        let mut filled = column.cells.iter().filter(|cell| !cell.is_empty());
+        let name = column.name.trim_start_matches('@');
+        name.eq_ignore_ascii_case("repeat") && filled.all(|cell| whole_number(cell).is_some())
+    };
+    let column = main.columns.iter().find(is_repeat)?;
+    Some(column.name.as_str())
+}
 
 /// Line of the shared point of repeats: active for episodes, commented out for others.
 pub(super) fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> String {

@@ -40,9 +40,6 @@ pub(super) fn add_path(text: &mut String, parts: &PathParts) {
 }
 
 pub(super) fn add_frames(text: &mut String, frames: &[FrameLines]) {
-    if frames.is_empty() {
-        line(text, "# No pictures were found that belong to its rows.");
-    }
     for frame in frames {
         add_frame(text, frame);
     }

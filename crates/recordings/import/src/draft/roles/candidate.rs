@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use taceva_core::Unit;
+use taceva_core::{SourceUnit, Unit};
 
 use super::exclusion::{Exclusion, of_words};
 use super::words::words;
@@ -17,9 +17,24 @@ pub(crate) struct Candidate {
     pub(crate) reason: Reason,
     /// Unit stated by its name or its file.
     pub(crate) unit: Option<(&'static str, UnitSource)>,
+    /// True for counts and volts, which need a scale before they are the channel.
+    pub(crate) is_unscaled: bool,
     /// Reason to leave the line open: only the lab knows whether it was measured.
     pub(crate) open: Option<String>,
 }
+
+impl Candidate {
+    /// Takes the unit that the file states.
+    pub(crate) fn take_unit(&mut self, unit: SourceUnit) {
+        if kept_unit(self.channel) == Some(unit.unit()) {
+            self.unit = Some((unit.symbol(), UnitSource::File));
+        }
+        self.is_unscaled = matches!(unit.unit(), Unit::Count | Unit::Volt);
+    }
+}
+
+/// Words for numbers without a scale.
+const UNSCALED: [&str; 5] = ["adc", "count", "counts", "lsb", "raw"];
 
 /// Reason to take a column for a channel, the most certain first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -353,7 +368,13 @@ impl Named {
             },
             _ => None,
         };
+        let has_word = self
+            .own
+            .iter()
+            .any(|word| UNSCALED.contains(&word.as_str()));
+        let has_suffix = self.suffix.as_ref().is_some_and(UnitSuffix::is_unscaled);
         Ok(Candidate {
+            is_unscaled: unit.is_none() && (has_word || has_suffix),
             channel,
             index,
             reason,

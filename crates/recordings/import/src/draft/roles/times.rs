@@ -63,6 +63,11 @@ fn guessed_unit(numbers: &[f64], greatest: f64) -> (&'static str, Option<&'stati
     }
 }
 
+/// True for the time at which a recorder wrote a message, which is not that of the measurement.
+pub(crate) fn is_logged(name: &str) -> bool {
+    name.starts_with("log_time") || name.starts_with("publish_time")
+}
+
 /// Median positive step between sorted numbers.
 pub(crate) fn median_step(numbers: &[f64]) -> Option<f64> {
     let mut sorted = numbers.to_vec();

@@ -101,6 +101,32 @@ fn first_open(text: &str) -> Option<u64> {
         .find_map(|(number, line)| is_open(line).then_some(number))
 }
 
+/// Keys of [ids].
+const IDS: [&str; 12] = [
+    "sample",
+    "point_id",
+    "unit_id",
+    "scene",
+    "depth_step",
+    "repeat",
+    "phase",
+    "limited_by",
+    "zero_u_mm",
+    "part",
+    "kind",
+    "spacing_mm",
+];
+
+/// Problem of a name that no attribute or class may have.
+fn refused_name(name: &str) -> String {
+    match IDS.contains(&name) {
+        true => format!("`{name}` is a key of [ids]: write this line there"),
+        false => format!(
+            "`{name}` is taken or not valid: expected a letter, then letters, digits or `_`"
+        ),
+    }
+}
+
 /// Parses and checks the map in `text`.
 pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError> {
     let written: WrittenMap = parse_toml(path, text)?;
@@ -126,12 +152,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
             .is_some_and(|frames| frames.get_ref().has_reference_attribute(name));
         if is_twice || is_reference || !is_attribute_name(name) || channels.position(name).is_some()
         {
-            return Err(check.at(
-                offset,
-                &format!(
-                    "`{name}` is taken or not valid: expected a letter, then letters, digits or `_`"
-                ),
-            ));
+            return Err(check.at(offset, &refused_name(name)));
         }
     }
     if let Some(footprint) = &written.footprint

@@ -14,6 +14,7 @@ use crate::import::references::Settled;
 use crate::import::resolve::JoinMatches;
 use crate::import::source::unnamed_images;
 use crate::import::summary::FrameSummary;
+use crate::import::warning::ImportWarning;
 use taceva_dataset::internal::shown;
 
 /// Limit of listed images that no row names.
@@ -49,6 +50,7 @@ impl Reading<'_> {
             return Err(unequal);
         }
         let frames = self.planned_frames()?;
+        self.warn_of_pictures();
         self.describe_channels();
         self.summary.joins = self.joins.iter().map(JoinMatches::summary).collect();
         if let Some(signals) = &self.signals {
@@ -114,6 +116,20 @@ impl Reading<'_> {
         }
         self.find_unnamed();
         Ok(planned)
+    }
+
+    /// Warns if the folder has several pictures, and the map names neither pictures nor signals.
+    fn warn_of_pictures(&mut self) {
+        if !self.map.frames.is_empty() || self.map.signals.is_some() {
+            return;
+        }
+        let images = unnamed_images(self.folder.path(), &BTreeSet::new()).images;
+        if let (Some(first), true) = (images.iter().min(), images.len() > 1) {
+            self.summary.warnings.insert(ImportWarning::NoPictures {
+                pictures: images.len() as u64,
+                first: self.folder.inside(first, ""),
+            });
+        }
     }
 
     /// Searches for images beside those that rows name.

@@ -128,6 +128,10 @@ impl MappedTable<'_> {
             let cell = |column| self.table.cell(row, column);
             let name = match &view.cells {
                 FrameCells::Column(column) => cell(*column).to_owned(),
+                // An empty cell names no picture.
+                FrameCells::Pattern(parts) if parts.iter().any(|part| part.is_empty(cell)) => {
+                    String::new()
+                }
                 FrameCells::Pattern(parts) => filled(parts, cell),
                 _ => return None,
             };

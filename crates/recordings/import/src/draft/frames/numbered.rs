@@ -1,0 +1,294 @@
+//! Pictures whose names differ in a number that a column holds or that counts the rows: `cam/gel_00001.png`.
+
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+
+use super::stems::{may_name, within};
+use super::{FrameLines, is_gray, is_picture, of_views};
+use crate::draft::survey::FileGroup;
+use crate::draft::tables::{SeenColumn, SeenTable};
+use crate::import::{DIGITS_MAX, whole_number};
+use crate::source_folder::SourceFolder;
+use taceva_core::counted;
+
+/// Picture with the digits of the last number in its name.
+struct Numbered<'g> {
+    digits: &'g str,
+    path: &'g str,
+}
+
+/// Pictures of a folder whose names differ in their last number.
+struct Series<'g> {
+    /// Folder, relative to the source folder.
+    base: &'g str,
+    /// Names before and behind the number.
+    around: [&'g str; 2],
+    numbers: BTreeSet<u64>,
+    /// Least number of digits; 0 for numbers without leading zeros.
+    digits: usize,
+    first: &'g str,
+}
+
+impl<'g> Series<'g> {
+    /// All series among `groups`, ordered by folder and name.
+    fn all(groups: &'g [FileGroup]) -> Vec<Series<'g>> {
+        let mut found: BTreeMap<(&str, [&str; 2]), Vec<Numbered<'_>>> = BTreeMap::new();
+        let pictures = groups.iter().filter(|group| is_picture(&group.ending));
+        let paths = pictures.flat_map(|group| group.paths.iter().map(String::as_str));
+        for path in paths {
+            if let Some((base, around, digits)) = parts(path) {
+                let files = found.entry((base, around)).or_default();
+                files.push(Numbered { digits, path });
+            }
+        }
+        let series = found.into_iter();
+        series
+            .filter_map(|((base, around), files)| Series::of(base, around, &files))
+            .collect()
+    }
+
+    /// Series of `files`; `None` for a single file and for numbers that no pattern writes.
+    fn of(base: &'g str, around: [&'g str; 2], files: &[Numbered<'g>]) -> Option<Series<'g>> {
+        let written = || files.iter().map(|file| file.digits);
+        let is_padded = written().any(|digits| digits.len() > 1 && digits.starts_with('0'));
+        let least = written().map(str::len).min()?;
+        let digits = if is_padded { least } else { 0 };
+        let numbers = written().map(|digits_of| {
+            let number: u64 = digits_of.parse().ok()?;
+            (format!("{number:0digits$}") == digits_of).then_some(number)
+        });
+        let numbers: BTreeSet<u64> = numbers.collect::<Option<_>>()?;
+        let is_series = files.len() > 1 && numbers.len() == files.len() && digits <= DIGITS_MAX;
+        is_series.then_some(Series {
+            base,
+            around,
+            numbers,
+            digits,
+            first: files[0].path,
+        })
+    }
+
+    /// The first and the last number.
+    fn ends(&self) -> (u64, u64) {
+        let first = self.numbers.first().copied().unwrap_or_default();
+        (first, self.numbers.last().copied().unwrap_or(first))
+    }
+
+    /// Path of the pictures with `*` for the number.
+    fn glob(&self) -> String {
+        let [before, behind] = self.around;
+        match self.base {
+            "" => format!("{before}*{behind}"),
+            base => format!("{base}/{before}*{behind}"),
+        }
+    }
+
+    /// Words for the pictures and their numbers.
+    fn words(&self) -> String {
+        let (first, last) = self.ends();
+        format!(
+            "{} pictures {} numbered {first} to {last}",
+            self.numbers.len(),
+            self.glob()
+        )
+    }
+
+    /// Line of the pattern, in which `column` has the number.
+    fn lines(&self, main: &SeenTable<'_>, column: &str, reason: &str) -> Vec<String> {
+        let own = main.group.first();
+        let own = own.rsplit_once('/').map_or("", |(own, _)| own);
+        let within = within(own, self.base);
+        let [before, behind] = self.around;
+        let folder = match within.unwrap_or(self.base) {
+            "" => String::new(),
+            folder => format!("{folder}/"),
+        };
+        let pattern = format!("{folder}{before}{{{column}}}{behind}");
+        let mut lines = vec![format!("pattern = {pattern:?}   # a guess: {reason}")];
+        if within.is_none() {
+            lines.push("folder = \".\"".to_owned());
+        }
+        lines
+    }
+
+    /// Lines of the pictures that `column` numbers.
+    fn of_column(&self, main: &SeenTable<'_>, column: &SeenColumn) -> Vec<String> {
+        let are_plain = filled(column)
+            .all(|cell| whole_number(cell).is_some_and(|number| number.to_string() == cell));
+        let name = match (self.digits, are_plain) {
+            (0, true) => column.name.clone(),
+            (digits, _) => format!("{}:0{}", column.name, digits.max(1)),
+        };
+        let reason = format!(
+            "{}, and {:?} holds these numbers",
+            self.words(),
+            column.name
+        );
+        self.lines(main, &name, &reason)
+    }
+
+    /// Lines of the pictures in the order of the rows.
+    fn of_rows(&self, main: &SeenTable<'_>) -> Vec<String> {
+        let name = match (self.ends().0, self.digits) {
+            (0, 0) => "row".to_owned(),
+            (0, digits) => format!("row:0{digits}"),
+            (first, 0) => format!("row+{first}"),
+            (first, digits) => format!("row+{first}:0{digits}"),
+        };
+        let reason = format!(
+            "{} and {} rows: the first row is taken for the first picture",
+            self.words(),
+            main.rows
+        );
+        self.lines(main, &name, &reason)
+    }
+
+    /// True if `column` holds the number of another picture in each row, and no picture is left over. A column that counts the rows of
+    /// another number of pictures proves nothing.
+    fn is_numbered_by(&self, column: &SeenColumn, rows: usize) -> bool {
+        let numbers: Option<Vec<u64>> = filled(column).map(whole_number).collect();
+        let numbers = numbers.unwrap_or_default();
+        let different: HashSet<u64> = numbers.iter().copied().collect();
+        may_name(column)
+            && numbers.len() > 1
+            && different.len() == numbers.len()
+            && different.iter().all(|number| self.numbers.contains(number))
+            && self.numbers.len() == rows.saturating_sub(column.empty)
+    }
+
+    /// True if the pictures are as many as `rows` and their numbers have no gap.
+    fn counts(&self, rows: usize) -> bool {
+        let (first, last) = self.ends();
+        self.numbers.len() == rows
+            && (rows as u64).checked_sub(1) == Some(last - first)
+            && u32::try_from(first).is_ok()
+    }
+}
+
+/// Cells of a column that are not empty.
+fn filled(column: &SeenColumn) -> impl Iterator<Item = &str> {
+    let cells = column.cells.iter().map(String::as_str);
+    cells.filter(|cell| !cell.is_empty())
+}
+
+/// Folder of a path, the name before and behind its last number, and the digits of that number.
+fn parts(path: &str) -> Option<(&str, [&str; 2], &str)> {
+    let (base, name) = path.rsplit_once('/').unwrap_or(("", path));
+    let (stem, _) = name.rsplit_once('.')?;
+    let is_digit = |letter: char| letter.is_ascii_digit();
+    let end = stem.rfind(is_digit)? + 1;
+    let before = stem[..end].trim_end_matches(is_digit);
+    let is_fraction = before.ends_with('.');
+    let is_plain = !path.contains(|letter: char| letter.is_control() || "{}".contains(letter));
+    (!is_fraction && is_plain).then(|| {
+        let digits = &name[before.len()..end];
+        (base, [before, &name[end..]], digits)
+    })
+}
+
+/// Column of `main` that numbers the pictures of `series`, preferring one that counts the rows.
+fn column_of<'t>(series: &Series<'_>, main: &'t SeenTable<'_>) -> Option<&'t SeenColumn> {
+    let columns = main.columns.iter();
+    let columns = columns.filter(|column| series.is_numbered_by(column, main.rows));
+    let is_counting = |column: &&SeenColumn| {
+        let numbers: Vec<u64> = filled(column).filter_map(whole_number).collect();
+        let mut pairs = numbers.windows(2);
+        pairs.all(|pair| pair[1].checked_sub(pair[0]) == Some(1))
+    };
+    let (counting, others): (Vec<_>, Vec<_>) = columns.partition(is_counting);
+    counting.into_iter().chain(others).next()
+}
+
+/// True if a column of `main` numbers pictures.
+pub(super) fn has_column(groups: &[FileGroup], main: &SeenTable<'_>) -> bool {
+    main.group.paths.len() == 1
+        && Series::all(groups)
+            .iter()
+            .any(|series| column_of(series, main).is_some())
+}
+
+/// Frame lines for pictures that a column of `main` numbers, or else for as many pictures as rows; one entry for each view.
+pub(super) fn of(
+    folder: &SourceFolder,
+    groups: &[FileGroup],
+    main: &SeenTable<'_>,
+) -> Vec<FrameLines> {
+    // In each of several tables the numbers may begin anew.
+    if main.group.paths.len() > 1 {
+        return Vec::new();
+    }
+    let all = Series::all(groups);
+    let numbered = all.iter().filter_map(|series| {
+        let column = column_of(series, main)?;
+        Some((series, series.of_column(main, column)))
+    });
+    let mut found: Vec<(&Series<'_>, Vec<String>)> = numbered.collect();
+    if found.is_empty() {
+        let counted = all.iter().filter(|series| series.counts(main.rows));
+        found.extend(counted.map(|series| (series, series.of_rows(main))));
+    }
+    let lines = |at: usize| {
+        let (series, lines) = &found[at];
+        FrameLines {
+            lines: lines.clone(),
+            is_gray: is_gray(&folder.path().join(series.first)),
+            ..FrameLines::default()
+        }
+    };
+    let names: Vec<String> = found.iter().map(|(series, _)| series.glob()).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let views = of_views(&names, lines);
+    if !views.is_empty() || found.is_empty() {
+        return views;
+    }
+    let mut first = lines(0);
+    let others = found[1..].iter().map(|(_, lines)| lines);
+    let others = others.filter(|lines| lines.len() == first.lines.len());
+    let others: Vec<String> = others
+        .flat_map(|lines| lines.first())
+        .map(|line| format!("# or: {line}"))
+        .collect();
+    first.lines.extend(others);
+    vec![first]
+}
+
+/// Comment for a table without pictures, with the pictures of the folder that no line joins.
+pub(in crate::draft) fn none_found(groups: &[FileGroup], main: &SeenTable<'_>) -> String {
+    let pictures = groups.iter().filter(|group| is_picture(&group.ending));
+    let files: Vec<String> = pictures
+        .map(|group| {
+            format!(
+                "{} {}",
+                counted(group.paths.len(), "picture"),
+                group.pattern()
+            )
+        })
+        .collect();
+    match files.is_empty() {
+        true => "# No pictures were found that belong to its rows.".to_owned(),
+        false => format!(
+            "# No pictures were found that belong to its rows. Not joined: {}; the table has {}. Name them by `column` or `pattern` of [frame].",
+            files.join(", "),
+            counted(main.rows, "row")
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_number_of_a_name_is_its_number_unless_it_is_a_fraction() {
+        assert_eq!(
+            parts("cam/gel_00001.png"),
+            Some(("cam", ["gel_", ".png"], "00001"))
+        );
+        assert_eq!(
+            parts("run2_7_left.jpg"),
+            Some(("", ["run2_", "_left.jpg"], "7"))
+        );
+        assert_eq!(parts("x0.5.png"), None);
+        assert_eq!(parts("a{1}.png"), None);
+        assert_eq!(parts("rest.png"), None);
+    }
+}

@@ -1,0 +1,142 @@
+//! Drafts of folders whose pictures are numbered, and of a file in place of its folder.
+
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+use taceva_arrays::{Hdf5Writer, WrittenElement};
+use taceva_core::SilentProgress;
+use taceva_dataset::Dataset;
+use taceva_import::MapDraft;
+
+use super::drafts::{filled, with_pictures};
+use super::{codes, draft, line, planned, summary};
+
+/// Pictures of the rows after an import by the draft of `folder`.
+fn pictures(folder: &Path) -> Vec<String> {
+    let map = filled(&draft(folder));
+    let plan = planned(folder, &map).unwrap_or_else(|problem| panic!("{problem}\n{map}"));
+    let target = tempfile::tempdir().expect("a folder");
+    let target = target.path().join("dataset");
+    plan.run(&target, NonZeroUsize::MIN, &SilentProgress)
+        .expect("imported");
+    let dataset = Dataset::open(&target).expect("a dataset");
+    let names = dataset.table().source_frame().iter();
+    names.map(|name| name.clone().unwrap_or_default()).collect()
+}
+
+const CAMERA: [&str; 3] = [
+    "cam/gel_00001.png",
+    "cam/gel_00002.png",
+    "cam/gel_00003.png",
+];
+
+#[test]
+fn pictures_numbered_like_a_column_are_drafted_as_a_pattern_with_zeros() {
+    let table = "n,frame_no,Fz_N\n2,19,1.5\n1,19,2.5\n3,18,0.5\n";
+    let folder = with_pictures(&[("log.csv", table)], &CAMERA);
+    let text = draft(folder.path());
+    assert_eq!(
+        line(&text, "pattern = "),
+        "pattern = \"cam/gel_{n:05}.png\"   # a guess: 3 pictures cam/gel_*.png numbered 1 to 3, and \"n\" holds these numbers"
+    );
+    let found = pictures(folder.path());
+    assert_eq!(found, [CAMERA[1], CAMERA[0], CAMERA[2]]);
+}
+
+#[test]
+fn as_many_pictures_as_rows_are_drafted_in_the_order_of_the_rows() {
+    let folder = with_pictures(&[("log.csv", "Fz_N\n1.5\n0.5\n2.5\n")], &CAMERA);
+    let text = draft(folder.path());
+    let pattern = line(&text, "pattern = ");
+    assert!(
+        pattern.starts_with("pattern = \"cam/gel_{row+1:05}.png\"   # a guess: 3 pictures")
+            && pattern.ends_with("3 rows: the first row is taken for the first picture"),
+        "{text}"
+    );
+    assert_eq!(pictures(folder.path()), CAMERA);
+    // With a gap, the numbers are not those of the rows.
+    let apart = ["cam/1.png", "cam/2.png", "cam/4.png"];
+    let folder = with_pictures(&[("log.csv", "Fz_N\n1.5\n0.5\n2.5\n")], &apart);
+    assert!(!draft(folder.path()).contains("pattern = "));
+}
+
+#[test]
+fn numbered_pictures_of_two_sides_are_drafted_as_views() {
+    let names = ["left/1.png", "left/2.png", "right/1.png", "right/2.png"];
+    let folder = with_pictures(&[("log.csv", "n,Fz_N\n1.0,1.5\n2.0,0.5\n")], &names);
+    let text = draft(folder.path());
+    // Numbers with a fraction are written without it.
+    for part in [
+        "name = \"left\"",
+        "pattern = \"left/{n:01}.png\"",
+        "pattern = \"right/{n:01}.png\"",
+    ] {
+        assert!(text.contains(part), "{text}");
+    }
+    planned(folder.path(), &filled(&text)).expect("an import");
+}
+
+#[test]
+fn pictures_that_no_line_joins_are_named_in_the_draft_and_in_a_warning_of_the_import() {
+    let folder = with_pictures(&[("log.csv", "Fz_N\n1.5\n0.5\n")], &CAMERA);
+    let text = draft(folder.path());
+    let expected = "# No pictures were found that belong to its rows. Not joined: 3 pictures cam/gel_*.png; the table has 2 rows.";
+    assert!(line(&text, "# No pictures").starts_with(expected), "{text}");
+    let found = summary(folder.path(), &filled(&text));
+    assert_eq!(codes(&found), ["no-pictures"]);
+    let warning = found.warnings.first().expect("one").to_string();
+    assert!(
+        warning.contains("3 pictures, such as cam/gel_00001.png"),
+        "{warning}"
+    );
+    // A table alone has nothing to join.
+    let alone = with_pictures(&[("log.csv", "Fz_N\n1.5\n0.5\n")], &[]);
+    let text = draft(alone.path());
+    assert!(
+        text.contains("\n# No pictures were found that belong to its rows.\n"),
+        "{text}"
+    );
+    assert!(codes(&summary(alone.path(), &filled(&text))).is_empty());
+}
+
+#[test]
+fn a_file_is_drafted_with_the_pictures_of_its_folder_and_without_other_tables() {
+    let tables = [
+        ("log.csv", "n,Fz_N\n1,1.5\n2,0.5\n3,2.5\n"),
+        ("other.csv", "n,Fx_N\n1,1.5\n2,0.5\n3,2.5\n"),
+    ];
+    let folder = with_pictures(&tables, &CAMERA);
+    let file = MapDraft::of(&folder.path().join("log.csv")).expect("a draft");
+    let text = file.text();
+    assert!(text.contains("table = \"log.csv\""), "{text}");
+    assert!(text.contains("pattern = \"cam/gel_{n:05}.png\""), "{text}");
+    assert!(!text.contains("other"), "{text}");
+    planned(folder.path(), &filled(text)).expect("an import");
+}
+
+#[test]
+fn an_attribute_with_the_unit_of_a_force_comes_before_counts_of_the_same_force() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut writer = Hdf5Writer::create(&folder.path().join("run.h5")).expect("made");
+    for (name, attributes) in [
+        ("load_cell", &[("unit", "N")][..]),
+        ("load_cell_adc", &[][..]),
+    ] {
+        writer
+            .begin(name, WrittenElement::F64, &[3], attributes)
+            .expect("begun");
+        for number in [2.5_f64, 0.5, 1.5] {
+            writer.write(&number.to_le_bytes()).expect("written");
+        }
+    }
+    writer.finish(&[]).expect("written");
+    let text = draft(folder.path());
+    assert!(
+        text.contains("\nFz = { from = \"load_cell\", unit = \"N\" }"),
+        "{text}"
+    );
+    assert!(
+        text.contains("# or: Fz = { from = \"load_cell_adc\""),
+        "{text}"
+    );
+}
