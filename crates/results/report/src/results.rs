@@ -11,8 +11,10 @@ pub use model_bench::{
 };
 pub(crate) use standing::by_published_r2;
 
-use taceva_metrics::{TrainingSpread, catalogue};
-use taceva_results::{EvaluationReport, OverSeeds, Provenance, ResultsError, Samples, Score, Skip};
+use taceva_metrics::{Standing, TrainingSpread, catalogue};
+use taceva_results::{
+    DominantSample, EvaluationReport, OverSeeds, Provenance, ResultsError, Samples, Score, Skip,
+};
 
 /// Definition of numbers that were published without one.
 pub(crate) const PUBLISHED: &str = "published";
@@ -140,6 +142,13 @@ impl Study {
             scores: self.scores.iter().map(Score::deciding).collect(),
             ..self.clone()
         }
+    }
+
+    /// Sample that makes a great part of the squared error behind `score`, if no skill is shown.
+    pub(crate) fn dominant(&self, score: &Score) -> Option<DominantSample> {
+        let samples = self.samples.as_ref();
+        let samples = samples.filter(|_| score.standing == Standing::NoSkill)?;
+        samples.dominant(&score.channel)
     }
 
     /// Scores of one metric.

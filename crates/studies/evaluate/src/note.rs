@@ -8,6 +8,7 @@ use std::fmt;
 
 use taceva_core::shown;
 use taceva_dataset::{Extension, FramesInfo};
+use taceva_results::DominantSample;
 
 pub use detection::Detection;
 pub use division::{Division, Independence, Neighbours, SampleOrder};
@@ -123,6 +124,13 @@ pub enum Note {
     Bounded(Vec<(String, f64)>),
     /// Shares of samples within 1.96 predicted standard deviations, by channel.
     Calibration(Vec<Coverage>),
+    /// A sample that makes a great part of the squared error of a channel.
+    Dominant {
+        /// The channel.
+        channel: String,
+        /// The sample.
+        sample: DominantSample,
+    },
     /// A setting that the fit chose, as the model card describes it.
     Chosen {
         /// The recording that the fold leaves out, if there are folds.
