@@ -271,3 +271,21 @@ fn published_numbers_are_said_to_be_published() {
         &["Accuracy of 2 sensors, as published, without intervals."],
     );
 }
+
+#[test]
+fn named_channels_have_rows_of_their_own_beside_a_plane() {
+    let studies = [support::study(&result(
+        "GelSight",
+        &["Fx", "Fy", "Fxy", "Fz"],
+    ))];
+    let rows = |names: &[&str]| -> Vec<String> {
+        let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        let scores = ScoreTable::of(&studies).of_channels(&names);
+        let rows = scores.main().rows.into_iter();
+        rows.filter(|row| row.metric == "mae")
+            .map(|row| row.channel)
+            .collect()
+    };
+    assert_eq!(rows(&[]), ["Fxy", "Fz"]);
+    assert_eq!(rows(&["Fx", "Fy", "Fz"]), ["Fx", "Fy", "Fz"]);
+}
