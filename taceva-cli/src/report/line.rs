@@ -74,7 +74,7 @@ impl Line<'_> {
     }
 }
 
-/// Methods of intervals with their metrics: `jackknife, 460 samples taken as independent in 32 groups, logarithmic (mae, rmse)`.
+/// Methods of intervals, with their metrics if there are several: `jackknife, 460 samples taken as independent in 32 groups, logarithmic (mae)`.
 pub(super) fn methods(scores: &[Score]) -> Vec<String> {
     let mut methods: BTreeMap<&str, (u64, Vec<&str>)> = BTreeMap::new();
     for score in scores {
@@ -86,12 +86,15 @@ pub(super) fn methods(scores: &[Score]) -> Vec<String> {
             }
         }
     }
-    let methods = methods.into_iter();
-    methods
-        .map(|(method, (n, metrics))| {
-            format!("{} ({})", described_method(method, n), metrics.join(", "))
-        })
-        .collect()
+    let is_one = methods.len() == 1;
+    let named = |(method, (n, metrics)): (&str, (u64, Vec<&str>))| {
+        let method = described_method(method, n);
+        match is_one {
+            true => method,
+            false => format!("{method} ({})", metrics.join(", ")),
+        }
+    };
+    methods.into_iter().map(named).collect()
 }
 
 /// Flags of scores, one line for each flag of a metric: `uniformity Fz: one bin`, `skill Pz Fz: constant is the mean of truth`.
