@@ -64,7 +64,7 @@ pub enum Note {
         /// All views, as text.
         of: String,
     },
-    /// A warning of an import, or the zero or gravity that it subtracted from labels.
+    /// A warning of an import, the zero or gravity that it subtracted from labels, or a table that it joined.
     Imported {
         /// The recording, if several were joined.
         recording: Option<String>,
