@@ -29,16 +29,18 @@ use taceva_study::bench::KernelBench;
 
 use crate::args::{Format, TableScores};
 
-/// Writes an evaluation in the requested format.
+/// Writes an evaluation in the requested format. The main table has the rows of `channels`, or of planes and single channels if it is empty.
 pub(crate) fn evaluation(
     report: &EvaluationReport,
     format: Format,
     table: TableScores,
+    channels: &[String],
     out: &mut dyn Write,
 ) -> io::Result<()> {
     if table == TableScores::Main && format != Format::Json {
         let study = Study::from(report.clone());
-        return main_scores(&ScoreTable::of(&[study]), format, None, out);
+        let scores = ScoreTable::of(&[study]).of_channels(channels);
+        return main_scores(&scores, format, None, out);
     }
     match format {
         Format::Text => text::write(report, out),
@@ -105,7 +107,7 @@ pub(crate) fn profiles(
         if number > 0 {
             writeln!(out)?;
         }
-        evaluation(report, format, table, out)?;
+        evaluation(report, format, table, &[], out)?;
     }
     Ok(())
 }

@@ -18,6 +18,9 @@ pub(crate) struct Compare {
     /// Metrics, separated by commas: ids, or the groups accuracy and all [default: all with a direction]
     #[arg(long, value_name = "METRICS", value_delimiter = ',')]
     pub(crate) metrics: Vec<String>,
+    /// The channels and planes with a row in the tables, separated by commas, such as Fx,Fy,Fz [default: planes in place of their axes]
+    #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
+    pub(crate) channels: Vec<String>,
     /// The largest difference of scores that still counts as equal, such as mae.Fz=0.01; may be repeated
     #[arg(long = "margin", value_name = "METRIC[.CHANNEL]=NUMBER")]
     pub(crate) margins: Vec<String>,

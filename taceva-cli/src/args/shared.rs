@@ -42,7 +42,7 @@ pub(crate) struct SettingArgs {
     /// networks in a program built for GPUs; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
-    /// Channels to predict, separated by commas [default: all]
+    /// Channels to predict, separated by commas; main tables have a row for each, instead of planes [default: all]
     #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
     pub(crate) channels: Vec<String>,
 }

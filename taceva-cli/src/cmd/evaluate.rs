@@ -80,7 +80,8 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     }
     cache::note(cache.as_ref(), context);
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
-        report::evaluation(&evaluated.report, args.output.format, table, out)
+        let channels = &args.model.settings.channels;
+        report::evaluation(&evaluated.report, args.output.format, table, channels, out)
     })?;
     super::say_left_out(
         &scoring.metrics,

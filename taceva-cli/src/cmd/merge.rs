@@ -11,7 +11,7 @@ pub(crate) fn run(args: &Merge, _context: &Context) -> anyhow::Result<u8> {
     }
     let (report, state) = taceva_evaluate::merge(&args.states)?;
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
-        report::evaluation(&report, args.output.format, table, out)
+        report::evaluation(&report, args.output.format, table, &[], out)
     })?;
     if let Some(path) = &args.state_out {
         output::write(Some(path), |out| state.write(out))?;

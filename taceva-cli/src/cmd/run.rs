@@ -195,7 +195,7 @@ fn write_files(
         for (format, extension) in formats {
             let path: PathBuf = folder.report(number, &study.plan.name, extension);
             output::write_as(*format, Some(&path), |out| {
-                report::evaluation(written, *format, TableScores::usual(*format), out)
+                report::evaluation(written, *format, TableScores::usual(*format), &[], out)
             })?;
         }
         if let Some(samples) = &written.samples {

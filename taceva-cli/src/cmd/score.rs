@@ -59,7 +59,7 @@ pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     }
     say_units(args, &scored, context);
     output::write_as(args.output.format, args.output.path.as_deref(), |out| {
-        report::evaluation(&scored.report, args.output.format, table, out)
+        report::evaluation(&scored.report, args.output.format, table, &[], out)
     })?;
     super::say_left_out(
         &asked.metrics,

@@ -74,7 +74,7 @@ impl Line<'_> {
     }
 }
 
-/// Methods of intervals with their metrics: `jackknife, 460 samples taken as independent in 32 groups, logarithmic (mae, rmse)`.
+/// Methods of intervals, with their metrics if there are several: `jackknife, 460 samples taken as independent in 32 groups, logarithmic (mae)`.
 pub(super) fn methods(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> Vec<String> {
     let mut methods: BTreeMap<&str, (u64, Vec<&str>)> = BTreeMap::new();
     for score in &report.scores {
@@ -86,17 +86,19 @@ pub(super) fn methods(report: &EvaluationReport, foreign: impl Fn(&str) -> Strin
             }
         }
     }
-    let methods = methods.into_iter();
-    methods
-        .map(|(method, (n, metrics))| {
-            let method = described_method(method, n);
-            let method = match report.provenance.group() {
-                Some(group) => method.replace(" by group", &format!(" by {}", foreign(group))),
-                None => method,
-            };
-            format!("{method} ({})", metrics.join(", "))
-        })
-        .collect()
+    let is_one = methods.len() == 1;
+    let named = |(method, (n, metrics)): (&str, (u64, Vec<&str>))| {
+        let method = described_method(method, n);
+        let method = match report.provenance.group() {
+            Some(group) => method.replace(" by group", &format!(" by {}", foreign(group))),
+            None => method,
+        };
+        match is_one {
+            true => method,
+            false => format!("{method} ({})", metrics.join(", ")),
+        }
+    };
+    methods.into_iter().map(named).collect()
 }
 
 /// Flags of scores, one line for each flag of a metric: `uniformity Fz: one bin`, `skill Pz Fz: constant is the mean of truth`.

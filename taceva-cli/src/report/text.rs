@@ -2,10 +2,10 @@
 
 use std::io::{self, Write};
 
-use taceva_core::{Limit, PressOutcome, counted};
+use taceva_core::{Limit, PressOutcome};
 use taceva_metrics::Better;
 use taceva_report::{Align, Column, Table, escape_terminal, short_digests};
-use taceva_results::{EvaluationReport, Provenance, not_measured};
+use taceva_results::{EvaluationReport, not_measured};
 
 use super::line::{Line, flags, methods, pictures, read_lines, remedies, standings};
 use super::number::formatted;
@@ -123,7 +123,8 @@ fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
         let seed = provenance
             .seed
             .map_or_else(String::new, |seed| format!(", seed {seed}"));
-        let made = folds(provenance).unwrap_or_else(|| parts.join(", "));
+        let made = provenance.predicted_once();
+        let made = made.unwrap_or_else(|| parts.join(", "));
         writeln!(out, "split {split}{seed}: {made}")?;
     }
     let part = provenance.part.as_ref();
@@ -131,24 +132,6 @@ fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "scored on the part `{part}`")?;
     }
     writeln!(out)
-}
-
-/// Samples and models of a cross-validation: `696 samples, each predicted once by one of 5 models`.
-fn folds(provenance: &Provenance) -> Option<String> {
-    provenance.cross_validation()?;
-    let tested = counted(*provenance.samples.get("test")?, "sample");
-    let models = match provenance.fold_models() {
-        Some(models) => format!("one of {models} models"),
-        None => "a model that has not seen its group".to_owned(),
-    };
-    let left_out = provenance.samples.get("left_out").copied();
-    let left_out = match left_out.unwrap_or_default() {
-        0 => String::new(),
-        count => format!("; left out {count}"),
-    };
-    Some(format!(
-        "{tested}, each predicted once by {models}{left_out}"
-    ))
 }
 
 fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {

@@ -14,9 +14,10 @@ pub(crate) use standing::by_published_r2;
 pub use statement::Statement;
 pub(crate) use statement::UNSTATED;
 
-use taceva_metrics::{TrainingSpread, catalogue};
+use taceva_metrics::{Standing, TrainingSpread, catalogue};
 use taceva_results::{
-    EvaluationReport, Interval, OverSeeds, Provenance, ResultsError, Samples, Score, Skip,
+    DominantSample, EvaluationReport, Interval, OverSeeds, Provenance, ResultsError, Samples,
+    Score, Skip,
 };
 
 /// Words in the method of an interval that leaves out groups of the split.
@@ -154,6 +155,13 @@ impl Study {
             scores: self.scores.iter().map(Score::deciding).collect(),
             ..self.clone()
         }
+    }
+
+    /// Sample that makes a great part of the squared error behind `score`, if no skill is shown.
+    pub(crate) fn dominant(&self, score: &Score) -> Option<DominantSample> {
+        let samples = self.samples.as_ref();
+        let samples = samples.filter(|_| score.standing == Standing::NoSkill)?;
+        samples.dominant(&score.channel)
     }
 
     /// Scores of one metric.

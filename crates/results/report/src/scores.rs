@@ -1,6 +1,7 @@
 //! Scores of studies side by side: one row for each score, one column for each study; with layouts for papers and programs.
 
 mod caption;
+mod channels;
 mod column;
 mod forms;
 mod main;

@@ -1,5 +1,7 @@
 //! Folds of a cross-validation, as the provenance of a result states them.
 
+use taceva_core::counted;
+
 use crate::provenance::Provenance;
 
 impl Provenance {
@@ -37,6 +39,33 @@ impl Provenance {
             (_, Some(count)) => Some(format!("{count}-fold cross-validation{by}")),
             _ => None,
         }
+    }
+
+    /// Samples and models of a [cross-validation](Provenance::cross_validation), in words; `None` without one.
+    ///
+    /// ```
+    /// use taceva_results::Provenance;
+    /// let mut made = Provenance::default();
+    /// made.split = Some("cv:5 random".to_owned());
+    /// made.part = Some("test".to_owned());
+    /// made.samples.insert("test".to_owned(), 460);
+    /// let words = "460 samples, each predicted once by one of 5 models";
+    /// assert_eq!(made.predicted_once().as_deref(), Some(words));
+    /// ```
+    pub fn predicted_once(&self) -> Option<String> {
+        self.cross_validation()?;
+        let tested = counted(*self.samples.get("test")?, "sample");
+        let models = match self.fold_models() {
+            Some(models) => format!("one of {models} models"),
+            None => "a model that has not seen its group".to_owned(),
+        };
+        let left_out = match self.samples.get("left_out") {
+            None | Some(0) => String::new(),
+            Some(count) => format!("; left out {count}"),
+        };
+        Some(format!(
+            "{tested}, each predicted once by {models}{left_out}"
+        ))
     }
 
     /// Number of models of the [cross-validation](Provenance::cross_validation). `None` if the provenance does not state it.

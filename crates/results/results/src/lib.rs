@@ -22,7 +22,7 @@ pub use interval::{Interval, described_method};
 pub use origin::not_measured;
 pub use provenance::{ModelProvenance, OPTIMISTIC, Provenance, RecordingProvenance};
 pub use report::{EVALUATION_SCHEMA, EvaluationReport, RecordingScores, Skip};
-pub use samples::{SampleChannel, Samples, SamplesError};
+pub use samples::{DominantSample, SampleChannel, Samples, SamplesError};
 pub use schema::{RUN_SCHEMA, RunReport, read, sealed};
 pub use score::{Score, Variant, by_metric, scores};
 pub use seeds::{OverSeeds, SeedScore};

@@ -1,5 +1,9 @@
 //! Table of the samples behind scores.
 
+mod dominant;
+
+pub use dominant::DominantSample;
+
 use std::io::{self, Write};
 use std::path::PathBuf;
 

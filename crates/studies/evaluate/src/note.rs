@@ -9,6 +9,7 @@ use std::fmt;
 
 use taceva_core::shown;
 use taceva_dataset::{Extension, FramesInfo};
+use taceva_results::DominantSample;
 
 pub use detection::Detection;
 pub use division::{Division, Independence, Neighbours, SampleOrder};
@@ -65,7 +66,7 @@ pub enum Note {
         /// All views, as text.
         of: String,
     },
-    /// A warning of an import, or the zero or gravity that it subtracted from labels.
+    /// A warning of an import, the zero or gravity that it subtracted from labels, or a table that it joined.
     Imported {
         /// The recording, if several were joined.
         recording: Option<String>,
@@ -125,6 +126,13 @@ pub enum Note {
     Bounded(Vec<(String, f64)>),
     /// Shares of samples within 1.96 predicted standard deviations, by channel.
     Calibration(Vec<Coverage>),
+    /// A sample that makes a great part of the squared error of a channel.
+    Dominant {
+        /// The channel.
+        channel: String,
+        /// The sample.
+        sample: DominantSample,
+    },
     /// A setting that the fit chose, as the model card describes it.
     Chosen {
         /// The recording that the fold leaves out, if there are folds.

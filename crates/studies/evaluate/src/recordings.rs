@@ -1,5 +1,7 @@
 //! Several recordings joined as one: the recording of each row, the rows that a model has seen, and intervals across recordings.
 
+mod joins;
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -138,7 +140,7 @@ pub(crate) fn extended(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, of)
 }
 
-/// Notes on warnings of the imports, and on the zero and gravity that they subtracted from labels.
+/// Notes on warnings of the imports, on the zero and gravity that they subtracted from labels, and on the tables that they joined.
 pub(crate) fn imported(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         let header = recording.header();
@@ -147,6 +149,7 @@ pub(crate) fn imported(dataset: &Dataset) -> Vec<Note> {
             rules.map(|rule| format!("{} less the {rule}", column.label))
         });
         let words = header.warnings.iter().cloned().chain(taken);
+        let words = words.chain(joins::of(header));
         let notes = words.map(|words| Note::Imported {
             recording: name.map(str::to_owned),
             words,

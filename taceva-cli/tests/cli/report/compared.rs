@@ -101,6 +101,24 @@ fn runs_are_compared_by_their_folders_and_what_is_missing_is_named() {
 }
 
 #[test]
+fn a_comparison_has_rows_of_the_named_channels() {
+    let bench = Bench::new();
+    let row = "mae Pz (mm)";
+    let all = bench.ok("compare ViTacTip GelSight -q");
+    assert!(all.contains(row), "{all}");
+    let named = bench.ok("compare ViTacTip GelSight --channels Fz -q");
+    assert!(
+        named.contains("mae Fz (N)") && !named.contains(row),
+        "{named}"
+    );
+    bench.refused(
+        "compare ViTacTip GelSight --channels Fq",
+        2,
+        "--channels Fq: no result has this channel, expected one of",
+    );
+}
+
+#[test]
 fn published_numbers_are_compared_and_chosen_from() {
     let bench = Bench::new();
     let compared = bench.json("compare ViTacTip GelSight MagicTac");

@@ -41,7 +41,9 @@ impl Remarks {
             let is_low = score.standing == Standing::LowStimulus;
             let words = Light::of(score).low_stimulus().filter(|_| is_low);
             let words = words.unwrap_or_else(|| mark.to_owned());
-            Some((*at, format!("{}: {words}", names.get(*at)?)))
+            let sample = studies[*at].dominant(score);
+            let sample = sample.map_or_else(String::new, |sample| format!(" (its {sample})"));
+            Some((*at, format!("{}: {words}{sample}", names.get(*at)?)))
         });
         Remarks {
             metric: metric.to_owned(),

@@ -46,6 +46,7 @@ fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
         )
     );
     out += &origin(studies);
+    out += &joined(studies);
     out += &pressed(studies);
     out += &divided(studies);
     out += &model(studies);
@@ -95,6 +96,23 @@ fn origin(studies: &[Study]) -> String {
         );
     }
     out
+}
+
+/// Sentence on the tables that imports joined, from the notes of the results.
+fn joined(studies: &[Study]) -> String {
+    let notes = studies.iter().flat_map(|study| &study.notes);
+    let joins = notes.filter_map(|note| note.split_once("import: table "));
+    let joins: BTreeSet<&str> = joins
+        .map(|(_, words)| words)
+        .filter(|words| words.contains(" joined by "))
+        .collect();
+    match joins.is_empty() {
+        true => String::new(),
+        false => {
+            let joins: Vec<&str> = joins.into_iter().collect();
+            format!(" The import joined tables ({}).", joins.join("; "))
+        }
+    }
 }
 
 /// Presses of the recordings, and places of the scored samples.

@@ -22,12 +22,12 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
             } "\n"
         }
         h3 { "Intervals" } "\n"
-        p { "All intervals are of 95 %, over " (clusters(studies)) " unless a line says otherwise. Each method is followed by its metrics." }
+        p { "All intervals are of 95 %, over " (clusters(studies)) " unless a line says otherwise." }
         ul { @for method in &methods { li { (method) } } }
     }
 }
 
-/// Methods of intervals with their metrics: `jackknife by point_id, G=20, logarithmic: mae, rmse`.
+/// Methods of intervals, with their metrics if there are several: `jackknife by point_id, G=20, logarithmic (mae, rmse)`.
 fn methods(table: &ScoreTable) -> Vec<String> {
     let mut methods: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for row in &table.rows {
@@ -40,10 +40,12 @@ fn methods(table: &ScoreTable) -> Vec<String> {
             }
         }
     }
-    let methods = methods.into_iter();
-    methods
-        .map(|(method, metrics)| format!("{method}: {}", metrics.join(", ")))
-        .collect()
+    let is_one = methods.len() == 1;
+    let named = |(method, metrics): (String, Vec<&str>)| match is_one {
+        true => method,
+        false => format!("{method} ({})", metrics.join(", ")),
+    };
+    methods.into_iter().map(named).collect()
 }
 
 /// Renames left-out samples, which belong to other parts of the protocol, for other metrics.

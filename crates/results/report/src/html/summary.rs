@@ -68,9 +68,12 @@ fn alone(study: &Study, row: &ScoreRow) -> Option<Markup> {
         let reason = cell.formatted.reason.as_deref()?;
         return Some(html! { "no value (" (reason) ")." });
     }
+    let score = study.score(&row.metric, &row.channel);
+    let sample = score.and_then(|score| study.dominant(score));
     Some(html! {
         (phrase(cell, row)) ", n = " (cell.n) @if let Some(groups) = cell.groups { " of " (counted(groups, "group")) } "."
         @if let Some(why) = cell.standing.reason() { " Not used in verdicts: " (why) "." }
+        @if let Some(sample) = sample { " Its " (sample) ": look at its picture and its labels." }
         @if let Some(remedy) = cell.standing.remedy(study.made.folds.is_some()) { " " (remedy) }
     })
 }

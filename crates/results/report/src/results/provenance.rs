@@ -13,6 +13,10 @@ pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
     });
     let presses = provenance.presses.iter();
     let presses = presses.map(|(digest, counts)| format!("{digest} {}", pairs(counts)));
+    // The parts of a cross-validation are those of its folds.
+    let predicted_once = provenance.predicted_once();
+    let part = provenance.part.as_ref();
+    let part = part.filter(|_| predicted_once.is_none()).cloned();
     let all = [
         ("taceva", provenance.taceva.clone()),
         ("dataset", text(&provenance.dataset)),
@@ -29,8 +33,11 @@ pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
                 .seed
                 .map_or_else(String::new, |seed| seed.to_string()),
         ),
-        ("part", text(&provenance.part)),
-        ("samples", pairs(&provenance.samples)),
+        ("part", text(&part)),
+        (
+            "samples",
+            predicted_once.unwrap_or_else(|| pairs(&provenance.samples)),
+        ),
         ("presses", joined(presses)),
         ("frames_decoded", provenance.frames_decoded.to_string()),
         ("plugins", provenance.plugins.join(", ")),

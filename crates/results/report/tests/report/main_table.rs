@@ -245,6 +245,24 @@ fn a_caption_of_folds_says_that_each_sample_was_held_out() {
     let methods = "Each sample was held out once, and predicted by a model that was fitted without its group (5-fold cross-validation by \
         video; split cv:5 by-column:video).";
     assert!(page.contains(methods), "{page}");
+    let once = "<dd>20 samples, each predicted once by one of 5 models</dd>";
+    assert!(page.contains(once), "{page}");
+    assert!(!page.contains("<dt>part</dt>"), "{page}");
+}
+
+#[test]
+fn the_page_of_one_result_explains_no_bold_value() {
+    let page = |studies: &[Study]| {
+        taceva_report::report(&taceva_report::ReportPage {
+            title: "bold",
+            studies,
+            pictures: &[],
+            triples: &[],
+        })
+    };
+    let [one, other] = ["one", "two"].map(|name| support::study(&result(name, &PLANES)));
+    assert!(!page(std::slice::from_ref(&one)).contains("Bold: shown"));
+    assert!(page(&[one, other]).contains("Bold: shown"));
 }
 
 #[test]
@@ -303,4 +321,22 @@ fn published_numbers_are_said_to_be_published() {
         &text,
         &["Accuracy of 2 sensors, as published, without intervals."],
     );
+}
+
+#[test]
+fn named_channels_have_rows_of_their_own_beside_a_plane() {
+    let studies = [support::study(&result(
+        "GelSight",
+        &["Fx", "Fy", "Fxy", "Fz"],
+    ))];
+    let rows = |names: &[&str]| -> Vec<String> {
+        let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        let scores = ScoreTable::of(&studies).of_channels(&names);
+        let rows = scores.main().rows.into_iter();
+        rows.filter(|row| row.metric == "mae")
+            .map(|row| row.channel)
+            .collect()
+    };
+    assert_eq!(rows(&[]), ["Fxy", "Fz"]);
+    assert_eq!(rows(&["Fx", "Fy", "Fz"]), ["Fx", "Fy", "Fz"]);
 }

@@ -140,6 +140,13 @@ pub fn score(
         samples::add_division(&mut samples, &target.rows, divided);
     }
     samples::add_predictions(&mut samples, &target.rows, predicted, &target.rows);
+    let channels = predicted.channels().iter();
+    notes.extend(channels.filter_map(|channel| {
+        Some(Note::Dominant {
+            channel: channel.name().to_owned(),
+            sample: samples.dominant(channel.name())?,
+        })
+    }));
     let rows = ScoredRows::Accumulated {
         evaluator: Box::new(evaluator),
         taken: recordings::taken(dataset, &target.rows),

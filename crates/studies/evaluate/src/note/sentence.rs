@@ -152,6 +152,10 @@ impl fmt::Display for Note {
                     shares.join(", ")
                 )
             }
+            Note::Dominant { channel, sample } => write!(
+                f,
+                "{channel}: {sample}: look at its picture and its labels, then run `taceva check`"
+            ),
             Note::Chosen { fold: None, choice } => f.write_str(choice),
             Note::Chosen {
                 fold: Some(fold),

@@ -2,7 +2,8 @@
 
 use super::{of_metric, score, study};
 use serde_json::json;
-use taceva_report::Study;
+use taceva_metrics::Standing;
+use taceva_report::{ReportPage, Study, report};
 use taceva_results::Samples;
 
 /// A study with a table of samples; `first` is the first truth, and every error is about `error`.
@@ -194,6 +195,30 @@ fn the_mean_over_a_plane_is_compared_sample_by_sample_as_its_axes_are() {
     }
     let notes = comparison.notes.join("\n");
     assert!(!notes.contains("sample by sample"), "{notes}");
+}
+
+#[test]
+fn a_sample_that_makes_most_of_the_squared_error_is_named_beside_a_model_without_skill() {
+    let mut weak = sampled("weak", 0.0, 0.25);
+    let row = |row: u32| format!("s{row},1,{}\n", if row == 7 { 9 } else { 2 });
+    let rows: String = (0..60).map(row).collect();
+    let table = format!("sample,Fz,Fz_predicted\n{rows}");
+    weak.samples = Some(Samples::read(&table).expect("samples"));
+    for score in &mut weak.scores {
+        score.standing = Standing::NoSkill;
+    }
+    let comparison = of_metric(&[weak.clone(), sampled("b", 0.0, 0.5)], "mae");
+    let expected =
+        "weak: not better than predicting the mean (its sample s7 makes 52 % of the squared error)";
+    let words = &comparison.decisions()[0].words;
+    assert!(words.contains(expected), "{words}");
+    let alone = report(&ReportPage {
+        title: "weak",
+        studies: &[weak],
+        pictures: &[],
+        triples: &[],
+    });
+    assert!(alone.contains("Its sample s7 makes 52 % of"), "{alone}");
 }
 
 #[test]

@@ -103,3 +103,14 @@ fn methods_say_that_only_scores_with_skill_are_compared_and_which_marks_there_ar
     assert!(marked.contains("are marked “not better than predicting the mean” (its skill is not shown to be above zero) and are \
         excluded from comparisons"));
 }
+
+#[test]
+fn methods_state_how_readings_were_joined_to_samples() {
+    let mut result = support::results("one", 1.0);
+    let join = "table ft joined by its time stamp: linear between two rows, at most 100 ms away";
+    result["provenance"]["notes"] = serde_json::json!([format!("import: {join}")]);
+    let page = page(&[support::study(&result)]);
+    let words = join.trim_start_matches("table ");
+    let sentence = format!(" The import joined tables ({words}).");
+    assert!(page.contains(&sentence), "{page}");
+}

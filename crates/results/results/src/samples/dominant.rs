@@ -1,0 +1,73 @@
+//! Sample that makes a great part of the squared error.
+
+use std::fmt;
+
+use taceva_core::shown;
+use taceva_metrics::plane_axes;
+
+use super::{SampleChannel, Samples};
+
+/// Least number of samples. Of fewer, one may make a quarter of the squared error by chance.
+const LEAST_SAMPLES: usize = 50;
+/// Least share of the squared error.
+const LEAST_SHARE: f64 = 0.25;
+
+/// A sample that makes a great part of the squared error of a channel. `Display` gives the clause.
+///
+/// ```
+/// use taceva_results::Samples;
+/// let rows: String = (0..60).map(|row| format!("s{row},0.5,{}\n", if row == 7 { 9.5 } else { 1.5 })).collect();
+/// let samples = Samples::read(&format!("sample,Fz,Fz_predicted\n{rows}"))?;
+/// let sample = samples.dominant("Fz").expect("81 of 140 squared N");
+/// assert_eq!(sample.to_string(), "sample s7 makes 58 % of the squared error");
+/// # Ok::<(), taceva_results::SamplesError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct DominantSample {
+    /// Name of the sample.
+    pub name: String,
+    /// Its share of the squared error, from 0 to 1.
+    pub share: f64,
+}
+
+impl Samples {
+    /// Sample that makes at least a quarter of the squared error of a channel or plane. `None` if none does, or if fewer than 50 samples have a
+    /// prediction.
+    pub fn dominant(&self, channel: &str) -> Option<DominantSample> {
+        let axes = match plane_axes(channel) {
+            Some(axes) => axes.to_vec(),
+            None => vec![channel],
+        };
+        let channels = axes.into_iter().map(|axis| self.channel(axis));
+        let channels: Vec<SampleChannel<'_>> = channels.collect::<Option<_>>()?;
+        let error = |row: usize| -> Option<f64> {
+            let pairs = channels.iter().map(|channel| channel.pair(row));
+            let squares = pairs.map(|pair| pair.map(|[truth, found]| (truth - found).powi(2)));
+            squares.sum()
+        };
+        let rows = 0..self.rows();
+        let errors: Vec<(usize, f64)> = rows.filter_map(|row| Some((row, error(row)?))).collect();
+        if errors.len() < LEAST_SAMPLES {
+            return None;
+        }
+        let all: f64 = errors.iter().map(|(_, error)| error).sum();
+        let greatest = errors.iter().max_by(|one, other| one.1.total_cmp(&other.1));
+        let (row, most) = greatest.copied()?;
+        let name = self.word(Samples::KEY, row)?.to_owned();
+        let share = most / all;
+        (share >= LEAST_SHARE).then_some(DominantSample { name, share })
+    }
+}
+
+impl fmt::Display for DominantSample {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let DominantSample { name, share } = self;
+        let percent = 100.0 * share;
+        write!(
+            f,
+            "sample {} makes {percent:.0} % of the squared error",
+            shown(name)
+        )
+    }
+}
