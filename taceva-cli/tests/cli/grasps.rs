@@ -191,3 +191,36 @@ fn a_page_table_names_scores_without_a_value_instead_of_their_rows() {
     assert!(!table.contains("undefined"), "{table}");
     assert!(table.contains(" No value: crosstalk all."), "{table}");
 }
+
+#[test]
+fn predictions_name_how_many_are_outside_and_their_truth_has_groups() {
+    let bench = grasps(&["grasp"]);
+    bench.ok("fit data --model ridge --channels Fz --out m.taceva -q");
+    let own = bench.ok("predict data --with m.taceva --part all --out p.csv --truth-out t.csv");
+    assert!(own.contains("200 predictions of the part `all`"), "{own}");
+    let scored = bench.json("score --truth t.csv --pred p.csv --metrics mae");
+    let mae = &scored["metrics"]["mae"]["Fz"];
+    assert!(mae["ci95"].is_array(), "{mae}");
+    // The same table with taxels ten times as loud is nothing that the model has seen.
+    let table = fs::read_to_string(bench.path("lab/grasps.csv")).expect("there");
+    let mut louder = String::new();
+    for (number, line) in table.lines().enumerate() {
+        let cells = line.split(',').enumerate().map(|(at, cell)| {
+            let number = cell.parse::<f64>().ok().filter(|_| number > 0 && at > 2);
+            number.map_or_else(|| cell.to_owned(), |number| format!("{:.1}", 10.0 * number))
+        });
+        louder += &cells.collect::<Vec<_>>().join(",");
+        louder.push('\n');
+    }
+    bench.write("lab/grasps.csv", &louder);
+    bench.ok("import lab --map lab/map.toml --out other -q");
+    let said = bench.ok("predict other --with m.taceva --out q.csv");
+    assert!(
+        said.contains("samples are unlike those of the fit (distance > 1)"),
+        "{said}"
+    );
+    assert!(
+        said.contains("bounds   Fz clipped to the bound of "),
+        "{said}"
+    );
+}
