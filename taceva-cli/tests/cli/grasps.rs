@@ -224,3 +224,15 @@ fn predictions_name_how_many_are_outside_and_their_truth_has_groups() {
         "{said}"
     );
 }
+
+#[test]
+fn a_split_by_grasps_says_that_their_objects_may_have_been_learnt() {
+    let bench = grasps(&["grasp", "object"]);
+    let text = bench.ok("evaluate data --model ridge --metrics mae");
+    let note = "10 of 10 groups of `grasp` share their `object` with others";
+    assert!(text.contains(note), "{text}");
+    assert!(text.contains("--split 'cv:5 by-column:object'"), "{text}");
+    let line = "taceva evaluate data --model ridge --metrics mae --split 'cv:5 by-column:object'";
+    let text = done(&bench, line);
+    assert!(!text.contains("share their"), "{text}");
+}

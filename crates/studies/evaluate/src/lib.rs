@@ -56,7 +56,7 @@ pub use merge::merge;
 pub use neighbours::Resemblance;
 pub use note::{
     Coverage, Detection, Division, FewClusters, Independence, Learning, Neighbours, Note, PairedBy,
-    SampleOrder,
+    SampleOrder, Within,
 };
 pub use over_seeds::of as over_seeds;
 pub use plan::{Plan, Step};

@@ -4,6 +4,7 @@ mod detection;
 mod division;
 mod few_clusters;
 mod sentence;
+mod within;
 
 use std::fmt;
 
@@ -13,6 +14,7 @@ use taceva_dataset::{Extension, FramesInfo};
 pub use detection::Detection;
 pub use division::{Division, Independence, Neighbours, SampleOrder};
 pub use few_clusters::FewClusters;
+pub use within::Within;
 
 /// A note for the reader of scores; `Display` gives its sentence.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +40,8 @@ pub enum Note {
         /// Least number of recordings for intervals by recording.
         least: usize,
     },
+    /// Tested groups that lie within larger groups, which the models may have seen.
+    Within(Within),
     /// Contact points or groups, too few for any interval.
     FewClusters(FewClusters),
     /// Rows that were added to a recording later.
