@@ -10,7 +10,7 @@ use taceva_results::{EvaluationReport, Interval, Provenance, not_measured};
 
 use super::line::{Line, flags, pictures, read_lines, remedies, standings};
 use super::number::formatted;
-use super::recordings;
+use super::{groups, recordings};
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     heading(report, out)?;
@@ -28,6 +28,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
     out.write_all(table.text().as_bytes())?;
     over_seeds(report, out)?;
     recordings::write(report, out)?;
+    groups::write(report, out)?;
     footer(report, out)
 }
 

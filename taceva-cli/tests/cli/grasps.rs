@@ -236,3 +236,31 @@ fn a_split_by_grasps_says_that_their_objects_may_have_been_learnt() {
     let text = done(&bench, line);
     assert!(!text.contains("share their"), "{text}");
 }
+
+#[test]
+fn few_groups_have_their_errors_in_json_text_and_page() {
+    let bench = grasps(&["grasp", "object"]);
+    let line = "taceva evaluate data --model ridge --metrics mae --split 'cv:5 by-column:object' --html page.html";
+    let text = done(&bench, line);
+    assert!(
+        text.contains("no intervals: one group holds no groups"),
+        "{text}"
+    );
+    let report: serde_json::Value =
+        serde_json::from_str(&done(&bench, &format!("{line} --force --format json -q")))
+            .expect("JSON");
+    crate::schema::check("evaluation", &report);
+    let groups = report["by_group"].as_array().expect("groups");
+    assert_eq!(groups.len(), 5);
+    assert_eq!(groups[0]["group"], "o0");
+    let maes = groups
+        .iter()
+        .filter_map(|own| own["errors"][0]["mae"].as_f64());
+    let mean = maes.sum::<f64>() / 5.0;
+    let mae = report["metrics"]["mae"]["Fz"]["value"]
+        .as_f64()
+        .expect("a number");
+    assert!((mean - mae).abs() < 1e-9, "{mean} {mae}");
+    let page = fs::read_to_string(bench.path("page.html")).expect("written");
+    assert!(page.contains("Errors of each group of the split"));
+}
