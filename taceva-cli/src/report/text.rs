@@ -8,7 +8,7 @@ use taceva_metrics::Better;
 use taceva_report::{Align, Column, Table, escape_terminal, short_digests};
 use taceva_results::{EvaluationReport, Interval, Provenance, not_measured};
 
-use super::line::{Line, flags, pictures, read_lines, remedies, standings};
+use super::line::{Line, flags, limits, pictures, read_lines, remedies, standings};
 use super::number::formatted;
 use super::{groups, recordings};
 
@@ -175,6 +175,9 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
             _ => format!(" ({})", metrics.join(", ")),
         };
         writeln!(out, "intervals  {}{of}", escape_terminal(&method))?;
+    }
+    for limit in limits(&report.scores) {
+        writeln!(out, "limit      {limit}")?;
     }
     for flag in flags(&report.scores) {
         writeln!(out, "flag       {flag}")?;

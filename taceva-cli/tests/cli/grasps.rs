@@ -264,3 +264,15 @@ fn few_groups_have_their_errors_in_json_text_and_page() {
     let page = fs::read_to_string(bench.path("page.html")).expect("written");
     assert!(page.contains("Errors of each group of the split"));
 }
+
+#[test]
+fn text_states_the_limits_of_tolerance_and_of_the_gate() {
+    let bench = grasps(&["grasp"]);
+    let text = bench.ok("evaluate data --model ridge --metrics tolerance,smape_gated");
+    for line in [
+        "limit      tolerance: within 0.05 of the truth, in the unit of the channel",
+        "limit      smape_gated: truth of at least 0.02, in the unit of the channel",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+}
