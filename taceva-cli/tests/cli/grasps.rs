@@ -46,7 +46,7 @@ fn grasps(columns: &[&str]) -> Bench {
         }
     }
     table.push('\n');
-    let lines = columns.iter().map(|pair| {
+    let lines = columns.iter().copied().map(|pair: &str| {
         let (name, from) = pair.split_once('=').unwrap_or((pair, pair));
         format!("{name} = \"{from}\"")
     });
