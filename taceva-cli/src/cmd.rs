@@ -40,6 +40,7 @@ pub(crate) mod sweep;
 
 use std::path::{Path, PathBuf};
 
+use taceva_core::shown;
 use taceva_dataset::Dataset;
 use taceva_evaluate::{DataPart, EvaluateError, FitRequest};
 use taceva_models::{Model, ModelSettings, Models};
@@ -151,6 +152,15 @@ pub(crate) fn table_scores(args: &TableArgs, format: Format) -> anyhow::Result<T
         (Some(scores), _) => Ok(scores),
         (None, format) => Ok(TableScores::usual(format)),
     }
+}
+
+/// Use of a model file in words: `m.taceva on monday, tuesday`.
+fn applied(model: &Path, datasets: &[PathBuf]) -> String {
+    let datasets: Vec<String> = datasets
+        .iter()
+        .map(|path| shown(path).to_string())
+        .collect();
+    format!("model {} on {}", shown(&model), datasets.join(", "))
 }
 
 /// Names the requested metrics that the main table leaves out.

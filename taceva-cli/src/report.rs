@@ -4,6 +4,7 @@ mod bench;
 mod chart;
 mod check;
 pub(crate) mod devices;
+mod groups;
 mod json;
 mod line;
 mod number;

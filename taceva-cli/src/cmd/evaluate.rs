@@ -72,7 +72,7 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     effort::print(&planned, &dataset, cache.as_ref(), context);
     let evaluated = evaluate(&dataset, &request, context.work(cache.as_ref()));
     let mut evaluated = match &args.with {
-        Some(model) => evaluated.with_context(|| applied(model, &args.datasets))?,
+        Some(model) => evaluated.with_context(|| super::applied(model, &args.datasets))?,
         None => evaluated?,
     };
     if scoring.samples_out.is_some() {
@@ -121,15 +121,6 @@ fn check_folders(datasets: &[PathBuf]) -> anyhow::Result<()> {
         ))),
         None => Ok(()),
     }
-}
-
-/// Use of a model file in words: `m.taceva on monday, tuesday`.
-fn applied(model: &std::path::Path, datasets: &[PathBuf]) -> String {
-    let datasets: Vec<String> = datasets
-        .iter()
-        .map(|path| shown(path).to_string())
-        .collect();
-    format!("model {} on {}", shown(&model), datasets.join(", "))
 }
 
 /// The model that is fitted where none is named: a small network for pictures, ridge regression for signals of taxels.

@@ -149,7 +149,7 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "wrote    {}", shown(&args.out))
 }
 
-/// What the cross-validation `split` leaves out together: `group of `object``.
+/// Group that the cross-validation `split` leaves out as a whole, in words.
 fn held_out(split: &str) -> String {
     let by = match split.parse::<SplitSpec>().map(|spec| spec.kind) {
         Ok(SplitKind::Folds(folds)) => folds.by,

@@ -1,9 +1,11 @@
 //! `taceva predict`.
 
 use std::collections::BTreeSet;
-use taceva_core::shown;
+use std::io::{self, Write};
 
-use taceva_evaluate::{DataPart, predict};
+use anyhow::Context as _;
+use taceva_core::shown;
+use taceva_evaluate::{AtBound, DataPart, Predicted, predict};
 
 use super::{Context, Usage, cache, open_seen};
 use crate::args::Predict;
@@ -36,7 +38,8 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     }
     let cache = cache::of(&args.cache);
     let work = context.work(cache.as_ref());
-    let predicted = predict(&dataset, &model, args.part.name.map(DataPart::from), work)?;
+    let predicted = predict(&dataset, &model, args.part.name.map(DataPart::from), work);
+    let predicted = predicted.with_context(|| super::applied(&args.with, &args.datasets))?;
     cache::note(cache.as_ref(), context);
     output::write(Some(&args.out), |out| match args.unbounded {
         true => predicted.write_unbounded_predictions(out),
@@ -56,6 +59,7 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
             predicted.rows(),
             predicted.part()
         )?;
+        beyond(&predicted, args.unbounded, out)?;
         args.truth_out.iter().try_for_each(|path| {
             writeln!(
                 out,
@@ -65,4 +69,34 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
         })
     })?;
     Ok(exit::DONE)
+}
+
+/// Pictures unlike those of the fit, and predictions beyond the bounds of the model.
+fn beyond(predicted: &Predicted, is_unbounded: bool, out: &mut dyn Write) -> io::Result<()> {
+    let rows = predicted.rows();
+    if let Some(count) = predicted.outside().filter(|count| *count > 0) {
+        writeln!(
+            out,
+            "outside  {count} of {rows} samples are unlike those of the fit (distance > 1)"
+        )?;
+    }
+    let whether = match is_unbounded {
+        true => "beyond",
+        false => "clipped to",
+    };
+    for AtBound {
+        channel,
+        bound,
+        count,
+        ..
+    } in predicted.at_bounds()
+    {
+        writeln!(
+            out,
+            "bounds   {} {whether} the bound of {bound:.2} {}: {count} of {rows}",
+            channel.name(),
+            channel.unit()
+        )?;
+    }
+    Ok(())
 }

@@ -121,6 +121,27 @@ pub(super) fn flags(scores: &[Score]) -> Vec<String> {
         .collect()
 }
 
+/// Limits in the definitions of scores with a value: `tolerance: within 0.05 of the truth, in the unit of the channel`.
+pub(super) fn limits(scores: &[Score]) -> Vec<String> {
+    let of = |metric: &str, parameter: &str| {
+        let own = scores.iter().filter(|score| score.metric == metric);
+        let own = own.filter(|score| score.value.number().is_some());
+        let limits = own.flat_map(|score| &score.parameters);
+        let limits = limits.filter(|(name, _)| name == parameter);
+        let mut limits: Vec<String> = limits.map(|(_, limit)| limit.to_string()).collect();
+        limits.sort();
+        limits.dedup();
+        (!limits.is_empty()).then(|| limits.join(" or "))
+    };
+    let within = of("tolerance", "tolerance");
+    let within = within.map(|limit| format!("tolerance: within {limit} of the truth"));
+    let from = of("smape_gated", "gate");
+    let from = from.map(|limit| format!("smape_gated: truth of at least {limit}"));
+    let both = within.into_iter().chain(from);
+    both.map(|words| format!("{words}, in the unit of the channel"))
+        .collect()
+}
+
 /// Scores with limited standing in verdicts: `not better than predicting the mean: mae Pz Fz`.
 pub(super) fn standings(scores: &[Score]) -> Vec<String> {
     let mut said = Vec::new();

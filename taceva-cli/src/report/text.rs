@@ -7,9 +7,9 @@ use taceva_metrics::Better;
 use taceva_report::{Align, Column, Table, escape_terminal, short_digests};
 use taceva_results::{EvaluationReport, not_measured};
 
-use super::line::{Line, flags, methods, pictures, read_lines, remedies, standings};
+use super::line::{Line, flags, limits, methods, pictures, read_lines, remedies, standings};
 use super::number::formatted;
-use super::recordings;
+use super::{groups, recordings};
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     heading(report, out)?;
@@ -27,6 +27,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
     out.write_all(table.text().as_bytes())?;
     over_seeds(report, out)?;
     recordings::write(report, out)?;
+    groups::write(report, out)?;
     footer(report, out)
 }
 
@@ -138,6 +139,9 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)?;
     for method in methods(report, str::to_owned) {
         writeln!(out, "intervals  {}", escape_terminal(&method))?;
+    }
+    for limit in limits(&report.scores) {
+        writeln!(out, "limit      {limit}")?;
     }
     for flag in flags(&report.scores) {
         writeln!(out, "flag       {flag}")?;

@@ -46,7 +46,7 @@ fn grasps(columns: &[&str]) -> Bench {
         }
     }
     table.push('\n');
-    let lines = columns.iter().map(|pair| {
+    let lines = columns.iter().copied().map(|pair: &str| {
         let (name, from) = pair.split_once('=').unwrap_or((pair, pair));
         format!("{name} = \"{from}\"")
     });
@@ -190,4 +190,89 @@ fn a_page_table_names_scores_without_a_value_instead_of_their_rows() {
     assert!(table.starts_with("| metric | Fz |\n"), "{table}");
     assert!(!table.contains("undefined"), "{table}");
     assert!(table.contains(" No value: crosstalk all."), "{table}");
+}
+
+#[test]
+fn predictions_name_how_many_are_outside_and_their_truth_has_groups() {
+    let bench = grasps(&["grasp"]);
+    bench.ok("fit data --model ridge --channels Fz --out m.taceva -q");
+    let own = bench.ok("predict data --with m.taceva --part all --out p.csv --truth-out t.csv");
+    assert!(own.contains("200 predictions of the part `all`"), "{own}");
+    let scored = bench.json("score --truth t.csv --pred p.csv --metrics mae");
+    let mae = &scored["metrics"]["mae"]["Fz"];
+    assert!(mae["ci95"].is_array(), "{mae}");
+    // The same table with taxels ten times as loud is nothing that the model has seen.
+    let table = fs::read_to_string(bench.path("lab/grasps.csv")).expect("there");
+    let mut louder = String::new();
+    for (number, line) in table.lines().enumerate() {
+        let cells = line.split(',').enumerate().map(|(at, cell)| {
+            let number = cell.parse::<f64>().ok().filter(|_| number > 0 && at > 2);
+            number.map_or_else(|| cell.to_owned(), |number| format!("{:.1}", 10.0 * number))
+        });
+        louder += &cells.collect::<Vec<_>>().join(",");
+        louder.push('\n');
+    }
+    bench.write("lab/grasps.csv", &louder);
+    bench.ok("import lab --map lab/map.toml --out other -q");
+    let said = bench.ok("predict other --with m.taceva --out q.csv");
+    assert!(
+        said.contains("samples are unlike those of the fit (distance > 1)"),
+        "{said}"
+    );
+    assert!(
+        said.contains("bounds   Fz clipped to the bound of "),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_split_by_grasps_says_that_their_objects_may_have_been_learnt() {
+    let bench = grasps(&["grasp", "object"]);
+    let text = bench.ok("evaluate data --model ridge --metrics mae");
+    let note = "10 of 10 groups of `grasp` share their `object` with others";
+    assert!(text.contains(note), "{text}");
+    assert!(text.contains("--split 'cv:5 by-column:object'"), "{text}");
+    let line = "taceva evaluate data --model ridge --metrics mae --split 'cv:5 by-column:object'";
+    let text = done(&bench, line);
+    assert!(!text.contains("share their"), "{text}");
+}
+
+#[test]
+fn few_groups_have_their_errors_in_json_text_and_page() {
+    let bench = grasps(&["grasp", "object"]);
+    let line = "taceva evaluate data --model ridge --metrics mae --split 'cv:5 by-column:object' --html page.html";
+    let text = done(&bench, line);
+    assert!(
+        text.contains("no intervals: one group holds no groups"),
+        "{text}"
+    );
+    let report: serde_json::Value =
+        serde_json::from_str(&done(&bench, &format!("{line} --force --format json -q")))
+            .expect("JSON");
+    crate::schema::check("evaluation", &report);
+    let groups = report["by_group"].as_array().expect("groups");
+    assert_eq!(groups.len(), 5);
+    assert_eq!(groups[0]["group"], "o0");
+    let maes = groups
+        .iter()
+        .filter_map(|own| own["errors"][0]["mae"].as_f64());
+    let mean = maes.sum::<f64>() / 5.0;
+    let mae = report["metrics"]["mae"]["Fz"]["value"]
+        .as_f64()
+        .expect("a number");
+    assert!((mean - mae).abs() < 1e-9, "{mean} {mae}");
+    let page = fs::read_to_string(bench.path("page.html")).expect("written");
+    assert!(page.contains("Errors of each group of the split"));
+}
+
+#[test]
+fn text_states_the_limits_of_tolerance_and_of_the_gate() {
+    let bench = grasps(&["grasp"]);
+    let text = bench.ok("evaluate data --model ridge --metrics tolerance,smape_gated");
+    for line in [
+        "limit      tolerance: within 0.05 of the truth, in the unit of the channel",
+        "limit      smape_gated: truth of at least 0.02, in the unit of the channel",
+    ] {
+        assert!(text.contains(line), "{line}: {text}");
+    }
 }

@@ -5,6 +5,7 @@ mod data_address;
 mod document;
 mod figures;
 mod glance;
+mod groups;
 mod left_out;
 mod methods;
 mod picks;
@@ -82,6 +83,11 @@ pub fn report(report: &ReportPage<'_>) -> String {
         let title = "Scores beside published ones of the same sensor";
         let section = fold("published-all", title, &counted(count, "number"), &section);
         document.section("published", "Published", section);
+    }
+    if let Some((count, section)) = groups::section(studies) {
+        let title = "Errors of each group of the split";
+        let section = fold("groups-all", title, &counted(count, "group"), &section);
+        document.section("groups", "Groups", section);
     }
     if let Some((count, section)) = seeds::section(studies) {
         let title = "Scores over the seeds of the training";

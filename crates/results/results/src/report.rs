@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use taceva_core::Skipped;
 use taceva_metrics::Evaluation;
 
+use crate::group_errors::GroupErrors;
 use crate::provenance::Provenance;
 use crate::samples::Samples;
 use crate::score::{Score, by_metric, scores};
@@ -34,6 +35,9 @@ pub struct EvaluationReport {
     /// Scores of each recording, if several were joined.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub by_recording: Vec<RecordingScores>,
+    /// Errors of each group that the split keeps together, if a column names at most 20.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub by_group: Vec<GroupErrors>,
     /// Scores with other training seeds, if requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_seeds: Option<OverSeeds>,
@@ -90,6 +94,7 @@ impl EvaluationReport {
             skipped: evaluation.skipped().iter().map(Skip::from).collect(),
             provenance,
             by_recording: Vec::new(),
+            by_group: Vec::new(),
             over_seeds: None,
             samples: None,
         }

@@ -1,7 +1,10 @@
 //! Builds a report from scores, with its subject and its provenance.
 
 use taceva_metrics::{Evaluation, Evaluator};
-use taceva_results::{EvaluationReport, OverSeeds, Provenance, RecordingScores, Samples, Subject};
+use taceva_results::{
+    EvaluationReport, OverSeeds, Provenance, RecordingScores, Samples, Subject, group_errors,
+    kept_together,
+};
 
 use crate::bounded_share::Bounded;
 use crate::error::EvaluateError;
@@ -109,6 +112,12 @@ pub fn assess(
     report.by_recording = context.by_recording;
     report.over_seeds = context.over_seeds;
     report.samples = context.samples;
+    let is_by_column = report.provenance.split.as_deref();
+    let is_by_column =
+        is_by_column.is_some_and(|split| kept_together(split).starts_with("by-column:"));
+    if let Some(samples) = report.samples.as_ref().filter(|_| is_by_column) {
+        report.by_group = group_errors(samples, &report.scores);
+    }
     if let Some(detection) = Detection::of(&report.scores) {
         let notes = &mut report.provenance.notes;
         notes.push(Note::DetectionLimit(detection).to_string());

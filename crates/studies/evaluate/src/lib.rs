@@ -56,13 +56,13 @@ pub use merge::merge;
 pub use neighbours::Resemblance;
 pub use note::{
     Coverage, Detection, Division, FewClusters, Independence, Learning, Neighbours, Note, PairedBy,
-    SampleOrder,
+    SampleOrder, Within,
 };
 pub use over_seeds::of as over_seeds;
 pub use plan::{Plan, Step};
 pub use predict::{
-    Predicted, Predictor, Target, model_extractor, predict, predict_target, predicted_numbers,
-    predicted_table, truth,
+    AtBound, Predicted, Predictor, Target, model_extractor, predict, predict_target,
+    predicted_numbers, predicted_table, truth,
 };
 pub use provenance::{choices, model as model_provenance, of as provenance_of};
 pub use recordings::{depth_zeros, reduced};

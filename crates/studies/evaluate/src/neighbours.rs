@@ -127,6 +127,12 @@ fn ranks(labels: &[Option<f64>]) -> Vec<Option<f64>> {
     ranks
 }
 
+/// Preference of a column whose name says that its values are groups, the least first; `None` for any other name.
+pub(crate) fn preference(name: &str) -> Option<usize> {
+    let name = name.to_lowercase();
+    GROUP_NAMES.iter().position(|known| name.contains(known))
+}
+
 /// Column whose values are groups of neighbours. Several groups consist of consecutive rows, and the last sample of one does not resemble the first
 /// of the next.
 fn group_column(
@@ -136,10 +142,6 @@ fn group_column(
     ranks: &[Option<f64>],
 ) -> Option<String> {
     let table = dataset.table();
-    let preference = |name: &str| {
-        let name = name.to_lowercase();
-        GROUP_NAMES.iter().position(|known| name.contains(known))
-    };
     let names = table.attribute_names().iter().map(String::as_str);
     let mut found: Vec<(usize, usize, &str)> = Vec::new();
     for name in names {

@@ -4,6 +4,7 @@ mod detection;
 mod division;
 mod few_clusters;
 mod sentence;
+mod within;
 
 use std::fmt;
 
@@ -14,6 +15,7 @@ use taceva_results::DominantSample;
 pub use detection::Detection;
 pub use division::{Division, Independence, Neighbours, SampleOrder};
 pub use few_clusters::FewClusters;
+pub use within::Within;
 
 /// A note for the reader of scores; `Display` gives its sentence.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +41,8 @@ pub enum Note {
         /// Least number of recordings for intervals by recording.
         least: usize,
     },
+    /// Tested groups that lie within larger groups, which the models may have seen.
+    Within(Within),
     /// Contact points or groups, too few for any interval.
     FewClusters(FewClusters),
     /// Rows that were added to a recording later.

@@ -5,16 +5,17 @@ mod predictions;
 mod predictor;
 mod target;
 
-use taceva_core::{Channel, Column, Features, Field};
+use taceva_core::{Channel, Column, Features, Field, shown};
 use taceva_dataset::Dataset;
-use taceva_models::Model;
+use taceva_models::{FeatureError, Model};
 
 use crate::error::EvaluateError;
 use crate::features::{Sight, blank, extract};
+use crate::grouping::Grouping;
 use crate::rows::{BESIDE_CHANNELS, DataPart};
 use crate::work::Work;
 
-pub use predictions::Predicted;
+pub use predictions::{AtBound, Predicted};
 pub use predictor::Predictor;
 pub use target::Target;
 
@@ -35,8 +36,22 @@ pub fn predict(
     let predicted = predicted_table(dataset, Predictor::of(model), &target, &numbers)?;
     Ok(Predicted {
         distance: model.distances(&features)?,
+        points: predicted.points.or_else(|| groups(dataset, &target)),
         ..predicted
     })
+}
+
+/// Group of each row of `target`: of the split of the model, else of a column that names groups. It stands for the contact point, if none is named.
+fn groups(dataset: &Dataset, target: &Target) -> Option<Vec<String>> {
+    let divided = target.divided.as_ref();
+    if let Some(groups) = divided.and_then(|divided| divided.groups.as_ref()) {
+        return Some(target.rows.iter().map(|&row| groups[row].clone()).collect());
+    }
+    let Grouping::Column(name) = Grouping::of(dataset, &dataset.all_rows()) else {
+        return None;
+    };
+    let cells = dataset.table().as_text(&name)?;
+    target.rows.iter().map(|&row| cells[row].clone()).collect()
 }
 
 /// Predictions of `model` for the rows of `target`, clipped to the bounds of the model, and unclipped.
@@ -102,7 +117,15 @@ pub fn model_extractor(
             "the model needs {absent}, and the dataset has none"
         ))
     })?;
-    Ok(model.extractor(sight.info(), sight.reference())?)
+    let extractor = model.extractor(sight.info(), sight.reference());
+    extractor.map_err(|error| match error {
+        FeatureError::Kind { expected, found } => EvaluateError::Unsuited(format!(
+            "{} has frames of {found}, and the model was fitted on frames of {expected}; import pictures of that size and format, or \
+             fit a model on these",
+            shown(&dataset.path())
+        )),
+        error => error.into(),
+    })
 }
 
 /// Combines predicted numbers with the labels of the same rows.

@@ -270,8 +270,8 @@ fn caption_and_page_name_the_groups_that_intervals_leave_out() {
     let mut result = result("GelSight", &PLANES);
     result["provenance"]["split"] = "cv:5 by-column:object".into();
     result["provenance"]["samples"] = json!({"test": 20, "train": 0, "validation": 0});
-    for channels in result["metrics"].as_object_mut().into_iter().flatten() {
-        for (_, score) in channels.1.as_object_mut().into_iter().flatten() {
+    for (_, channels) in result["metrics"].as_object_mut().into_iter().flatten() {
+        for (_, score) in channels.as_object_mut().into_iter().flatten() {
             score["method"] = "jackknife by group, G=5, logarithmic".into();
         }
     }

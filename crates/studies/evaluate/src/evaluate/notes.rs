@@ -1,12 +1,13 @@
 //! Notes on the predicted rows, and on the model that predicted them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_dataset::Dataset;
 use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::{FoldGroups, SplitKind};
 
-use crate::note::{FewClusters, Note};
+use crate::neighbours::preference;
+use crate::note::{FewClusters, Note, Within};
 use crate::predict::Target;
 use crate::rows::DataPart;
 use taceva_results::ModelProvenance;
@@ -91,6 +92,52 @@ pub(super) fn few_clusters(
             all,
         })
     })
+}
+
+/// Note on groups of the split within larger groups, which another column names.
+pub(super) fn within(dataset: &Dataset, target: &Target) -> Option<Note> {
+    let divided = target.divided.as_ref()?;
+    let groups = divided.groups.as_ref()?;
+    let column = match &divided.spec.kind {
+        SplitKind::ByColumn(by) => &by.column,
+        SplitKind::Folds(folds) => match &folds.by {
+            FoldGroups::Column(name) => name,
+            _ => return None,
+        },
+        _ => return None,
+    };
+    let table = dataset.table();
+    let others = table.attribute_names().iter();
+    let others = others.filter(|name| *name != column && preference(name).is_some());
+    let mut found = others.filter_map(|name| {
+        let cells = table.as_text(name)?;
+        let mut larger: BTreeMap<&str, &str> = BTreeMap::new();
+        for (group, cell) in groups
+            .iter()
+            .zip(&cells)
+            .filter(|(group, _)| !group.is_empty())
+        {
+            let cell = cell.as_deref()?;
+            if *larger.entry(group).or_insert(cell) != cell {
+                return None;
+            }
+        }
+        let mut sizes: BTreeMap<&str, usize> = BTreeMap::new();
+        larger
+            .values()
+            .for_each(|name| *sizes.entry(name).or_default() += 1);
+        let shared = larger.values().filter(|name| sizes[**name] > 1).count();
+        (shared > 0 && sizes.len() > 1).then(|| {
+            Note::Within(Within {
+                column: column.clone(),
+                within: name.clone(),
+                shared,
+                of: larger.len(),
+                larger: sizes.len(),
+            })
+        })
+    });
+    found.next()
 }
 
 /// Number of distinct names among `names`, without empty ones.

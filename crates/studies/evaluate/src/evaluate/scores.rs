@@ -8,7 +8,7 @@ use taceva_metrics::{MetricPlan, catalogue};
 use taceva_models::Model;
 use taceva_results::{ModelProvenance, Provenance, RecordingScores};
 
-use super::notes::few_clusters;
+use super::notes::{few_clusters, within};
 use super::passes::Passes;
 use super::request::{Asked, Evaluated};
 use crate::assess::{Assessed, Context, FitFacts, ScoredRows, assess};
@@ -106,6 +106,7 @@ pub fn score(
     notes.extend(split.map(Note::Split));
     notes.extend(independence.map(Note::Independent));
     notes.extend(clusters.map(Clusters::note));
+    notes.extend(within(dataset, target));
     notes.extend(few);
     notes.extend(recordings::extended(dataset));
     notes.extend(recordings::reduced(dataset));

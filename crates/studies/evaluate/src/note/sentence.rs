@@ -36,6 +36,7 @@ impl fmt::Display for Note {
                 points,
                 least,
             } => clusters(*recordings, *points, *least, f),
+            Note::Within(within) => write!(f, "{within}"),
             Note::FewClusters(few) => write!(f, "{few}"),
             Note::Extended {
                 recording,

@@ -36,7 +36,7 @@ impl Predicted {
         }
     }
 
-    /// Writes the truth of the same samples: `sample`, `point_id` if every sample has one, other known fields (`scene`, `repeat`, `phase`
+    /// Writes the truth of the same samples: `sample`, `point_id` or the group in its place, other known fields (`scene`, `repeat`, `phase`
     /// and the like), and one column for each channel.
     ///
     /// # Errors

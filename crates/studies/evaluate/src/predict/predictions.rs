@@ -2,12 +2,24 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Channels, Column};
+use taceva_core::{Channel, Channels, Column};
 
 use crate::bounded_share::Bounded;
 use crate::error::EvaluateError;
 use crate::note::Note;
 use crate::rows::DataPart;
+
+/// Predictions of one channel that the model clipped to one of its bounds.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct AtBound {
+    /// The channel.
+    pub channel: Channel,
+    /// The bound, in the unit of the channel.
+    pub bound: f64,
+    /// Number of predictions at it.
+    pub count: usize,
+}
 
 /// Predictions of some rows of a dataset, with their truth.
 #[derive(Debug)]
@@ -196,6 +208,36 @@ impl Predicted {
     /// [Distance](taceva_models::FeatureDistance) of each frame from the training part, if [`predict`](super::predict) computed it.
     pub fn distance(&self) -> Option<&[f64]> {
         self.distance.as_deref()
+    }
+
+    /// Number of frames further than 1 from the training part, if the distance is known.
+    pub fn outside(&self) -> Option<usize> {
+        let distance = self.distance()?;
+        Some(distance.iter().filter(|distance| **distance > 1.0).count())
+    }
+
+    /// Predictions at each bound of the model, by channel and bound; empty if none was clipped.
+    pub fn at_bounds(&self) -> Vec<AtBound> {
+        let mut found: Vec<AtBound> = Vec::new();
+        let columns = self.prediction.iter().zip(&self.beyond);
+        for (channel, (clipped, beyond)) in self.channels.iter().zip(columns) {
+            let beyond = beyond.iter().flatten().enumerate();
+            let rows = beyond.filter_map(|(row, is_beyond)| is_beyond.then_some(row));
+            for bound in rows.filter_map(|row| clipped.get(row)) {
+                let is_same = |own: &&mut AtBound| {
+                    own.channel == *channel && own.bound.total_cmp(&bound).is_eq()
+                };
+                match found.iter_mut().find(is_same) {
+                    Some(own) => own.count += 1,
+                    None => found.push(AtBound {
+                        channel: channel.clone(),
+                        bound,
+                        count: 1,
+                    }),
+                }
+            }
+        }
+        found
     }
 
     /// Contact point of each row, if all rows name one.

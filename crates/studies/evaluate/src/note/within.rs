@@ -1,0 +1,42 @@
+//! Groups of a split within larger groups.
+
+use std::fmt;
+
+use taceva_core::shown;
+use taceva_metrics::LEAST_CLUSTERS;
+use taceva_models::{FoldGroups, FoldSpec};
+
+/// Groups of a split, such as grasps, within larger groups, such as objects. `Display` gives the sentence, with the split that leaves out the
+/// larger groups.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Within {
+    /// Column of the split.
+    pub column: String,
+    /// Column of the larger groups.
+    pub within: String,
+    /// Number of groups of the split that share their larger group with others.
+    pub shared: usize,
+    /// Number of groups of the split.
+    pub of: usize,
+    /// Number of larger groups.
+    pub larger: usize,
+}
+
+impl fmt::Display for Within {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let spec = FoldSpec {
+            count: (self.larger >= LEAST_CLUSTERS).then_some(LEAST_CLUSTERS),
+            by: FoldGroups::Column(self.within.clone()),
+        };
+        write!(
+            f,
+            "{} of {} groups of `{}` share their `{}` with others, so a model may have learnt it from these; to leave out all of it: \
+             --split '{spec}'",
+            self.shared,
+            self.of,
+            shown(&self.column),
+            shown(&self.within)
+        )
+    }
+}
