@@ -52,15 +52,49 @@ fn a_recording_gets_a_map_by_questions_that_imports_and_evaluates() {
 fn a_recording_without_answers_keeps_its_open_places_with_yes() {
     let bench = lab();
     let said = bench.ok("init recording lab --yes --out first.toml");
-    assert!(said.contains("fill in the 3 places"), "{said}");
-    let contacts = "name the contact points, on which intervals depend";
+    assert!(said.contains("fill in the 2 places"), "{said}");
+    let contacts = "if several rows show one contact";
     assert!(said.contains(contacts), "{said}");
-    assert!(read(&bench, "first.toml").contains("unit = \"?\""));
+    let map = read(&bench, "first.toml");
+    assert!(map.contains("unit = \"?\""), "{map}");
+    // The name of the sensor has a default.
+    assert!(map.contains("\nmodel = \"unknown\"\n"), "{map}");
     bench.refused(
         "init recording lab --yes",
         3,
         "map.toml exists already; --force replaces it",
     );
+}
+
+#[test]
+fn a_file_stands_for_its_folder_in_drafts_and_in_the_commands_that_follow() {
+    let bench = lab();
+    let said = bench.ok("init recording lab/labels.csv --yes --out first.toml");
+    assert!(
+        said.contains("taceva import lab --map first.toml --explain"),
+        "{said}"
+    );
+    let map = read(&bench, "first.toml");
+    assert!(map.contains("column = \"file\""), "{map}");
+    assert_eq!(
+        bench.ok("import --draft lab/labels.csv"),
+        bench.ok("import --draft lab")
+    );
+    let ran = bench.run("import --draft lab/labels.csv --out second.toml");
+    let places = "second.toml: a draft, in which 3 places are `\"?\"`; fill them in, then: taceva import lab --map second.toml";
+    assert!(ran.err.contains(places), "{}", ran.err);
+}
+
+#[test]
+fn a_folder_without_labels_is_followed_by_predictions() {
+    let bench = lab();
+    fs::remove_file(bench.path("lab/labels.csv")).expect("it was there");
+    let said = bench.ok("init recording lab --yes --out first.toml");
+    assert!(
+        said.contains("taceva predict my-dataset --with MODEL"),
+        "{said}"
+    );
+    assert!(!said.contains("taceva evaluate"), "{said}");
 }
 
 #[test]
