@@ -98,6 +98,24 @@ fn a_folder_without_labels_is_followed_by_predictions() {
 }
 
 #[test]
+fn an_import_without_pictures_warns_and_its_evaluation_names_the_remedy() {
+    let bench = Bench::new();
+    bench.lab();
+    let map = read(&bench, "map.toml");
+    let frame =
+        "[frame]\ncolumn = \"file\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n";
+    assert!(map.contains(frame), "{map}");
+    bench.write("bare.toml", &map.replace(frame, ""));
+    let done = bench.ok("import lab --map bare.toml --out bare");
+    assert!(done.contains("no-pictures: the map has no [frame]"), "{done}");
+    bench.refused(
+        "evaluate bare",
+        2,
+        "the dataset has neither pictures nor signals: name the pictures by [frame] of its map",
+    );
+}
+
+#[test]
 fn an_import_without_a_map_names_the_command_that_writes_one() {
     let bench = lab();
     bench.refused(
