@@ -102,12 +102,14 @@ fn an_import_without_pictures_warns_and_its_evaluation_names_the_remedy() {
     let bench = Bench::new();
     bench.lab();
     let map = read(&bench, "map.toml");
-    let frame =
-        "[frame]\ncolumn = \"file\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n";
+    let frame = "[frame]\ncolumn = \"file\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n";
     assert!(map.contains(frame), "{map}");
     bench.write("bare.toml", &map.replace(frame, ""));
     let done = bench.ok("import lab --map bare.toml --out bare");
-    assert!(done.contains("no-pictures: the map has no [frame]"), "{done}");
+    assert!(
+        done.contains("no-pictures: the map has no [frame]"),
+        "{done}"
+    );
     bench.refused(
         "evaluate bare",
         2,
