@@ -10,7 +10,7 @@ use super::{ExplainArgs, ListFormat, Output, SplitArgs};
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("layout").args(["map", "preset", "draft", "presets"]))]
 pub(crate) struct Import {
-    /// The folder with the table and the pictures, or a tar of it (.tar, .tar.gz, .tgz)
+    /// The folder with the table and the pictures, a file in it, or a tar of it (.tar, .tar.gz, .tgz)
     #[arg(required_unless_present = "presets")]
     pub(crate) source: Option<PathBuf>,
     /// The map; see the documentation of taceva-import for its keys

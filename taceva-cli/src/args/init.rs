@@ -25,7 +25,7 @@ pub(crate) enum InitSubject {
 
 #[derive(Debug, Args)]
 pub(crate) struct InitRecording {
-    /// The folder of the recording
+    /// The folder of the recording, or a file in it
     #[arg(value_name = "FOLDER")]
     pub(crate) folder: PathBuf,
     #[command(flatten)]
@@ -37,7 +37,7 @@ pub(crate) struct InitTarget {
     /// The file to write [default: map.toml, scene.toml or rig.toml in the working folder]
     #[arg(long = "out", value_name = "FILE")]
     pub(crate) path: Option<PathBuf>,
-    /// Ask nothing and take every default
+    /// Ask nothing and take every default; a map keeps places without one open
     #[arg(long, short)]
     pub(crate) yes: bool,
     /// Replace a file that exists already

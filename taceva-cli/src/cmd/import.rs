@@ -11,6 +11,7 @@ use taceva_import::{
     UnpackedArchive,
 };
 
+use super::open_places::open_places;
 use super::{Context, Usage};
 use crate::args::Import;
 use crate::date::today;
@@ -46,7 +47,7 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
         ));
     }
     if args.draft {
-        let draft = source.named(MapDraft::of(source.folder()))?;
+        let draft = source.named(MapDraft::of(source.drafted(args)))?;
         return map_written(draft.text(), args, target, context);
     }
     if args.print {
@@ -129,7 +130,7 @@ impl Source {
             .as_deref()
             .ok_or_else(|| Usage::error("no folder is named"))?;
         if !UnpackedArchive::is_archive(path) {
-            return Ok(Source::Folder(path.to_owned()));
+            return Ok(Source::Folder(folder_of(path).to_owned()));
         }
         // On the disk of the dataset, which needs as much space.
         let beside = match target.filter(|_| !args.explain.is_wanted) {
@@ -147,6 +148,14 @@ impl Source {
         }
     }
 
+    /// The folder, or the named file of it, for which a draft is made.
+    fn drafted<'a>(&'a self, args: &'a Import) -> &'a Path {
+        match (self, args.source.as_deref()) {
+            (Source::Folder(_), Some(named)) => named,
+            _ => self.folder(),
+        }
+    }
+
     /// Converts an error to name the member of an archive instead of its unpacked path.
     fn named<T>(&self, outcome: Result<T, ImportError>) -> Result<T, ImportError> {
         outcome.map_err(|error| match self {
@@ -161,6 +170,14 @@ impl Source {
             Source::Folder(_) => what.to_string(),
             Source::Archive(archive) => archive.text_named(&what.to_string()),
         }
+    }
+}
+
+/// The folder of a recording that is named by itself, or by one of its files. An archive stands for its content.
+pub(super) fn folder_of(source: &Path) -> &Path {
+    match source.is_file() && !UnpackedArchive::is_archive(source) {
+        true => parent_of(source),
+        false => source,
     }
 }
 
@@ -183,7 +200,7 @@ fn map_written(
     }
     output::write(target, |out| write!(out, "{text}"))?;
     if let (Some(target), Some(source)) = (target, &args.source) {
-        let open = text.matches(" = \"?\"").count();
+        let open = open_places(text);
         let state = match (args.draft, open) {
             (true, open) => {
                 let [are, them] = by_count(open, ["is", "it"], ["are", "them"]);
@@ -195,7 +212,7 @@ fn map_written(
         context.say(format_args!(
             "{}: {state}taceva import {} --map {} --explain",
             shown(target),
-            quoted(source),
+            quoted(folder_of(source)),
             quoted(target),
         ));
     }

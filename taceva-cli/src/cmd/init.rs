@@ -38,12 +38,13 @@ pub(crate) fn run(args: &Init, context: &Context) -> anyhow::Result<u8> {
                 "scene" => scene::write(&none, interview, context),
                 "rig" => rig::write(&none, interview, context),
                 _ => {
-                    let is_folder = |answer: &str| match Path::new(answer).is_dir() {
+                    let is_there = |answer: &str| match Path::new(answer).exists() {
                         true => Ok(()),
-                        false => Err(format!("{} is not a folder", shown(answer))),
+                        false => Err(format!("{}: no such folder or file", shown(answer))),
                     };
-                    let folder = interview.ask("the folder of the recording", None, is_folder)?;
-                    recording::write(Path::new(&folder), &none, interview)
+                    let question = "the folder of the recording, or a file in it";
+                    let source = interview.ask(question, None, is_there)?;
+                    recording::write(Path::new(&source), &none, interview)
                 }
             }
         }

@@ -21,7 +21,9 @@ pub(super) fn text(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> 
         if finding.count > 0 {
             writeln!(out, "         samples {}", samples(finding))?;
         }
-        writeln!(out, "         hint: {}", finding.hint)?;
+        if !finding.hint.is_empty() {
+            writeln!(out, "         hint: {}", finding.hint)?;
+        }
     }
     for skipped in &report.skipped {
         writeln!(out, "skipped  {}: {}", skipped.what, skipped.reason)?;

@@ -52,14 +52,87 @@ fn a_recording_gets_a_map_by_questions_that_imports_and_evaluates() {
 fn a_recording_without_answers_keeps_its_open_places_with_yes() {
     let bench = lab();
     let said = bench.ok("init recording lab --yes --out first.toml");
-    assert!(said.contains("fill in the 3 places"), "{said}");
-    let contacts = "name the contact points, on which intervals depend";
+    assert!(said.contains("fill in the 2 places"), "{said}");
+    let contacts = "if several rows show one contact";
     assert!(said.contains(contacts), "{said}");
-    assert!(read(&bench, "first.toml").contains("unit = \"?\""));
+    let map = read(&bench, "first.toml");
+    assert!(map.contains("unit = \"?\""), "{map}");
+    // The name of the sensor has a default.
+    assert!(map.contains("\nmodel = \"unknown\"\n"), "{map}");
     bench.refused(
         "init recording lab --yes",
         3,
         "map.toml exists already; --force replaces it",
+    );
+}
+
+#[test]
+fn a_file_stands_for_its_folder_in_drafts_and_in_the_commands_that_follow() {
+    let bench = lab();
+    let said = bench.ok("init recording lab/labels.csv --yes --out first.toml");
+    assert!(
+        said.contains("taceva import lab --map first.toml --explain"),
+        "{said}"
+    );
+    let map = read(&bench, "first.toml");
+    assert!(map.contains("column = \"file\""), "{map}");
+    assert_eq!(
+        bench.ok("import --draft lab/labels.csv"),
+        bench.ok("import --draft lab")
+    );
+    let ran = bench.run("import --draft lab/labels.csv --out second.toml");
+    let places = "second.toml: a draft, in which 3 places are `\"?\"`; fill them in, then: taceva import lab --map second.toml";
+    assert!(ran.err.contains(places), "{}", ran.err);
+}
+
+#[test]
+fn a_channel_is_left_out_by_none_and_a_named_column_keeps_the_reason_against_it() {
+    let bench = Bench::new();
+    let rows = (0..8).map(|row| format!("{0}.5,{0}.25,{0}.75,0.0\n", row * row % 7));
+    let table = format!("fz_raw,fz_filtered,fz_cmd,fx\n{}", rows.collect::<String>());
+    bench.write("lab/labels.csv", &table);
+    // The answers for Fz, its unit, Fx (left out) and the sensor.
+    let ran = bench.answered("init recording lab --out map.toml", "fz_cmd\nN\n\nmy gel\n");
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    let map = read(&bench, "map.toml");
+    let named = "Fz = { from = \"fz_cmd\", unit = \"N\" }   # named by you, though by `cmd` commanded, not measured\n";
+    assert!(map.contains(named), "{map}");
+    assert!(map.contains("\n# Left out: Fx = "), "{map}");
+    let against = "the draft takes \"fz_cmd\" for no channel";
+    assert!(ran.err.contains(against), "{}", ran.err);
+    assert!(!ran.out.contains("fill in"), "{}", ran.out);
+    bench.ok("import lab --map map.toml --explain");
+}
+
+#[test]
+fn a_folder_without_labels_is_followed_by_predictions() {
+    let bench = lab();
+    fs::remove_file(bench.path("lab/labels.csv")).expect("it was there");
+    let said = bench.ok("init recording lab --yes --out first.toml");
+    assert!(
+        said.contains("taceva predict my-dataset --with MODEL"),
+        "{said}"
+    );
+    assert!(!said.contains("taceva evaluate"), "{said}");
+}
+
+#[test]
+fn an_import_without_pictures_warns_and_its_evaluation_names_the_remedy() {
+    let bench = Bench::new();
+    bench.lab();
+    let map = read(&bench, "map.toml");
+    let frame = "[frame]\ncolumn = \"file\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n";
+    assert!(map.contains(frame), "{map}");
+    bench.write("bare.toml", &map.replace(frame, ""));
+    let done = bench.ok("import lab --map bare.toml --out bare");
+    assert!(
+        done.contains("no-pictures: the map has no [frame]"),
+        "{done}"
+    );
+    bench.refused(
+        "evaluate bare",
+        2,
+        "the dataset has neither pictures nor signals: name the pictures by [frame] of its map",
     );
 }
 
@@ -79,7 +152,7 @@ fn an_import_without_a_map_names_the_command_that_writes_one() {
 }
 
 #[test]
-fn answers_that_end_are_refused_with_the_question() {
+fn answers_that_end_are_refused_with_the_question_and_the_earlier_ones_are_kept() {
     let bench = lab();
     let ran = bench.answered("init recording lab --out first.toml", "mm\n");
     assert_eq!(ran.code, 2, "{}", ran.err);
@@ -89,7 +162,23 @@ fn answers_that_end_are_refused_with_the_question() {
         "{}",
         ran.err
     );
-    assert!(!bench.path("first.toml").exists());
+    assert!(
+        ran.err.contains("the answers so far are in first.toml"),
+        "{}",
+        ran.err
+    );
+    let map = read(&bench, "first.toml");
+    assert!(
+        map.contains("Px = { from = \"Px\", unit = \"mm\" }"),
+        "{map}"
+    );
+    assert!(
+        map.contains("Fz = { from = \"Fz\", unit = \"?\" }"),
+        "{map}"
+    );
+    let ran = bench.answered("init recording lab --out second.toml", "");
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    assert!(!bench.path("second.toml").exists());
 }
 
 #[test]

@@ -53,6 +53,8 @@ pub(crate) struct Found {
     pub(crate) message: String,
     pub(crate) samples: Vec<String>,
     pub(crate) count: usize,
+    /// False if there is nothing to mend.
+    pub(crate) has_hint: bool,
 }
 
 impl Found {
@@ -66,6 +68,15 @@ impl Found {
             message,
             samples: Vec::new(),
             count: 0,
+            has_hint: true,
+        }
+    }
+
+    /// The same finding without the remedy of its check.
+    pub(crate) fn without_hint(self) -> Found {
+        Found {
+            has_hint: false,
+            ..self
         }
     }
 }
@@ -81,6 +92,7 @@ impl Evidence<'_> {
                 .map(|&row| self.table.samples()[row].clone())
                 .collect(),
             count: rows.len(),
+            has_hint: true,
         }
     }
 }
@@ -100,7 +112,7 @@ pub struct Finding {
     pub samples: Vec<String>,
     /// Number of samples concerned; 0 for the recording as a whole.
     pub count: usize,
-    /// Remedy.
+    /// Remedy; empty if there is nothing to mend.
     pub hint: &'static str,
 }
 
@@ -113,7 +125,7 @@ impl Finding {
             message: found.message,
             samples: found.samples,
             count: found.count,
-            hint: check.hint,
+            hint: if found.has_hint { check.hint } else { "" },
         }
     }
 }

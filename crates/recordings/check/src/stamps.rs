@@ -103,6 +103,19 @@ pub(super) fn by_clock(table: &Table, rows: impl Iterator<Item = usize>) -> Vec<
     .collect()
 }
 
+/// Pairs of consecutive rows of one unit among `rows`, in the order of their times, whatever their tables.
+pub(super) fn by_time(table: &Table, rows: &[usize]) -> Vec<(usize, usize)> {
+    let (units, times) = (table.unit_id(), table.t_s());
+    let seconds = |row: usize| times[row].unwrap_or(f64::NEG_INFINITY);
+    let mut ordered = rows.to_vec();
+    ordered.sort_by(|one, other| seconds(*one).total_cmp(&seconds(*other)));
+    let mut last: BTreeMap<Option<&str>, usize> = BTreeMap::new();
+    let ordered = ordered.into_iter();
+    ordered
+        .filter_map(|row| Some((last.insert(units[row].as_deref(), row)?, row)))
+        .collect()
+}
+
 #[expect(clippy::cast_precision_loss, reason = "rows are far below 2^53")]
 pub(super) fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole.max(1) as f64

@@ -5,53 +5,89 @@ use std::path::Path;
 
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::quoted;
-use taceva_import::{ImportError, ImportMap, MapDraft};
+use taceva_import::{ImportError, ImportMap, MapDraft, UnpackedArchive};
 
 use super::{Interview, finish, target};
 use crate::args::InitTarget;
-
-/// A place that a draft leaves open.
-const OPEN: &str = "\"?\"";
+use crate::cmd::Usage;
+use crate::cmd::import::folder_of;
+use crate::cmd::open_places::{OPEN, code, open_places};
+use crate::output;
 
 pub(super) fn write(
-    folder: &Path,
+    source: &Path,
     args: &InitTarget,
     interview: &mut Interview,
 ) -> anyhow::Result<u8> {
     let path = target(args, "map.toml")?;
-    let draft = MapDraft::of(folder)?;
-    let text = filled(draft.text(), &path, interview)?;
-    let import = format!("taceva import {} --map {}", quoted(folder), quoted(&path));
+    if UnpackedArchive::is_archive(source) {
+        return Err(Usage::error(format!(
+            "{0} is an archive: `taceva import {0} --draft --out {1}` writes its map",
+            quoted(source),
+            quoted(&path)
+        )));
+    }
+    let draft = MapDraft::of(source)?;
+    let mut lines: Vec<String> = draft.text().lines().map(str::to_owned).collect();
+    let answered = fill(&mut lines, &path, interview);
+    let text = lines.join("\n") + "\n";
+    if let Err(error) = answered {
+        if text != draft.text() {
+            output::write(Some(&path), |out| out.write_all(text.as_bytes()))?;
+            interview.say(&format!(
+                "the answers so far are in {}: fill in the rest there, or begin again with --force",
+                quoted(&path)
+            ));
+        }
+        return Err(error);
+    }
+    let folder = quoted(folder_of(source));
+    let import = format!("taceva import {folder} --map {}", quoted(&path));
     let mut next = remarks(&text, &quoted(&path));
     next.push(format!("{import} --explain"));
     next.push(format!("{import} --out my-dataset"));
-    next.push("taceva evaluate my-dataset".to_owned());
-    finish(&path, &text, &next)
-}
-
-/// `line` without its comment; a `#` within quotes begins none.
-fn code(line: &str) -> &str {
-    let mut is_quoted = false;
-    let end = line.char_indices().find(|(_, letter)| {
-        is_quoted ^= *letter == '"';
-        *letter == '#' && !is_quoted
+    next.push(match has_labels(&text) {
+        true => "taceva evaluate my-dataset".to_owned(),
+        false => "taceva predict my-dataset --with MODEL --out predictions.csv".to_owned(),
     });
-    end.map_or(line, |(at, _)| &line[..at])
+    finish(&path, &text, &next)
 }
 
 /// Sections of a map that hold labels.
 const LABELS: [&str; 3] = ["[columns]", "[classes]", "[[matrix]]"];
 
-/// Steps by hand before an import of `map`, which is written to `path`: open places, guesses, labels and contact points.
+/// Begin of the comment of a draft on pictures that no line joins.
+const NOT_JOINED: &str = "# No pictures were found that belong to its rows. ";
+
+/// Begin of the comment of a draft on columns that are no channels.
+const NO_CHANNELS: &str = "# No channels: ";
+
+/// Lines of `map` that are no comments.
+fn live(map: &str) -> impl Iterator<Item = &str> {
+    let lines = map.lines();
+    lines.filter(|line| !line.trim_start().starts_with('#'))
+}
+
+/// True if a section of `map` has labels.
+fn has_labels(map: &str) -> bool {
+    let mut section = "";
+    live(map).any(|line| {
+        if line.starts_with('[') {
+            section = line.trim_end();
+            return false;
+        }
+        LABELS.contains(&section) && !line.trim().is_empty()
+    })
+}
+
+/// Steps by hand before an import of `map`, which is written to `path`: pictures, open places, guesses, labels and contacts.
 fn remarks(map: &str, path: &str) -> Vec<String> {
-    let lines = || {
-        map.lines()
-            .filter(|line| !line.trim_start().starts_with('#'))
-    };
-    let open: usize = lines().map(|line| code(line).matches(OPEN).count()).sum();
-    let guesses = lines().filter(|line| line.contains("a guess")).count();
+    let guesses = live(map).filter(|line| line.contains("a guess")).count();
     let mut remarks = Vec::new();
-    match open {
+    if let Some(found) = map.lines().find_map(|line| line.strip_prefix(NOT_JOINED)) {
+        remarks.push(format!("no row of {path} has a picture. {found}"));
+    }
+    match open_places(map) {
         0 => {}
         1 => remarks.push(format!("fill in the place {OPEN} of {path}")),
         _ => remarks.push(format!("fill in the {open} places {OPEN} of {path}")),
@@ -63,39 +99,73 @@ fn remarks(map: &str, path: &str) -> Vec<String> {
             "check the {guesses} lines with \"a guess\" in {path}"
         )),
     }
-    let mut section = "";
-    let has_labels = lines().any(|line| {
-        if line.starts_with('[') {
-            section = line.trim_end();
-            return false;
-        }
-        LABELS.contains(&section) && !line.trim().is_empty()
-    });
-    if !has_labels {
+    if !has_labels(map) {
         remarks.push(format!(
             "name the labels, of which none was found: under [columns] of {path} write a line such as Fz = {{ from = \"COLUMN\", unit = \"N\" }}"
         ));
     }
-    if !lines().any(|line| line.starts_with("point_id")) {
+    if !live(map).any(|line| line.starts_with("point_id")) {
+        let offered = map.lines();
+        let offered = offered.filter_map(|line| line.strip_prefix("# point_id = "));
+        let offered: Vec<&str> = offered.map(|line| code(line).trim_end()).collect();
+        let offered = match offered.is_empty() {
+            true => String::new(),
+            false => format!(" (the draft offers {})", offered.join(" and ")),
+        };
         remarks.push(format!(
-            "name the contact points, on which intervals depend: under [ids] of {path} write point_id = \"COLUMN\", a column with one value for each contact"
+            "if several rows show one contact, such as the frames of a grasp or the repeats of a press, name the contacts: under [ids] of \
+             {path} write point_id = \"COLUMN\"{offered}. Scores then go by contacts, and none is in training and test"
         ));
     }
     remarks
 }
 
-/// `draft` with an answer in each open place of a line that is no comment. With `--yes` places stay open.
-fn filled(draft: &str, path: &Path, interview: &mut Interview) -> anyhow::Result<String> {
-    if interview.takes_defaults() {
-        return Ok(draft.to_owned());
+/// The reason why a draft takes `column` for no channel, if it is among the `excluded` columns.
+fn reason_against<'e>(excluded: &'e str, column: &str) -> Option<&'e str> {
+    let named = format!("{column} (");
+    let mut places = excluded.match_indices(named.as_str());
+    let (at, _) = places.find(|(at, _)| *at == 0 || excluded[..*at].ends_with(", "))?;
+    excluded[at + named.len()..].split(')').next()
+}
+
+/// `line` with a comment that its value was named in place of the comment of the draft; `why` is a reason against it.
+fn named(line: &str, why: Option<&str>) -> String {
+    let code = code(line).trim_end();
+    match why {
+        None if code == line.trim_end() => line.to_owned(),
+        None => format!("{code}   # named by you"),
+        Some(why) => format!("{code}   # named by you, though {why}"),
     }
-    let mut lines: Vec<String> = draft.lines().map(str::to_owned).collect();
+}
+
+/// Answer that leaves a channel out of the map.
+const LEFT_OUT: &str = "none";
+
+/// Puts an answer in each open place of a line of the draft that is no comment. With `--yes` places without a default stay open.
+///
+/// # Errors
+/// As [`Interview::ask`]; `lines` keep the earlier answers.
+fn fill(lines: &mut [String], path: &Path, interview: &mut Interview) -> anyhow::Result<()> {
+    if interview.takes_defaults() {
+        for line in lines {
+            if line == "model = \"?\"" {
+                "model = \"unknown\"".clone_into(line);
+            }
+        }
+        return Ok(());
+    }
+    let excluded = lines.iter().find_map(|line| line.strip_prefix(NO_CHANNELS));
+    let excluded = excluded.unwrap_or_default().to_owned();
     let mut earlier: BTreeMap<String, String> = BTreeMap::new();
     for at in 0..lines.len() {
         while let Some(place) = Place::of(&lines[at]) {
-            interview.say(&format!("line {}: {}", at + 1, lines[at].trim()));
-            let default = earlier.get(&place.kind).cloned();
-            let default = default.or_else(|| (place.key == "model").then(|| "unknown".to_owned()));
+            interview.say(&format!("line {}: {}", at + 1, explained(&lines[at..])));
+            let is_channel = place.is_channel();
+            let default = match (is_channel, place.key.as_str()) {
+                (true, _) => Some(LEFT_OUT.to_owned()),
+                (false, "model") => Some("unknown".to_owned()),
+                (false, _) => earlier.get(&place.kind).cloned(),
+            };
             let put = |answer: &str| {
                 let line = &lines[at];
                 format!(
@@ -105,16 +175,37 @@ fn filled(draft: &str, path: &Path, interview: &mut Interview) -> anyhow::Result
                 )
             };
             let check = |answer: &str| {
-                let mut tried = lines.clone();
+                let mut tried = lines.to_vec();
                 tried[at] = put(answer);
                 refusal(path, &tried.join("\n"), at).map_or(Ok(()), Err)
             };
             let answer = interview.ask(&place.question(), default.as_deref(), check)?;
+            if is_channel && answer == LEFT_OUT {
+                lines[at] = format!("# Left out: {}", lines[at]);
+                continue;
+            }
             lines[at] = put(&answer);
+            let why = reason_against(&excluded, &answer).filter(|_| is_channel);
+            if let Some(why) = why {
+                interview.say(&format!("the draft takes {answer:?} for no channel: {why}"));
+            }
+            // The comment explained why the place was open.
+            if is_channel || place.subject.is_none() {
+                lines[at] = named(&lines[at], why);
+            }
             earlier.insert(place.kind, answer);
         }
     }
-    Ok(lines.join("\n") + "\n")
+    Ok(())
+}
+
+/// The first of `lines`, with the comments below it that continue its own.
+fn explained(lines: &[String]) -> String {
+    let is_more = |line: &&String| line.starts_with("# ") && !line.starts_with("# or: ");
+    let more = lines.iter().skip(1).take_while(is_more);
+    let first = lines.first().into_iter();
+    let all: Vec<&str> = first.chain(more).map(|line| line.trim()).collect();
+    all.join("\n")
 }
 
 /// The reason why an import would refuse line `at` of a map, if it would.
@@ -159,12 +250,19 @@ impl Place {
         })
     }
 
+    /// True for the column of a channel.
+    fn is_channel(&self) -> bool {
+        self.key == "from" && self.subject.is_some()
+    }
+
     fn question(&self) -> String {
         let subject = self.subject.as_deref();
         match (self.key.as_str(), subject) {
             ("unit", Some(subject)) => format!("unit of {subject}, such as N, mN, gf, mm or um"),
             ("unit", None) => "unit of these times, such as s, ms, us or ns".to_owned(),
-            ("from", Some(subject)) => format!("column that holds {subject}"),
+            ("from", Some(subject)) => {
+                format!("column that holds {subject}, or {LEFT_OUT} to leave it out")
+            }
             ("model", None) => "name of the sensor".to_owned(),
             ("cut", _) => {
                 "keep, to read the messages before the cut of the recording, or refuse".to_owned()
@@ -177,25 +275,33 @@ impl Place {
 
 #[cfg(test)]
 mod tests {
-    use super::{Place, remarks};
+    use super::{Place, explained, has_labels, named, reason_against, remarks};
 
     #[test]
     fn remarks_count_lines_of_the_map_and_no_comments() {
         let map = "# Replace every \"?\": lines with \"a guess\" may be wrong.\n[columns]\nFz = { from = \"f\", unit = \"?\" }   # a guess\n";
-        let contacts = "name the contact points, on which intervals depend: under [ids] of m.toml write point_id = \"COLUMN\", a column with one value for each contact";
+        let said = remarks(map, "m.toml");
         assert_eq!(
-            remarks(map, "m.toml"),
+            said[..2],
             [
                 "fill in the place \"?\" of m.toml",
                 "check the line with \"a guess\" in m.toml",
-                contacts,
             ]
+        );
+        assert!(
+            said[2].starts_with("if several rows show one contact") && !said[2].contains("offers"),
+            "{said:?}"
         );
         let twice = map.replace("from = \"f\"", "from = \"?\"");
         assert_eq!(
             remarks(&twice, "m.toml")[0],
             "fill in the 2 places \"?\" of m.toml"
         );
+        let offering =
+            format!("{map}# point_id = \"group\"   # only\n# point_id = \"@object\"   # only\n");
+        let said = remarks(&offering, "m.toml");
+        let offered = "(the draft offers \"group\" and \"@object\")";
+        assert!(said[2].contains(offered), "{said:?}");
         let bare =
             "[columns]\n# No channels: a, b\n[frame]\ncolumn = \"file\"\n[ids]\npoint_id = \"p\"\n";
         let said = remarks(bare, "m.toml");
@@ -207,6 +313,46 @@ mod tests {
     }
 
     #[test]
+    fn pictures_that_no_line_joins_come_first_and_labels_decide_the_last_command() {
+        let map = "# No pictures were found that belong to its rows. Not joined: 3 pictures cam/gel_*.png; the table has 2 rows.\n[columns]\nFz = { from = \"f\", unit = \"?\" }\n";
+        let said = remarks(map, "m.toml");
+        assert_eq!(
+            said[0],
+            "no row of m.toml has a picture. Not joined: 3 pictures cam/gel_*.png; the table has 2 rows."
+        );
+        assert!(has_labels(map));
+        assert!(!has_labels(
+            "[columns]\n# No channels: a (counts up by one)\n[time]\nclock = \"unknown\"\n"
+        ));
+    }
+
+    #[test]
+    fn an_answer_replaces_the_comment_of_the_draft_and_a_column_that_is_no_channel_keeps_the_reason()
+     {
+        let excluded = "seq (counts up by one), set (by `set` commanded, not measured)";
+        let why = reason_against(excluded, "set");
+        assert_eq!(why, Some("by `set` commanded, not measured"));
+        assert_eq!(reason_against(excluded, "et"), None);
+        let line =
+            "Fz = { from = \"set\", unit = \"?\" }   # \"a\", \"b\" match equally by a guess";
+        assert_eq!(
+            named(line, why),
+            "Fz = { from = \"set\", unit = \"?\" }   # named by you, though by `set` commanded, not measured"
+        );
+        assert_eq!(
+            named(line, None),
+            "Fz = { from = \"set\", unit = \"?\" }   # named by you"
+        );
+        assert_eq!(named("model = \"gel\"", None), "model = \"gel\"");
+    }
+
+    #[test]
+    fn a_comment_that_goes_on_below_its_line_is_explained_whole() {
+        let lines = ["index = \"?\"   # write", "# table = x", "# or: y", "z"].map(str::to_owned);
+        assert_eq!(explained(&lines), "index = \"?\"   # write\n# table = x");
+    }
+
+    #[test]
     fn an_open_place_says_its_key_and_its_channel() {
         let question = |line: &str| Place::of(line).map(|place| place.question());
         let unit = question("Fx = { from = \"ft[0]\", unit = \"?\" }   # a guess");
@@ -215,7 +361,8 @@ mod tests {
             Some("unit of Fx, such as N, mN, gf, mm or um")
         );
         let from = question("Fz = { from = \"?\", unit = \"?\" }   # a, b match equally");
-        assert_eq!(from.as_deref(), Some("column that holds Fz"));
+        let asked = "column that holds Fz, or none to leave it out";
+        assert_eq!(from.as_deref(), Some(asked));
         assert_eq!(
             question("model = \"?\"").as_deref(),
             Some("name of the sensor")

@@ -7,8 +7,8 @@ pub(super) static CHECK: Check = Check {
     code: "TAC013",
     name: "label-outliers",
     looks_for: "labels over 3 interquartile ranges beyond a quartile, whose gap to the next label exceeds that range and half the distance of the next label from the quartile",
-    hint: "look at these samples: a transducer that was overloaded or read during motion gives such labels; drop them in the map, or \
-        state why they are right",
+    hint: "look at these samples: a transducer that was overloaded or read during motion gives such labels; leave them out by [drop] of \
+        the map, or state why they are right",
     reads: None,
     find,
 };
@@ -37,18 +37,48 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             let unit = channel.unit();
             let first = outliers.rows[0];
             let message = format!(
-                "{channel}: {} of {} labels are more than 3 interquartile ranges beyond the quartiles, such as {} {unit} in row {}; the \
-                 next label is {} {unit}",
+                "{channel}: {} of {} labels are more than 3 interquartile ranges beyond the quartiles, such as {} {unit} in sample {}; \
+                 the next label is {} {unit}{}",
                 outliers.rows.len(),
                 column.len(),
                 sign * outliers.least,
-                first + 1,
+                table.samples()[first],
                 sign * outliers.next,
+                drop_line(evidence, &outliers.rows),
             );
             found.push(evidence.found(Severity::Warning, message, &outliers.rows));
         }
     }
     found
+}
+
+/// Maximum number of pictures in a line for the map.
+const LISTED: usize = 5;
+
+/// Line of the map that leaves out `rows`; empty if their pictures are not files that a map names.
+fn drop_line(evidence: &Evidence<'_>, rows: &[usize]) -> String {
+    let header = evidence.header;
+    let pictures = header.mapping().pictures;
+    let are_files = pictures
+        .iter()
+        .any(|own| matches!(own.by.as_str(), "column" | "pattern"));
+    let sources = evidence.table.source_frame();
+    let names: Option<Vec<String>> = rows
+        .iter()
+        .map(|row| sources[*row].as_ref().map(|name| format!("{name:?}")))
+        .collect();
+    // A row with several pictures is left out by one of them, which no finding on labels names.
+    match names.filter(|_| are_files && header.views.is_empty()) {
+        Some(names) => {
+            let more = if names.len() > LISTED { ", …" } else { "" };
+            let names = &names[..names.len().min(LISTED)];
+            format!(
+                "; to leave them out, write under [drop] of the map: frames_named = [{}{more}]",
+                names.join(", ")
+            )
+        }
+        None => String::new(),
+    }
 }
 
 /// Values far above all others.

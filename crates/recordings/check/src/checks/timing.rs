@@ -6,7 +6,7 @@ use taceva_metrics::STREAM_S;
 use super::dropped_frames::{Missing, missing};
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
-use crate::stamps::{by_clock, is_of_presses, share};
+use crate::stamps::{by_clock, by_time, is_of_presses, share};
 
 pub(super) static CHECK: Check = Check {
     code: "TAC008",
@@ -35,13 +35,18 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         return Vec::new();
     }
     // Another unit of the sensor is another recording with its own clock.
-    let steps: Vec<(usize, f64)> = by_clock(table, timed.iter().copied())
+    let mut pairs = by_clock(table, timed.iter().copied());
+    if pairs.is_empty() {
+        // Files of which each is a row have no order but that of their times.
+        pairs = by_time(table, &timed);
+    }
+    let steps: Vec<(usize, f64)> = pairs
         .into_iter()
         .filter_map(|(before, row)| Some((row, times[row]? - times[before]?)))
         .collect();
     let mut found = Vec::new();
     // There is no rate between presses.
-    if !is_of_presses(evidence) {
+    if !is_of_presses(evidence) && !steps.is_empty() {
         found.push(rate(&steps, missing(evidence).as_ref()));
     }
     let rows_of = |is_so: fn(f64) -> bool| -> Vec<usize> {
@@ -111,7 +116,8 @@ fn rate(steps: &[(usize, f64)], missing: Option<&Missing>) -> Found {
             format!(
                 "single pictures, not a stream: the median step is {usual:.4} s, above {STREAM_S} s, so a frame rate is not defined"
             ),
-        );
+        )
+        .without_hint();
     }
     let is_gap = |seconds: f64| seconds > GAP * usual * (1.0 + ROUNDING);
     let gaps = forward.iter().filter(|step| is_gap(**step)).count();

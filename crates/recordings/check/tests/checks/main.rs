@@ -8,6 +8,7 @@ mod lab;
 mod lag;
 mod neighbours;
 mod rest;
+mod single_files;
 mod stamps;
 mod streams;
 #[path = "../../../../studies/evaluate/tests/evaluations/taxel_drawing.rs"]

@@ -49,6 +49,7 @@ pub(super) struct SeenColumn {
     pub(super) role: Role,
     /// First cells.
     pub(super) cells: Vec<String>,
+    pub(super) last: String,
     /// Shape of the lists in its first cell, if they hold many numbers, as taxels do.
     pub(super) taxels: Option<Vec<usize>>,
     /// Number of empty cells among the first million rows.
@@ -167,7 +168,9 @@ impl<'g> SeenTable<'g> {
             {
                 (*unit, *guess) = ("s", None);
             }
+            let last = rows.checked_sub(1).map(|row| table.cell(row, &name));
             SeenColumn {
+                last: last.and_then(Result::ok).unwrap_or_default(),
                 taxels: taxels_of(&role, &cells),
                 empty: match role {
                     Role::Other | Role::Attribute => empty_cells(&table, &name),

@@ -1,6 +1,6 @@
 //! Rows of a dataset to predict.
 
-use taceva_core::shown;
+use taceva_core::{Field, shown};
 use taceva_dataset::Dataset;
 use taceva_models::Model;
 
@@ -85,6 +85,15 @@ impl Target {
                 labels: None,
             },
         );
+        let fields = dataset.fields();
+        let has_input = fields.contains(Field::Frame) || fields.contains(Field::Signals);
+        if rows.is_empty() && !has_input {
+            return Err(EvaluateError::Request(
+                "the dataset has neither pictures nor signals: name the pictures by [frame] of its map and import the folder again; \
+                 `taceva init recording FOLDER` drafts the map"
+                    .to_owned(),
+            ));
+        }
         if rows.is_empty() {
             return Err(EvaluateError::Request(format!(
                 "the part `{}` has no sample that can be predicted",

@@ -1,0 +1,38 @@
+//! Places that a draft of a map leaves open.
+
+/// A value that a draft leaves open.
+pub(super) const OPEN: &str = "\"?\"";
+
+/// `line` without its comment; a `#` within quotes begins none.
+pub(super) fn code(line: &str) -> &str {
+    let mut is_quoted = false;
+    let end = line.char_indices().find(|(_, letter)| {
+        is_quoted ^= *letter == '"';
+        *letter == '#' && !is_quoted
+    });
+    end.map_or(line, |(at, _)| &line[..at])
+}
+
+/// Number of open places in `map`, without its comments.
+pub(super) fn open_places(map: &str) -> usize {
+    map.lines()
+        .map(|line| code(line).matches(OPEN).count())
+        .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_in_comments_are_not_open() {
+        let map =
+            "# Replace every \"?\"\nmodel = \"?\"\n# or: Fz = { from = \"f\", unit = \"?\" }\n";
+        assert_eq!(open_places(map), 1);
+        assert_eq!(
+            open_places("Fz = { from = \"?\", unit = \"?\" }   # \"?\"\n"),
+            2
+        );
+        assert_eq!(code("a = \"#\" # b"), "a = \"#\" ");
+    }
+}
