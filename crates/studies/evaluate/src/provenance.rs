@@ -11,6 +11,9 @@ use crate::note::Note;
 use crate::recordings;
 use crate::rows::DataPart;
 
+/// Setting of models with random draws.
+const SEED: &str = "seed";
+
 /// Provenance of `dataset`.
 pub fn of(dataset: &Dataset) -> Provenance {
     let mut provenance = Provenance {
@@ -59,6 +62,12 @@ pub fn model(model: &Model) -> Result<ModelProvenance, EvaluateError> {
         .map(|(key, value)| (key.to_owned(), value.to_owned()))
         .collect();
     settings.insert("features".to_owned(), card.features.to_string());
+    // A model that draws has a seed, also if the caller states none.
+    let known = taceva_models::find(&card.model).map_or(&[][..], |info| info.settings);
+    if let Some(seed) = known.iter().find(|setting| setting.key == SEED) {
+        let seed = || seed.default.to_owned();
+        settings.entry(SEED.to_owned()).or_insert_with(seed);
+    }
     if let Some(name) = card
         .choice
         .setting
