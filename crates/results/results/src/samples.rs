@@ -101,6 +101,18 @@ impl Samples {
         }
     }
 
+    /// The same samples with the truth and the predictions of these channels alone.
+    pub(crate) fn of_channels(mut self, names: &[&str]) -> Samples {
+        self.columns.retain(|(column, values)| {
+            let channel = column.strip_suffix(UNBOUNDED).unwrap_or(column);
+            let channel = channel.strip_suffix(PREDICTED).unwrap_or(channel);
+            let is_channel =
+                matches!(values, SampleColumn::Numbers(_)) && !NUMBERS.contains(&column.as_str());
+            !is_channel || names.contains(&channel)
+        });
+        self
+    }
+
     /// The same samples, of the recordings in these folders.
     #[must_use]
     pub fn with_recordings(self, recordings: Vec<PathBuf>) -> Samples {
