@@ -8,7 +8,7 @@ use taceva_tests::structure::{
 
 /// Most lines of product code, and of all `.rs` files. Readers of SQLite, bags, Arrow and protobuf, and angles, take 6,000 and 11,000 of
 /// them.
-const MOST_LINES: (usize, usize) = (207_600, 395_300);
+const MOST_LINES: (usize, usize) = (207_700, 395_450);
 
 /// Most lines of one file, with its comments and tests.
 const MOST_LINES_OF_A_FILE: usize = 400;

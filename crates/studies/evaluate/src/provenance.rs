@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use taceva_dataset::Dataset;
-use taceva_models::{ChosenBy, Model};
+use taceva_models::{Choice, ChosenBy, Model};
 use taceva_results::{ModelProvenance, Provenance};
 
 use crate::error::EvaluateError;
@@ -89,8 +89,23 @@ pub fn model(model: &Model) -> Result<ModelProvenance, EvaluateError> {
             .data
             .clone()
             .unwrap_or_else(|| "unknown".to_owned()),
+        chosen_by: chosen_by(&card.choice),
         origin: None,
     })
+}
+
+/// Setting that a fit chose, and how; `None` if it chose none.
+fn chosen_by(choice: &Choice) -> Option<String> {
+    let how = match choice.by {
+        ChosenBy::Nobody => return None,
+        ChosenBy::Validation => "on the validation part",
+        ChosenBy::Likelihood => "by the likelihood of the training labels",
+        ChosenBy::LeaveOneGroupOut => "with each group of training samples left out in turn",
+        ChosenBy::LeaveOneOut => "with each training sample left out in turn",
+        ChosenBy::TenFolds => "with each of ten folds of the training samples left out in turn",
+    };
+    let setting = choice.setting.as_ref()?;
+    Some(format!("{setting} {how}"))
 }
 
 /// Notes on the settings that the user left open.

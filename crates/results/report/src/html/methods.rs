@@ -218,6 +218,12 @@ fn model(studies: &[Study]) -> String {
             let own: Vec<String> = own.into_iter().map(str::to_owned).collect();
             words += &format!(", with {} chosen for each sensor", listed(&own));
         }
+        let chosen = of.iter().filter_map(|study| study.made.chosen_by.clone());
+        let chosen: BTreeSet<String> = chosen.collect();
+        if !chosen.is_empty() {
+            let chosen: Vec<String> = chosen.into_iter().collect();
+            words += &format!("; its fit chose {}", listed(&chosen));
+        }
         words + "."
     };
     let sentences: String = models.into_iter().map(sentence).collect();

@@ -125,3 +125,12 @@ fn methods_claim_no_unseen_places_where_a_recording_names_none() {
         assert_eq!(page.contains(sentence), is_said, "{note}");
     }
 }
+
+#[test]
+fn methods_state_how_a_fit_chose_its_setting() {
+    let mut result = support::results("one", 1.0);
+    let how = "strength with each training sample left out in turn";
+    result["provenance"]["model"]["chosen_by"] = how.into();
+    let page = page(&[support::study(&result)]);
+    assert!(page.contains(&format!("; its fit chose {how}.")), "{page}");
+}
