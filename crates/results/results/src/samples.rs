@@ -1,8 +1,8 @@
 //! Table of the samples behind scores.
 
-mod dominant;
+mod dominant_sample;
 
-pub use dominant::DominantSample;
+pub use dominant_sample::DominantSample;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
