@@ -48,6 +48,9 @@ pub(crate) struct ReportArgs {
     /// The folder to write into [default: the folder of the results]
     #[arg(long = "out", value_name = "FOLDER")]
     pub(crate) folder: Option<PathBuf>,
+    /// The channels and planes to report, separated by commas, such as Fz [default: all]
+    #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
+    pub(crate) channels: Vec<String>,
     /// Also write the tables and figures of a published study in its own form, with its printed numbers and ours over them, into `like-STUDY/`
     #[arg(long, value_enum, value_name = "STUDY")]
     pub(crate) like: Option<Like>,

@@ -1,9 +1,9 @@
 //! `taceva compare`.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use taceva_report::{
-    CompareRequest, Comparison, OVERVIEW_WIDTH, RequestError, ScoreTable, Study, compare,
+    CompareRequest, Comparison, OVERVIEW_WIDTH, RequestError, ScoreTable, compare,
 };
 
 use super::{Context, Usage, results};
@@ -49,7 +49,8 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
     for line in request.absent(&studies) {
         context.say(format_args!("--metrics {line}"));
     }
-    check_channels(&studies, &args.channels)?;
+    let scores = studies.iter().flat_map(|study| &study.scores);
+    results::check_channels(scores, &args.channels)?;
     let comparison = compare(&studies, &request);
     if table == TableScores::Main {
         let scores = ScoreTable::compared(&studies, &request).of_channels(&args.channels);
@@ -81,20 +82,6 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
         output::write(Some(path), |out| out.write_all(page.as_bytes()))?;
     }
     Ok(exit::DONE)
-}
-
-/// Rejects a channel that no result has.
-fn check_channels(studies: &[Study], wanted: &[String]) -> anyhow::Result<()> {
-    let scores = studies.iter().flat_map(|study| &study.scores);
-    let known: BTreeSet<&str> = scores.map(|score| score.channel.as_str()).collect();
-    match wanted.iter().find(|name| !known.contains(name.as_str())) {
-        Some(name) => Err(Usage::error(format!(
-            "--channels {}: no result has this channel, expected one of {}",
-            taceva_report::escape_terminal(name),
-            Vec::from_iter(known).join(", ")
-        ))),
-        None => Ok(()),
-    }
 }
 
 /// Comparability and answers, folded to the width of the terminal if there is one.

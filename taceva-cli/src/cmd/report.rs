@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use taceva_core::shown;
+use taceva_results::EvaluationReport;
 use taceva_study::RunFolder;
 
 use anyhow::bail;
@@ -34,6 +35,12 @@ pub(crate) fn run(args: &ReportArgs, context: &Context) -> anyhow::Result<u8> {
             "{line}: figures of samples are left out: write the table with `taceva evaluate … --samples-out NAME.samples.csv`"
         ));
     }
+    let scores = reports.iter().flat_map(|report| &report.scores);
+    results::check_channels(scores, &args.channels)?;
+    let reports = match args.channels.is_empty() {
+        true => reports,
+        false => of_channels(reports, &args.channels),
+    };
     let drawn = Page::of(&title(&args.result, &reports), &reports)?;
     std::fs::create_dir_all(&folder)?;
     let page = drawn.write_files(&folder, &args.figure.style(), context)?;
@@ -45,6 +52,12 @@ pub(crate) fn run(args: &ReportArgs, context: &Context) -> anyhow::Result<u8> {
     })?;
     context.say(format_args!("look at    {}", shown(&page)));
     Ok(exit::DONE)
+}
+
+/// The `reports` of these channels and planes.
+fn of_channels(reports: Vec<EvaluationReport>, channels: &[String]) -> Vec<EvaluationReport> {
+    let reports = reports.into_iter();
+    reports.map(|report| report.of_channels(channels)).collect()
 }
 
 /// Output folder: the requested one, or that of the results.
@@ -60,7 +73,7 @@ fn folder(args: &ReportArgs) -> PathBuf {
 }
 
 /// The title of the page: the name of a run's scene, that of the one sensor, or the name of the folder or file.
-fn title(result: &Path, reports: &[taceva_results::EvaluationReport]) -> String {
+fn title(result: &Path, reports: &[EvaluationReport]) -> String {
     let is_run = result
         .file_name()
         .is_some_and(|name| name == results::RESULTS);

@@ -2,6 +2,7 @@
 
 mod samples;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use taceva_core::shown;
@@ -9,7 +10,7 @@ use taceva_dataset::internal::quoted;
 
 use anyhow::Context as _;
 use taceva_report::{Layout, Study, Table, catalogue, escape_markdown, escape_terminal};
-use taceva_results::EvaluationReport;
+use taceva_results::{EvaluationReport, Score};
 
 use super::Usage;
 use crate::args::{Format, Output};
@@ -45,6 +46,22 @@ pub(super) fn check_distinct(named: &[PathBuf]) -> anyhow::Result<()> {
         }
     }
     Ok(())
+}
+
+/// Rejects a channel that none of `scores` has.
+pub(super) fn check_channels<'a>(
+    scores: impl Iterator<Item = &'a Score>,
+    wanted: &[String],
+) -> anyhow::Result<()> {
+    let known: BTreeSet<&str> = scores.map(|score| score.channel.as_str()).collect();
+    match wanted.iter().find(|name| !known.contains(name.as_str())) {
+        Some(name) => Err(Usage::error(format!(
+            "--channels {}: no result has this channel, expected one of {}",
+            escape_terminal(name),
+            Vec::from_iter(known).join(", ")
+        ))),
+        None => Ok(()),
+    }
 }
 
 /// The file that `path` names, or the sensor of the catalogue by its own name.

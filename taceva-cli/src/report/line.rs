@@ -53,10 +53,15 @@ pub(super) fn lines(scores: &[Score]) -> Vec<Line<'_>> {
     lines
 }
 
-/// The lines for text output: reference constants are no scores, and are in JSON and CSV only.
+/// The lines for readers. Reference constants are no scores, and an undefined score has no variants to read: both are in JSON and CSV only.
 pub(super) fn read_lines(scores: &[Score]) -> Vec<Line<'_>> {
+    let has_value = |line: &Line<'_>| {
+        line.is_headline || line.value.number().is_some() || line.score.value.number().is_some()
+    };
     let lines = lines(scores).into_iter();
-    lines.filter(|line| !line.is_reference()).collect()
+    lines
+        .filter(|line| !line.is_reference() && has_value(line))
+        .collect()
 }
 
 impl Line<'_> {
@@ -214,4 +219,37 @@ pub(super) fn pictures(scores: &[Score]) -> Vec<String> {
 
 fn is_one(value: &Value) -> bool {
     !matches!(value, Value::Map(_) | Value::Curve(_) | Value::Matrix(_))
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_results::Variant;
+
+    use super::*;
+
+    #[test]
+    fn an_undefined_score_is_read_without_its_variants() {
+        let undefined = |reason: &str| Value::Undefined(reason.to_owned());
+        let variant = |value: Value| Variant {
+            name: "critical".to_owned(),
+            value,
+            unit: Unit::Newton,
+            interval: None,
+        };
+        let score = |value: Value, of: Value| Score {
+            value,
+            variants: vec![variant(of)],
+            ..Score::of_number("noise_equivalent_force", "Fz", 0.5, Unit::Newton)
+        };
+        let few = || undefined("fewer than 10 samples");
+        let names = |score: Score| -> Vec<String> {
+            let scores = [score];
+            let lines = read_lines(&scores).into_iter();
+            lines.map(|line| line.name).collect()
+        };
+        let both = ["noise_equivalent_force", "noise_equivalent_force.critical"];
+        assert_eq!(names(score(few(), few())), both[..1]);
+        assert_eq!(names(score(few(), Value::Number(0.5))), both);
+        assert_eq!(names(score(Value::Number(0.5), few())), both);
+    }
 }

@@ -10,9 +10,9 @@ const MOST_GAIN: i64 = 8;
 /// Mid-grey: no difference.
 const MIDDLE: i64 = 128;
 
-/// The pictures of the hardest press of `dataset`, for the study at `study`; `None` if no press has a frame.
+/// The pictures of a hard press of `dataset`, for the study at `study`; `None` if no press has a frame.
 pub(crate) fn triple(dataset: &Dataset, study: usize) -> anyhow::Result<Option<Triple>> {
-    let Some((row, words)) = hardest(dataset.table()) else {
+    let Some((row, words)) = hard_press(dataset.table()) else {
         return Ok(None);
     };
     let Some(frame) = dataset.frame(row)? else {
@@ -41,18 +41,17 @@ pub(crate) fn triple(dataset: &Dataset, study: usize) -> anyhow::Result<Option<T
     }))
 }
 
-/// The row with the greatest normal force, or depth without a force, and its labels in words. Presses of gratings are skipped, because they
-/// show a relief instead of the usual tip.
-fn hardest(table: &Table) -> Option<(usize, String)> {
+/// The row at the ninth decile of the positive normal forces, or depths without a force, and its labels in words. The greatest value may be an
+/// outlier. Presses of gratings are skipped, because they show a relief instead of the usual tip.
+fn hard_press(table: &Table) -> Option<(usize, String)> {
     let channels = table.channels();
     let place = |name: &str| channels.iter().position(|channel| channel.name() == name);
     let chosen = place("Fz").or_else(|| place("Pz"))?;
     let is_shown = |row: &usize| table.frames()[*row].is_some() && table.kind()[*row].is_none();
-    let row = (0..table.rows())
+    let presses = (0..table.rows())
         .filter(is_shown)
-        .filter_map(|row| Some((row, table.truth(chosen).get(row)?)))
-        .max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))?
-        .0;
+        .filter_map(|row| Some((row, table.truth(chosen).get(row)?)));
+    let row = ninth_decile(presses.collect())?;
     let words: Vec<String> = ["Fz", "Pz"]
         .into_iter()
         .filter_map(|name| {
@@ -66,6 +65,14 @@ fn hardest(table: &Table) -> Option<(usize, String)> {
         })
         .collect();
     Some((row, format!("pressed with {}", words.join(", "))))
+}
+
+/// The row whose value is the ninth decile of the positive values, or of all values if none is positive.
+fn ninth_decile(mut rows: Vec<(usize, f64)>) -> Option<usize> {
+    rows.sort_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
+    let positive = rows.split_off(rows.partition_point(|(_, value)| *value <= 0.0));
+    let rows = if positive.is_empty() { rows } else { positive };
+    rows.get(rows.len() * 9 / 10).map(|(row, _)| *row)
 }
 
 /// Maps the range from the darkest to the brightest of all pictures to 0 to 255.
@@ -89,4 +96,18 @@ fn difference(
     let small = pressed.with_means(apart);
     let bytes = small.jpeg(|apart| (MIDDLE + apart * gain).clamp(0, 255))?;
     Ok((Some(bytes), gain as f64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_outlier_is_no_typical_press() {
+        let forces = (0..40_u32).map(|row| (row as usize, f64::from(row) / 10.0));
+        let rows: Vec<(usize, f64)> = forces.chain([(40, 14.87), (41, -3.0)]).collect();
+        assert_eq!(ninth_decile(rows), Some(37));
+        assert_eq!(ninth_decile(vec![(0, -2.0), (1, -1.0)]), Some(1));
+        assert_eq!(ninth_decile(Vec::new()), None);
+    }
 }

@@ -112,7 +112,10 @@ impl FromStr for SplitSpec {
                 (None, None) => {
                     return Err(SplitError::Kind {
                         given: text.to_owned(),
-                        suggestion: Suggestion::of(text, KINDS),
+                        suggestion: match with_shares(text) {
+                            Some(split) => Suggestion::of(text, [split.as_str()]),
+                            None => Suggestion::of(text, KINDS),
+                        },
                     });
                 }
             },
@@ -125,6 +128,12 @@ impl FromStr for SplitSpec {
 fn three_numbers(text: &str) -> Option<[f64; 3]> {
     let numbers: Option<Vec<f64>> = text.split('/').map(|number| number.parse().ok()).collect();
     numbers?.try_into().ok()
+}
+
+/// `chronological 80/0/20` for `chronological:80/0/20`; `None` for a text without shares after a colon.
+fn with_shares(text: &str) -> Option<String> {
+    let (word, shares) = text.rsplit_once(':')?;
+    three_numbers(shares).map(|_| format!("{word} {shares}"))
 }
 
 /// Rejects shares at the end of `text` with a sum other than 100 or 1. [`Fractions::new`] rejects infinite and negative shares.

@@ -13,7 +13,7 @@ mod words;
 
 use std::collections::BTreeSet;
 
-pub(crate) use canvas::{Anchor, Canvas, Ink, Label, Points, Stroke};
+pub(crate) use canvas::{Anchor, Canvas, Ink, Label, Points, Stroke, width_of};
 pub(crate) use grid::Grid;
 pub(crate) use names::beside;
 pub use palette::{DARK, LIGHT, SERIES};

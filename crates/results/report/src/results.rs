@@ -63,6 +63,8 @@ pub struct Made {
     pub model: Option<String>,
     /// Settings of the model by name, including chosen ones.
     pub settings: Vec<(String, String)>,
+    /// Setting that the fit chose, and how: `strength on the validation part`.
+    pub chosen_by: Option<String>,
     /// Number of samples by part of the split: `train`, `validation`, `test`.
     pub samples: Vec<(String, u64)>,
     /// Number of presses in the recording, whatever their outcome; 0 if the result states none.
@@ -102,6 +104,7 @@ impl From<EvaluationReport> for Study {
                 Some(model) => Made {
                     model: Some(model.name),
                     settings: model.settings.into_iter().collect(),
+                    chosen_by: model.chosen_by,
                     ..Made::default()
                 },
                 None => Made::default(),

@@ -149,6 +149,9 @@ pub struct ModelProvenance {
     pub digest: String,
     /// Digest of the training dataset; `unknown` for a model fitted elsewhere.
     pub fitted_on: String,
+    /// Setting that the fit chose, and how: `strength with each training sample left out in turn`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub chosen_by: Option<String>,
     /// `given` if the caller holds the model and only its predictions were used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<String>,

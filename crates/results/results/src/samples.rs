@@ -1,8 +1,8 @@
 //! Table of the samples behind scores.
 
-mod dominant;
+mod dominant_sample;
 
-pub use dominant::DominantSample;
+pub use dominant_sample::DominantSample;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -105,6 +105,18 @@ impl Samples {
             columns: vec![(Samples::KEY.to_owned(), SampleColumn::Words(ids))],
             recordings,
         }
+    }
+
+    /// The same samples with the truth and the predictions of these channels alone.
+    pub(crate) fn of_channels(mut self, names: &[&str]) -> Samples {
+        self.columns.retain(|(column, values)| {
+            let channel = column.strip_suffix(UNBOUNDED).unwrap_or(column);
+            let channel = channel.strip_suffix(PREDICTED).unwrap_or(channel);
+            let is_channel =
+                matches!(values, SampleColumn::Numbers(_)) && !NUMBERS.contains(&column.as_str());
+            !is_channel || names.contains(&channel)
+        });
+        self
     }
 
     /// The same samples, of the recordings in these folders.

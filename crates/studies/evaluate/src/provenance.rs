@@ -3,13 +3,16 @@
 use std::collections::BTreeMap;
 
 use taceva_dataset::Dataset;
-use taceva_models::{ChosenBy, Model};
+use taceva_models::{Choice, ChosenBy, Model};
 use taceva_results::{ModelProvenance, Provenance};
 
 use crate::error::EvaluateError;
 use crate::note::Note;
 use crate::recordings;
 use crate::rows::DataPart;
+
+/// Setting of models with random draws.
+const SEED: &str = "seed";
 
 /// Provenance of `dataset`.
 pub fn of(dataset: &Dataset) -> Provenance {
@@ -59,6 +62,12 @@ pub fn model(model: &Model) -> Result<ModelProvenance, EvaluateError> {
         .map(|(key, value)| (key.to_owned(), value.to_owned()))
         .collect();
     settings.insert("features".to_owned(), card.features.to_string());
+    // A model that draws has a seed, also if the caller states none.
+    let known = taceva_models::find(&card.model).map_or(&[][..], |info| info.settings);
+    if let Some(seed) = known.iter().find(|setting| setting.key == SEED) {
+        let seed = || seed.default.to_owned();
+        settings.entry(SEED.to_owned()).or_insert_with(seed);
+    }
     if let Some(name) = card
         .choice
         .setting
@@ -80,8 +89,23 @@ pub fn model(model: &Model) -> Result<ModelProvenance, EvaluateError> {
             .data
             .clone()
             .unwrap_or_else(|| "unknown".to_owned()),
+        chosen_by: chosen_by(&card.choice),
         origin: None,
     })
+}
+
+/// Setting that a fit chose, and how; `None` if it chose none.
+fn chosen_by(choice: &Choice) -> Option<String> {
+    let how = match choice.by {
+        ChosenBy::Nobody => return None,
+        ChosenBy::Validation => "on the validation part",
+        ChosenBy::Likelihood => "by the likelihood of the training labels",
+        ChosenBy::LeaveOneGroupOut => "with each group of training samples left out in turn",
+        ChosenBy::LeaveOneOut => "with each training sample left out in turn",
+        ChosenBy::TenFolds => "with each of ten folds of the training samples left out in turn",
+    };
+    let setting = choice.setting.as_ref()?;
+    Some(format!("{setting} {how}"))
 }
 
 /// Notes on the settings that the user left open.

@@ -86,6 +86,27 @@ fn reports_of_a_run_are_written_again_without_acquiring() {
 }
 
 #[test]
+fn a_report_of_one_channel_draws_that_channel_alone() {
+    let bench = Bench::new();
+    bench.record("data", 40);
+    bench.ok("evaluate data --model ridge --split random --format json --out r.json --samples-out r.samples.csv -q");
+    bench.ok("report r.json --channels Fz --out one -q");
+    let drawn = read(&bench.path("one/figures/predicted-1.svg"));
+    assert!(drawn.contains("true Fz") && !drawn.contains("true Px"));
+    let scores = read(&bench.path("one/scores.csv"));
+    assert!(scores.contains(",mae,Fz,") && !scores.contains(",Px,"));
+    let refused = bench.run("report r.json --channels Fq --out two");
+    assert!(
+        refused.code == 2
+            && refused
+                .err
+                .contains("--channels Fq: no result has this channel"),
+        "{}",
+        refused.err
+    );
+}
+
+#[test]
 fn figures_have_the_width_and_the_letters_that_were_asked_for() {
     let bench = Bench::new();
     bench.record("data", 40);

@@ -66,6 +66,11 @@ fn what_cannot_be_read_says_what_would_be_accepted() {
         error.to_string(),
         "no split is called `by-pont`, did you mean `by-point`?"
     );
+    let error = "chronological:80/0/20".parse::<SplitSpec>();
+    assert_eq!(
+        error.expect_err("a colon").to_string(),
+        "no split is called `chronological:80/0/20`, did you mean `chronological 80/0/20`?"
+    );
     for text in [
         "by-column:",
         "by-column:a=",

@@ -72,7 +72,8 @@ struct Errors<'a> {
 }
 
 impl<'a> Errors<'a> {
-    /// Prediction errors of the samples of `score`, or the reason why they are unknown. The error of a plane is the mean over its axes, as in its score.
+    /// Prediction errors of the samples of `score`, or the reason why they are unknown. The error of a plane is the mean over its axes, as its score
+    /// is.
     fn of(study: &'a Study, score: &Score) -> Result<Errors<'a>, String> {
         let samples = study
             .samples

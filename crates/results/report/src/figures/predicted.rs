@@ -2,7 +2,7 @@
 
 use crate::figure::{
     Anchor, Area, Axes, Canvas, Figure, Grid, Ink, Label, Panel, Points, Scale, Stroke, axis_label,
-    extent, short,
+    extent, short, width_of,
 };
 use crate::number::numeral;
 use crate::results::Study;
@@ -134,7 +134,6 @@ fn panel(
             numeral(prediction)
         ));
     }
-    canvas.points(points, Ink::Series(at), 2.3, 0.55);
     let shared = format!("n = {}", pairs.len());
     let r2 = study
         .score("r2", channel.name)
@@ -142,8 +141,51 @@ fn panel(
     let words = r2.map_or(shared.clone(), |r2| {
         format!("R² = {}, {shared}", numeral(r2))
     });
-    let mut label = Label::new([area.left + 5.0, area.top + 11.0], words, Anchor::Start);
-    label.ink = Ink::Text;
+    let label = beside_points(words, area, &points.at);
+    canvas.points(points, Ink::Series(at), 2.3, 0.55);
     canvas.label(label);
     Some((pairs.len(), drawn.len()))
+}
+
+/// `words` in the upper left corner of `area`, or in the lower right one if fewer points lie there.
+fn beside_points(words: String, area: Area, points: &[[f64; 2]]) -> Label {
+    let upper = Label::new([area.left + 5.0, area.top + 11.0], words, Anchor::Start);
+    let upper = Label {
+        ink: Ink::Text,
+        ..upper
+    };
+    let lower = Label {
+        at: [area.right() - 5.0, area.bottom() - 5.0],
+        anchor: Anchor::End,
+        ..upper.clone()
+    };
+    let width = width_of(&upper.text, upper.size) + 5.0;
+    let height = upper.size + 6.0;
+    let count = |left: f64, top: f64| {
+        let [right, bottom] = [left + width, top + height];
+        let is_inside = |[x, y]: &&[f64; 2]| (left..right).contains(x) && (top..bottom).contains(y);
+        points.iter().filter(is_inside).count()
+    };
+    let above = count(area.left, area.top);
+    let below = count(area.right() - width, area.bottom() - height);
+    if below < above { lower } else { upper }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_stand_in_the_corner_with_fewer_points() {
+        let area = Area {
+            left: 50.0,
+            top: 30.0,
+            width: 200.0,
+            height: 200.0,
+        };
+        let corner = |points: &[[f64; 2]]| beside_points("n = 3".to_owned(), area, points).anchor;
+        assert_eq!(corner(&[]), Anchor::Start);
+        assert_eq!(corner(&[[60.0, 35.0]]), Anchor::End);
+        assert_eq!(corner(&[[60.0, 35.0], [240.0, 225.0]]), Anchor::Start);
+    }
 }

@@ -52,7 +52,8 @@ fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
     out += &model(studies);
     out += &gratings(studies);
     out += &statistics::statistics(studies, table);
-    out + &scope(studies)
+    out += &scope(studies);
+    out + &places(studies)
 }
 
 /// Number of results, and number of sensors if different.
@@ -112,6 +113,15 @@ fn joined(studies: &[Study]) -> String {
             let joins: Vec<&str> = joins.into_iter().collect();
             format!(" The import joined tables ({}).", joins.join("; "))
         }
+    }
+}
+
+/// Sentence on places that no recording names, from the notes of the results.
+fn places(studies: &[Study]) -> String {
+    let mut notes = studies.iter().flat_map(|study| &study.notes);
+    match notes.any(|note| note.contains("names no places")) {
+        true => " It is unknown if the tested places were seen in training, because the recording names no places.".to_owned(),
+        false => String::new(),
     }
 }
 
@@ -207,6 +217,12 @@ fn model(studies: &[Study]) -> String {
         if !own.is_empty() {
             let own: Vec<String> = own.into_iter().map(str::to_owned).collect();
             words += &format!(", with {} chosen for each sensor", listed(&own));
+        }
+        let chosen = of.iter().filter_map(|study| study.made.chosen_by.clone());
+        let chosen: BTreeSet<String> = chosen.collect();
+        if !chosen.is_empty() {
+            let chosen: Vec<String> = chosen.into_iter().collect();
+            words += &format!("; its fit chose {}", listed(&chosen));
         }
         words + "."
     };

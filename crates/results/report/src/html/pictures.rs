@@ -66,6 +66,7 @@ pub(super) fn section(report: &ReportPage<'_>) -> Option<(usize, Markup)> {
             legend { "Show" } (filter("sensor", "all", sensors))
             (filter("samples", "worst and best", ["worst", "best"].map(|kind| (kind, kind))))
         } "\n"
+        p.note { "A great error may also mean that the picture and the labels of a sample do not belong together: " code { "taceva check" } "." } "\n"
         ul.cards { @for card in &cards { (card) } }
     };
     (!cards.is_empty()).then_some((cards.len(), body))

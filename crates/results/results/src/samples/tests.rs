@@ -53,3 +53,14 @@ fn what_is_no_number_is_refused_by_its_place() {
     );
     assert!(matches!(Samples::read("Fz\n1\n"), Err(SamplesError::NoKey)));
 }
+
+#[test]
+fn named_channels_keep_their_columns_and_all_covariates() {
+    let table = "sample,point_id,depth_step,Fx,Fx_predicted,Fz,Fz_predicted,Fz_predicted_unbounded\na,p,1,0.5,0.4,1,2,3\n";
+    let samples = Samples::read(table).expect("samples").of_channels(&["Fz"]);
+    let mut text = Vec::new();
+    samples.write(&mut text).expect("written");
+    let expected =
+        "sample,point_id,depth_step,Fz,Fz_predicted,Fz_predicted_unbounded\na,p,1.0,1.0,2.0,3.0\n";
+    assert_eq!(String::from_utf8(text).expect("text"), expected);
+}

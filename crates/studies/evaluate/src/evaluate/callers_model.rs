@@ -189,6 +189,7 @@ impl GivenRows {
                     true => dataset.digest().to_string(),
                     false => UNKNOWN.to_owned(),
                 },
+                chosen_by: None,
                 origin: Some("given".to_owned()),
             },
             fit: FitFacts::default(),

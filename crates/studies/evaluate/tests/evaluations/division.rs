@@ -268,6 +268,9 @@ fn independent_samples_are_grouped_by_their_names() {
     let score = found.report.score("mae", "Fz").expect("scored");
     let interval = score.interval.as_ref().expect("an interval");
     assert_eq!(interval.ends(), named.interval.ends());
+    let model = found.report.provenance.model.as_ref().expect("a model");
+    let chosen = model.chosen_by.as_deref();
+    assert!(chosen.is_some_and(|how| how.starts_with("strength with each")));
 }
 
 #[test]

@@ -58,6 +58,9 @@ fn a_network_learns_place_and_force_from_a_grid_and_does_nothing_to_it_before() 
     let folder = tempfile::tempdir().expect("a folder");
     let dataset = pressed(&folder.path().join("data"));
     let found = evaluated(&dataset, "cnn", &["epochs=40"]).expect("evaluated");
+    let model = found.report.provenance.model.as_ref().expect("a model");
+    // Comparisons name a model with a seed that was trained once.
+    assert_eq!(model.settings.get("seed").map(String::as_str), Some("1"));
     for channel in ["Px", "Fz"] {
         assert!(
             r2_of(&found, channel) > 0.9,

@@ -114,3 +114,23 @@ fn methods_state_how_readings_were_joined_to_samples() {
     let sentence = format!(" The import joined tables ({words}).");
     assert!(page.contains(&sentence), "{page}");
 }
+
+#[test]
+fn methods_claim_no_unseen_places_where_a_recording_names_none() {
+    let sentence = "It is unknown if the tested places were seen in training";
+    let mut result = support::results("one", 1.0);
+    for (note, is_said) in [("the recording names no places", true), ("other", false)] {
+        result["provenance"]["notes"] = serde_json::json!([note]);
+        let page = page(&[support::study(&result)]);
+        assert_eq!(page.contains(sentence), is_said, "{note}");
+    }
+}
+
+#[test]
+fn methods_state_how_a_fit_chose_its_setting() {
+    let mut result = support::results("one", 1.0);
+    let how = "strength with each training sample left out in turn";
+    result["provenance"]["model"]["chosen_by"] = how.into();
+    let page = page(&[support::study(&result)]);
+    assert!(page.contains(&format!("; its fit chose {how}.")), "{page}");
+}

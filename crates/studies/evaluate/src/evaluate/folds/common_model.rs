@@ -11,8 +11,10 @@ use crate::note::Note;
 pub(super) fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
     let mut digests = String::new();
     let mut settings = models[0].1.model.settings.clone();
+    let mut chosen_by = models[0].1.model.chosen_by.clone();
     let mut notes = Vec::new();
     for (_, behind) in &models {
+        chosen_by = chosen_by.filter(|by| behind.model.chosen_by.as_ref() == Some(by));
         digests.push_str(&behind.model.digest);
         settings.retain(|key, value| behind.model.settings.get(key) == Some(value));
     }
@@ -32,6 +34,7 @@ pub(super) fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind
             settings,
             digest: Digest::of(digests.as_bytes()).to_string(),
             fitted_on: dataset.digest().to_string(),
+            chosen_by,
             origin: None,
         },
         notes,

@@ -1,0 +1,25 @@
+//! Results of named channels.
+
+use taceva_metrics::plane_axes;
+
+use crate::report::EvaluationReport;
+use crate::score::Score;
+
+impl EvaluationReport {
+    /// The report with the scores and the samples of the channels and planes called `names` alone. A plane keeps the samples of its axes.
+    #[must_use]
+    pub fn of_channels(mut self, names: &[String]) -> EvaluationReport {
+        let is_named = |score: &Score| names.contains(&score.channel);
+        self.scores.retain(is_named);
+        for own in &mut self.by_recording {
+            own.scores.retain(is_named);
+        }
+        let axes = names.iter().filter_map(|name| plane_axes(name)).flatten();
+        let names: Vec<&str> = names.iter().map(String::as_str).chain(axes).collect();
+        let samples = self.samples.take();
+        EvaluationReport {
+            samples: samples.map(|samples| samples.of_channels(&names)),
+            ..self
+        }
+    }
+}
