@@ -24,8 +24,8 @@ pub use copy::ImportReport;
 pub use extension::Addition;
 pub(crate) use map::converter;
 pub use map::{
-    ArrayFrames, ArrayLayout, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap,
-    PixelRange, Placeholder, TimeMap, VideoFrames,
+    ArrayFrames, ArrayLayout, ColumnMap, DropRules, DroppedRow, FrameMap, FrameNames, IdMap,
+    ImportMap, PixelRange, Placeholder, TimeMap, VideoFrames,
 };
 pub use plan::ImportPlan;
 pub use summary::{Conversion, FrameSummary, ImportSummary, JoinSummary, ZeroSummary};

@@ -58,10 +58,16 @@ pub enum ImportWarning {
         /// End of the complete records, byte.
         end: u64,
     },
+    /// A name in `frames_named` of [drop] left out no row.
+    DropUnmatched {
+        /// Name of a picture.
+        name: String,
+    },
 }
 
 impl ImportWarning {
-    /// Stable code for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight`, `zero-spread` or `cut-recording`.
+    /// Stable code for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight`, `zero-spread`, `cut-recording` or
+    /// `drop-unmatched`.
     pub fn code(&self) -> &'static str {
         match self {
             ImportWarning::ColumnTwice { .. } => "column-twice",
@@ -70,6 +76,7 @@ impl ImportWarning {
             ImportWarning::Midnight { .. } => "midnight",
             ImportWarning::ZeroSpread { .. } => "zero-spread",
             ImportWarning::CutRecording { .. } => "cut-recording",
+            ImportWarning::DropUnmatched { .. } => "drop-unmatched",
         }
     }
 }
@@ -121,6 +128,12 @@ impl fmt::Display for ImportWarning {
                 taceva_core::shown(file),
                 taceva_core::counted(*messages, "complete message"),
                 taceva_core::by_count(*messages, "is", "are")
+            ),
+            ImportWarning::DropUnmatched { name } => write!(
+                f,
+                "`{}` in `frames_named` of [drop] left out no row: write the name as the table has it, or `clip.mp4#12` (from 0) for a \
+                 picture in a clip or an array",
+                taceva_core::shown(name)
             ),
         }
     }

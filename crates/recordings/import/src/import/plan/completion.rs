@@ -50,6 +50,7 @@ impl Reading<'_> {
         }
         let frames = self.planned_frames()?;
         self.describe_channels();
+        self.warn_of_unused_names();
         self.summary.joins = self.joins.iter().map(JoinMatches::summary).collect();
         if let Some(signals) = &self.signals {
             signals.count_absent_chunks(self.folder, &mut self.absent_chunks)?;
