@@ -27,10 +27,12 @@ impl Reading<'_> {
         let dropped: Vec<String> = dropped
             .map(|(reason, count)| format!("{} {count}", shown(reason)))
             .collect();
+        let apart = self.joins.iter().filter_map(JoinMatches::apart);
+        let apart: String = apart.map(|spans| format!("; {spans}")).collect();
         let problem = match summary.rows_read {
             0 => "no row below the header: there is nothing to import".to_owned(),
             read => format!(
-                "all {read} rows are left out ({}): there is nothing to import",
+                "all {read} rows are left out ({}): there is nothing to import{apart}",
                 dropped.join(", ")
             ),
         };
@@ -52,6 +54,8 @@ impl Reading<'_> {
         self.describe_channels();
         self.warn_of_unused_names();
         self.summary.joins = self.joins.iter().map(JoinMatches::summary).collect();
+        let warnings = self.joins.iter().flat_map(JoinMatches::warnings);
+        self.summary.warnings.extend(warnings);
         if let Some(signals) = &self.signals {
             signals.count_absent_chunks(self.folder, &mut self.absent_chunks)?;
         }

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::matching::{comparable, seconds};
+use super::timing::usual_step_s;
 use crate::csv_table::number;
 use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
@@ -23,6 +24,8 @@ pub(super) struct Candidates {
     pub(super) by_key: HashMap<Vec<String>, Vec<usize>>,
     /// For a join by time: time, s, and row, in order of time.
     pub(super) by_time: Vec<(f64, usize)>,
+    /// For a join by time: usual step between its rows, s.
+    pub(super) usual_s: Option<f64>,
     /// For a join with `until`: number and row, in order of the number.
     pub(super) until: Vec<(u64, usize)>,
 }
@@ -79,6 +82,7 @@ impl Candidates {
             in_other_frames,
             by_key: HashMap::new(),
             by_time: Vec::new(),
+            usual_s: None,
             until: Vec::new(),
         };
         let Candidates {
@@ -86,6 +90,7 @@ impl Candidates {
             rows,
             by_key,
             by_time,
+            usual_s,
             until,
             ..
         } = &mut candidates;
@@ -148,6 +153,7 @@ impl Candidates {
                 let back = back.map(<[_]>::to_vec);
                 // The first of several rows at one time is kept.
                 by_time.dedup_by(|later, first| later.0.total_cmp(&first.0).is_eq());
+                *usual_s = usual_step_s(by_time);
                 if let Some([_, (_, row)]) = back.as_deref() {
                     return Err(table_error!(
                         table.place(*row, &join.time.column),
