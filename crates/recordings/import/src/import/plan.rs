@@ -134,7 +134,12 @@ impl ImportPlan {
                 FrameSource::File(path) => Some(path.as_path()),
                 FrameSource::Within(..) => None,
             })
-            .chain(frames.filter_map(|frames| frames.reference.as_deref()))
+            .chain(
+                frames.filter_map(|frames| match frames.reference.as_ref()? {
+                    FrameSource::File(path) => Some(path.as_path()),
+                    FrameSource::Within(..) => None,
+                }),
+            )
             .collect();
         let sizes = files.into_iter().filter_map(|path| path.metadata().ok());
         sizes.map(|facts| facts.len()).sum()

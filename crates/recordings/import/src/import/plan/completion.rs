@@ -6,11 +6,10 @@ use std::path::PathBuf;
 use super::ImportPlan;
 use super::reading::Reading;
 use crate::error::ImportError;
-use crate::import::frame_plan::PlannedFrames;
+use crate::import::frame_plan::{FrameSource, PlannedFrames};
 use crate::import::map::{FrameMap, FrameNames};
 use crate::import::mapping::mapping;
 use crate::import::omissions;
-use crate::import::references::Settled;
 use crate::import::resolve::JoinMatches;
 use crate::import::source::unnamed_images;
 use crate::import::summary::FrameSummary;
@@ -88,26 +87,29 @@ impl Reading<'_> {
         let mut planned = Vec::new();
         for view in std::mem::take(&mut self.views) {
             let map = view.map;
-            let Settled {
-                reference,
-                different,
-            } = match &map.reference {
-                Some(path) => Settled {
-                    reference: Some(self.folder.file(self.folder.path(), path)?),
-                    different: 0,
-                },
-                None => {
+            let mut different = 0;
+            let reference = match (&map.reference, map.reference_frame) {
+                (Some(path), _) => {
+                    let path = self.folder.file(self.folder.path(), path)?;
+                    Some(FrameSource::File(path))
+                }
+                (None, Some(index)) => Some(view.frame_within(index)?),
+                (None, None) => {
                     let named = view.references.paths(self.folder);
                     self.named.extend(named);
                     let name = map.view.as_deref();
-                    view.references.settle(self.folder, name, &mut self.table)?
+                    let settled = view.references.settle(self.folder, name, &mut self.table)?;
+                    different = settled.different;
+                    settled.reference.map(FrameSource::File)
                 }
             };
-            self.named.extend(reference.clone());
+            if let Some(FrameSource::File(path)) = &reference {
+                self.named.insert(path.clone());
+            }
             self.summary.frames.push(FrameSummary {
                 view: map.view.clone(),
                 channel_order: map.channel_order,
-                reference: reference.clone(),
+                reference: reference.as_ref().map(FrameSource::named),
                 references: different as u64,
             });
             planned.push(PlannedFrames {
