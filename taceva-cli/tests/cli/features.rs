@@ -53,7 +53,7 @@ fn kinds_of_features_are_chosen_by_a_setting() {
         bench.refused(
             &format!("evaluate data --model ridge --set features={kind}"),
             3,
-            "needs a no-contact reference frame, but the recording names none",
+            "needs a no-contact reference frame, but the recording names none; import it with `reference = \"rest.png\"`, or `reference = { frame = 0 }`",
         );
     }
 }

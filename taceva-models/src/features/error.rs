@@ -56,7 +56,10 @@ pub enum FeatureError {
         info: FrameInfo,
     },
     /// A reference frame is needed, but the recording names none.
-    #[error("`{asked}` needs a no-contact reference frame, but the recording names none")]
+    #[error(
+        "`{asked}` needs a no-contact reference frame, but the recording names none; import it with `reference = \"rest.png\"`, or \
+         `reference = {{ frame = 0 }}` for a frame of its clip or array, in [frame] of the map"
+    )]
     NoReference {
         /// Setting that needs it.
         asked: &'static str,

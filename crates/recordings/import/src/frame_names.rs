@@ -41,6 +41,8 @@ pub struct FrameMap {
     /// Column that names the frame without contact of each row, relative to `folder`. If all rows name the same frame, it becomes that of
     /// the recording; otherwise the attribute `reference`.
     pub reference_column: Option<String>,
+    /// Number of the frame without contact, from 0, in the only clip or array that holds the frames.
+    pub reference_frame: Option<u64>,
 }
 
 impl FrameMap {
@@ -53,6 +55,7 @@ impl FrameMap {
             channel_order,
             reference: None,
             reference_column: None,
+            reference_frame: None,
         }
     }
 }

@@ -25,8 +25,8 @@ pub use copy::ImportReport;
 pub use extension::Addition;
 pub(crate) use map::converter;
 pub use map::{
-    ArrayFrames, ArrayLayout, ColumnMap, DropRules, FrameMap, FrameNames, IdMap, ImportMap,
-    PixelRange, Placeholder, TimeMap, VideoFrames,
+    ArrayFrames, ArrayLayout, ColumnMap, DropRules, DroppedRow, FrameMap, FrameNames, IdMap,
+    ImportMap, PixelRange, Placeholder, TimeMap, VideoFrames,
 };
 pub(crate) use pattern_column::{DIGITS_MAX, whole_number};
 pub use plan::ImportPlan;

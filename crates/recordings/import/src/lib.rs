@@ -23,10 +23,10 @@ pub use draft::MapDraft;
 pub use error::{ImportError, Place};
 pub use export::{ExportForm, ExportPlan, ExportReport, export_csv};
 pub use import::{
-    Addition, ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, FrameMap, FrameNames,
-    FrameSummary, IdMap, ImportMap, ImportPlan, ImportReport, ImportSummary, ImportWarning,
-    JoinSummary, PixelRange, Placeholder, Suspicion, TimeMap, UnpackedArchive, VideoFrames,
-    ZeroSummary, magnitude_suspicion,
+    Addition, ArrayFrames, ArrayLayout, ColumnMap, Conversion, DropRules, DroppedRow, FrameMap,
+    FrameNames, FrameSummary, IdMap, ImportMap, ImportPlan, ImportReport, ImportSummary,
+    ImportWarning, JoinSummary, PixelRange, Placeholder, Suspicion, TimeMap, UnpackedArchive,
+    VideoFrames, ZeroSummary, magnitude_suspicion,
 };
 pub use layouts::Preset;
 pub use source_sums::{SourceDifference, SourceSums};

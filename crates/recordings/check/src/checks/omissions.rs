@@ -11,8 +11,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC021",
     name: "left-out",
-    looks_for: "data that the import left out: rows (above all unmatched rows), frames that no row uses, images, and chunks that were \
-        never written",
+    looks_for: "data that the import left out: rows (above all unmatched rows), frames that no row uses, images, chunks that were \
+        never written, and unused rows of joined tables, except of logs that are faster than the table",
     hint: "compare the counts with the intended recording; `taceva import --explain` shows them again, and the distances in time of \
         matches",
     reads: None,
@@ -30,6 +30,8 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .into_iter()
         .partition(|(rule, _)| rule.starts_with("join "));
     let kept = evidence.table.rows();
+    let mut joined_rows = left_out.joined_rows.clone();
+    joined_rows.retain(|name, unused| !is_faster(evidence, name, *unused));
     let one = |count: u64, what: &str| match count {
         0 => BTreeMap::new(),
         count => BTreeMap::from([(what.to_owned(), count)]),
@@ -63,7 +65,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         ),
         (
             Severity::Note,
-            &left_out.joined_rows,
+            &joined_rows,
             "row",
             [
                 "of joined tables matches no row of the tables",
@@ -121,6 +123,13 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             Found::overall(severity, message)
         })
         .collect()
+}
+
+/// True for a log that is joined by time and has several rows for each kept one.
+fn is_faster(evidence: &Evidence<'_>, name: &str, unused: u64) -> bool {
+    let mut joins = evidence.header.joins.iter();
+    let is_by_time = joins.any(|join| join.name == name && join.by == "time");
+    is_by_time && unused > evidence.table.rows() as u64
 }
 
 /// The first names, with their counts.

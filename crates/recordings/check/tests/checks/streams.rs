@@ -214,6 +214,35 @@ fn rows_that_a_join_left_out_are_repeated_by_the_check_and_a_whole_import_says_n
 }
 
 #[test]
+fn unused_rows_of_a_log_are_noted_unless_it_is_faster_than_the_table() {
+    let map = "table = \"run.csv\"\n[[join]]\nname = \"ft\"\ntable = \"ft.csv\"\ntime = { column = \"t\", unit = \"s\" }\ntolerance_ms = 20\nlag_ms = 0\n[columns]\nFz = { from = \"ft.Fz\", unit = \"N\" }\n[time]\nclock = \"monotonic\"\ncolumn = \"t\"\nunit = \"s\"\n";
+    let run: String = (0..10).map(|row| format!("{row}\n")).collect();
+    for (rows, expected) in [
+        (91, None),
+        (15, Some("5 rows of joined tables match no row")),
+    ] {
+        let every = if expected.is_none() { 0.1 } else { 1.0 };
+        let ft = (0..rows).map(|row| format!("{:.1},{row}\n", every * f64::from(row)));
+        let files = [
+            ("run.csv", format!("t\n{run}")),
+            ("ft.csv", format!("t,Fz\n{}", ft.collect::<String>())),
+        ];
+        let files = [
+            (files[0].0, files[0].1.as_str()),
+            (files[1].0, files[1].1.as_str()),
+        ];
+        let report = imported(&files, map, &["TAC021"]);
+        match expected {
+            None => says_nothing(&report, "TAC021"),
+            Some(expected) => {
+                let said = message(&report, "TAC021");
+                assert!(said.starts_with(expected), "{said}");
+            }
+        }
+    }
+}
+
+#[test]
 fn frames_in_jpeg_are_said_to_depend_on_their_decoder() {
     let fixture = concat!(
         env!("CARGO_MANIFEST_DIR"),

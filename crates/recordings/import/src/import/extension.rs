@@ -16,8 +16,8 @@ use crate::source_sums::list_of;
 use duplicates::refuse_twice;
 use successor::{Written, share_files, write_header, write_signals};
 use taceva_dataset::internal::{
-    Difference, Misread, RowNames, differences_of_added, layout, limits, read_capped,
-    staging::Place, staging::StagedFolder, write_durable,
+    Difference, Misread, RowNames, differences_of_added, layout, staging::Place,
+    staging::StagedFolder, write_durable,
 };
 use taceva_dataset::{Dataset, Digest, Header, SourcesInfo, Table};
 
@@ -280,7 +280,7 @@ fn check_reference(before: &Dataset, frames: &mut PlannedFrames) -> Result<(), I
         format!("views.{view}.reference")
     });
     let new = frames.reference.take();
-    let new = new.map(|path| read_capped(&path, limits::IMAGE_BYTES));
+    let new = new.map(|reference| reference.file_bytes(frames.order));
     let new = new.transpose()?.map(|bytes| Digest::of(&bytes));
     if known == new {
         return Ok(());

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::foreign::Pictures;
+use crate::error::ImportError;
+use crate::foreign::{Picture, Pictures};
+use taceva_dataset::internal::{encode_png, limits, read_capped};
 use taceva_dataset::{ChannelOrder, Place};
 
 /// Frames of one view, as planned.
@@ -12,7 +14,7 @@ pub(super) struct PlannedFrames {
     /// View of the frames, if rows have several pictures.
     pub(super) view: Option<String>,
     pub(super) order: ChannelOrder,
-    pub(super) reference: Option<PathBuf>,
+    pub(super) reference: Option<FrameSource>,
     /// One entry for each kept row.
     pub(super) of_rows: Vec<PlannedFrame>,
 }
@@ -45,6 +47,35 @@ impl FrameSource {
                 format!("{}#{index}", inside(path))
             }
         }
+    }
+
+    /// Path for messages, with `#` and the picture number inside a file.
+    pub(super) fn named(&self) -> PathBuf {
+        match self {
+            FrameSource::File(path) => path.clone(),
+            FrameSource::Within(pictures, index) => {
+                let (path, index) = pictures.origin(*index);
+                PathBuf::from(format!("{}#{index}", path.display()))
+            }
+        }
+    }
+
+    /// Bytes of an image file with the picture: unchanged if it is encoded, else PNG.
+    pub(super) fn file_bytes(&self, order: ChannelOrder) -> Result<Vec<u8>, ImportError> {
+        let (pictures, index) = match self {
+            FrameSource::File(path) => return Ok(read_capped(path, limits::IMAGE_BYTES)?),
+            FrameSource::Within(pictures, index) => (pictures, *index),
+        };
+        let refused = |problem: String| ImportError::image(pictures.path(), problem);
+        let mut bytes = Err(refused(format!("no frame {index}")));
+        pictures.visit(&[index], order, &mut |_, picture| {
+            bytes = match picture {
+                Picture::Encoded(bytes) => Ok(bytes),
+                Picture::Pixels(frame) => encode_png(&frame).map_err(refused),
+            };
+            Ok(())
+        })?;
+        bytes
     }
 
     pub(super) fn path(&self) -> &Path {

@@ -4,6 +4,7 @@ mod axes;
 mod check;
 mod columns;
 mod drop;
+mod drop_schema;
 mod frame_schema;
 mod join;
 mod matrix;
@@ -42,7 +43,7 @@ pub use crate::frame_names::{
 };
 pub(crate) use columns::OriginMap;
 pub use columns::{ColumnMap, IdMap, TimeMap};
-pub use drop::{DropRules, Placeholder};
+pub use drop::{DropRules, DroppedRow, Placeholder};
 
 /// Checked import map.
 ///

@@ -2,6 +2,7 @@
 
 mod channels;
 mod completion;
+mod dropped;
 mod name_order;
 mod pictures;
 mod reading;
@@ -97,6 +98,7 @@ impl ImportPlan {
     ) -> Result<ImportPlan, ImportError> {
         let folder = SourceFolder::open(source)?;
         let tables = matching_files(&folder, &map.table)?;
+        dropped::check_tables(&folder, map, &tables)?;
         let mut reading = Reading::new(&folder, map, decoders);
         reading.count = tables.len();
         let signals = map.signals.as_ref();
@@ -132,7 +134,12 @@ impl ImportPlan {
                 FrameSource::File(path) => Some(path.as_path()),
                 FrameSource::Within(..) => None,
             })
-            .chain(frames.filter_map(|frames| frames.reference.as_deref()))
+            .chain(
+                frames.filter_map(|frames| match frames.reference.as_ref()? {
+                    FrameSource::File(path) => Some(path.as_path()),
+                    FrameSource::Within(..) => None,
+                }),
+            )
             .collect();
         let sizes = files.into_iter().filter_map(|path| path.metadata().ok());
         sizes.map(|facts| facts.len()).sum()

@@ -116,6 +116,8 @@ pub(super) fn resolve(
     sources.check_units()?;
     for join in &map.joins {
         let joined = Joined::new(&sources, folder, join)?;
+        let wrong_order = joined.wrong_order(&sources);
+        sources.warnings.extend(wrong_order);
         sources.joined.push(joined);
     }
     sources.check_units()?;

@@ -8,7 +8,7 @@ mod zero;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::map::ImportMap;
+use super::map::{DroppedRow, ImportMap};
 use super::resolve::{
     ClassCells, ColumnSignals, CoordinateFrames, JoinMatches, NamedBy, ResolvedTable, resolve,
 };
@@ -174,6 +174,11 @@ impl<'a> MappedTable<'a> {
         self.table.rows()
     }
 
+    /// Path of the table relative to the lab's folder.
+    pub(super) fn source(&self) -> &str {
+        self.table.source()
+    }
+
     /// Folder of the table.
     pub(super) fn folder(&self) -> PathBuf {
         taceva_files::parent_of(self.table.path()).to_owned()
@@ -199,6 +204,10 @@ impl<'a> MappedTable<'a> {
             .cloned()
             .collect();
         reasons.extend(self.names_left_out(row));
+        reasons.extend(self.names_within_left_out(row));
+        let by_number = rules.rows.iter();
+        let by_number = by_number.filter(|dropped| dropped.is_at(row, self.table.source()));
+        reasons.extend(by_number.map(DroppedRow::rule));
         let is_placeholder = |rule: &super::map::Placeholder| {
             let position = self.map.channels.position(&rule.channel);
             let number = position.map(|position| self.table.number(row, self.truth[position]));

@@ -74,11 +74,55 @@ pub enum ImportWarning {
         /// First of them, relative to the folder.
         first: String,
     },
+    /// Rows of a joined table are matched across its pauses.
+    JoinPause {
+        /// Name of the join.
+        join: String,
+        /// Number of rows of the main table that take labels across a pause.
+        rows: u64,
+        /// Greatest distance of a match, ms.
+        farthest_ms: String,
+        /// Usual step between rows of the joined table, ms.
+        usual_ms: String,
+        /// Tolerance that leaves these rows out, ms.
+        tolerance_ms: String,
+    },
+    /// A joined table has rows at the times of the main table without the lag of the map.
+    JoinLag {
+        /// Name of the join.
+        join: String,
+        /// Number of rows of the main table with a lag above 100 ms.
+        rows: u64,
+        /// Number of these rows at whose time the joined table has a row.
+        equal: u64,
+    },
+    /// Most rows of the main table have no match by time.
+    JoinFew {
+        /// Name of the join.
+        join: String,
+        /// Number of rows of the main table.
+        rows: u64,
+        /// Number of these rows with a match.
+        matched: u64,
+        /// Spans of the times of both tables, in words.
+        spans: String,
+    },
+    /// Times of single rows of a main table are in a wrong order.
+    TimeOrder {
+        /// File and place of the first such row.
+        at: String,
+        /// Number of such rows.
+        rows: u64,
+    },
+    /// A name in `frames_named` of [drop] left out no row.
+    DropUnmatched {
+        /// Name of a picture.
+        name: String,
+    },
 }
 
 impl ImportWarning {
-    /// Stable code for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight`, `zero-spread`, `repeated-stamps`,
-    /// `cut-recording` or `no-pictures`.
+    /// Stable code for scripts, such as `column-twice` or `no-pictures`. The README of the crate lists them.
     pub fn code(&self) -> &'static str {
         match self {
             ImportWarning::ColumnTwice { .. } => "column-twice",
@@ -89,6 +133,11 @@ impl ImportWarning {
             ImportWarning::RepeatedStamps { .. } => "repeated-stamps",
             ImportWarning::CutRecording { .. } => "cut-recording",
             ImportWarning::NoPictures { .. } => "no-pictures",
+            ImportWarning::JoinPause { .. } => "join-pause",
+            ImportWarning::JoinLag { .. } => "join-lag",
+            ImportWarning::JoinFew { .. } => "join-few",
+            ImportWarning::TimeOrder { .. } => "time-order",
+            ImportWarning::DropUnmatched { .. } => "drop-unmatched",
         }
     }
 }
@@ -153,6 +202,52 @@ impl fmt::Display for ImportWarning {
                 "the map has no [frame], so no row has a picture; the folder has {pictures} pictures, such as {}: name them by `column` or \
                  `pattern` of [frame] and import again",
                 taceva_core::shown(first)
+            ),
+            ImportWarning::JoinPause {
+                join,
+                rows,
+                farthest_ms,
+                usual_ms,
+                tolerance_ms,
+            } => write!(
+                f,
+                "{} {} labels of `{}` from up to {farthest_ms} ms away, although its rows are usually {usual_ms} ms apart: its pauses are \
+                 crossed; write `tolerance_ms = {tolerance_ms}` with `unmatched = \"drop\"` to leave these rows out",
+                taceva_core::counted(*rows, "row"),
+                taceva_core::by_count(*rows, "takes", "take"),
+                taceva_core::shown(join)
+            ),
+            ImportWarning::JoinLag { join, rows, equal } => write!(
+                f,
+                "`{}` has a row at the time of {equal} of {}, to a microsecond, without `lag_ms`, so both have stamps of one clock: write \
+                 `lag_ms = 0`, unless the pictures are delayed that long",
+                taceva_core::shown(join),
+                taceva_core::counted(*rows, "row")
+            ),
+            ImportWarning::JoinFew {
+                join,
+                rows,
+                matched,
+                spans,
+            } => write!(
+                f,
+                "`{}` matches {matched} of {}: {}; compare `lag_ms`, `unit`, `start_s` and `tolerance_ms` with the clocks",
+                taceva_core::shown(join),
+                taceva_core::counted(*rows, "row"),
+                taceva_core::shown(spans)
+            ),
+            ImportWarning::TimeOrder { at, rows } => write!(
+                f,
+                "the time of {} is before that of the row above, first at {}, and the next row is later than both: correct stamps that are \
+                 swapped, because such rows are joined by a wrong time",
+                taceva_core::counted(*rows, "row"),
+                taceva_core::shown(at)
+            ),
+            ImportWarning::DropUnmatched { name } => write!(
+                f,
+                "`{}` in `frames_named` of [drop] left out no row: write the name as the table has it, or `clip.mp4#12` (from 0) for a \
+                 picture in a clip or an array",
+                taceva_core::shown(name)
             ),
         }
     }

@@ -12,7 +12,7 @@ use super::arrays::{bytes_of, npy};
 use super::{NO_TIME, lab, planned};
 
 /// The summary, and the omissions recorded in the dataset.
-fn left_out(folder: &Path, map: &str) -> (ImportSummary, LeftOut) {
+pub(super) fn left_out(folder: &Path, map: &str) -> (ImportSummary, LeftOut) {
     let plan = planned(folder, map).expect("planned");
     let summary = plan.summary().clone();
     let target = tempfile::tempdir().expect("a folder");

@@ -4,6 +4,7 @@ mod added;
 mod arrays;
 mod classes;
 mod codecs;
+mod dropped;
 mod joins;
 mod left_out;
 mod page;

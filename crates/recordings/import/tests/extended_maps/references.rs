@@ -6,6 +6,7 @@ use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
 use taceva_import::ImportSummary;
 
+use super::arrays::npy;
 use super::{NO_TIME, lab, planned};
 
 /// Summary, dataset and folder of an import whose rows name these references.
@@ -75,4 +76,52 @@ fn a_reference_that_is_not_there_names_its_row() {
     let problem = imported(["ref_a.png", "ref_c.png", "ref_a.png"]).expect_err("refused");
     assert!(problem.contains("ref_c.png"), "{problem}");
     assert!(problem.contains("labels.jsonl, line 2"), "{problem}");
+}
+
+/// The reference of an import of arrays of three frames each, whose levels are 10, 20 and 30.
+fn within(arrays: &str, reference: &str) -> Result<u8, String> {
+    let folder = lab(&[("labels.csv", "run,k,Fz\n0,0,1\n0,1,2\n1,0,3\n")]);
+    for run in ["0.npy", "1.npy"] {
+        let pixels: Vec<u8> = [10, 20, 30]
+            .into_iter()
+            .flat_map(|level| [level; 64])
+            .collect();
+        let frames = npy("|u1", "(3, 8, 8)", &pixels);
+        std::fs::write(folder.path().join(run), frames).expect("written");
+    }
+    let map = format!(
+        "table = \"labels.csv\"\n[frame]\n{arrays}\nchannel_order = \"gray\"\nreference = {reference}\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n{NO_TIME}"
+    );
+    let plan = planned(folder.path(), &map)?;
+    let words = plan.summary().to_string();
+    assert!(words.contains("npy#2"), "{words}");
+    let path = folder.path().join("dataset");
+    plan.run(&path, NonZeroUsize::MIN, &SilentProgress)
+        .map_err(|error| error.to_string())?;
+    let dataset = Dataset::open(&path).expect("a dataset");
+    let reference = dataset.reference().expect("read").expect("there");
+    Ok(reference.bytes()[0])
+}
+
+#[test]
+fn a_frame_of_an_array_or_a_clip_is_the_reference_by_its_number() {
+    let one = "array = { file = \"0.npy\" }\nindex = \"k\"";
+    assert_eq!(within(one, "{ frame = 2 }"), Ok(30));
+    for (arrays, reference, words) in [
+        (one, "{ frame = 3 }", "no frame 3: there are 3"),
+        (
+            "array = { file = \"{run}.npy\" }\nindex = \"k\"",
+            "{ frame = 2 }",
+            "needs one file with all pictures",
+        ),
+        (
+            "column = \"run\"",
+            "{ frame = 2 }",
+            "write the path of the picture",
+        ),
+        (one, "{ frames = 2 }", "{ frame = … } of the clip or array"),
+    ] {
+        let problem = within(arrays, reference).expect_err("refused");
+        assert!(problem.contains(words), "{words}: {problem}");
+    }
 }

@@ -4,6 +4,7 @@ mod angles;
 mod clips;
 mod converters;
 mod coordinate_frames;
+mod distant_times;
 mod drafted_joins;
 mod drafts;
 mod held;

@@ -102,7 +102,7 @@ fn copy_view(
     let reference = frames
         .reference
         .as_ref()
-        .map(|path| copy_reference(staged, path, frames, info))
+        .map(|reference| copy_reference(staged, reference, frames, info))
         .transpose()?;
     let mut codecs = codecs(frames).into_iter();
     let codec = codecs.next();
@@ -234,17 +234,22 @@ impl Copying<'_> {
 
 fn copy_reference(
     staged: &StagedFolder,
-    path: &Path,
+    reference: &FrameSource,
     frames: &PlannedFrames,
     expected: FrameInfo,
 ) -> Result<ReferenceInfo, ImportError> {
     let view = frames.view.as_deref();
-    let copied = Copied::of_file(staged, path, frames.order, |extension| {
-        layout::in_view(view, &layout::reference_path(extension))
-    })?;
+    let place = |extension: &str| layout::in_view(view, &layout::reference_path(extension));
+    let copied = match reference {
+        FrameSource::File(path) => Copied::of_file(staged, path, frames.order, place)?,
+        FrameSource::Within(pictures, _) => {
+            let picture = Picture::Encoded(reference.file_bytes(frames.order)?);
+            Copied::of_picture(staged, pictures.path(), &picture, frames.order, place)?
+        }
+    };
     if copied.info != expected {
         return Err(ImportError::image(
-            path,
+            &reference.named(),
             format!("{}, expected {expected} as the other frames", copied.info),
         ));
     }

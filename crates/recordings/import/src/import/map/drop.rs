@@ -20,6 +20,52 @@ pub struct DropRules {
     pub frames_named: Vec<String>,
     /// Placeholders that exclude a row if all of them match.
     pub placeholders: Vec<Placeholder>,
+    /// Rows that are excluded by their number.
+    pub rows: Vec<DroppedRow>,
+}
+
+/// Row of a main table that is left out by its number.
+///
+/// ```
+/// use taceva_import::DroppedRow;
+///
+/// let mut row = DroppedRow::new(204);
+/// row.reason = Some("the transducer was overloaded".to_owned());
+/// assert_eq!((row.row, row.table), (204, None));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct DroppedRow {
+    /// Number of the row, from 1: the first row below the header.
+    pub row: u64,
+    /// Table relative to the source folder; `None` if there is a single one.
+    pub table: Option<String>,
+    /// Reason, which the summary and the dataset keep.
+    pub reason: Option<String>,
+}
+
+impl DroppedRow {
+    /// Row `row`, from 1, of the only table.
+    pub fn new(row: u64) -> DroppedRow {
+        DroppedRow {
+            row,
+            table: None,
+            reason: None,
+        }
+    }
+
+    /// True if it is the row at `position`, from 0, of `table`.
+    pub(crate) fn is_at(&self, position: usize, table: &str) -> bool {
+        self.row == position as u64 + 1 && self.table.as_deref().is_none_or(|own| own == table)
+    }
+
+    /// Rule under which the row is counted.
+    pub(crate) fn rule(&self) -> String {
+        match &self.reason {
+            None => "rows by number".to_owned(),
+            Some(reason) => format!("rows by number ({reason})"),
+        }
+    }
 }
 
 /// Number that means "not measured".

@@ -39,15 +39,22 @@ pub(super) struct WrittenFrame {
     reference: WrittenReference,
 }
 
-/// Path, or the column that names one for each row.
+/// Path, the column that names one for each row, or the number of a frame.
 #[derive(Deserialize)]
 #[serde(
     untagged,
-    expecting = "the path of a picture, { column = … } that names one a row, or \"unknown\""
+    expecting = "the path of a picture, { column = … } that names one a row, { frame = … } of the clip or array, or \"unknown\""
 )]
 enum WrittenReference {
     Path(String),
     Column(WrittenReferenceColumn),
+    Frame(WrittenReferenceFrame),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenReferenceFrame {
+    frame: u64,
 }
 
 #[derive(Deserialize)]
@@ -238,11 +245,23 @@ impl Check<'_> {
                 ));
             }
         };
-        let (reference, reference_column) = match written.reference {
-            WrittenReference::Path(path) if path == "unknown" => (None, None),
-            WrittenReference::Path(path) => (Some(path), None),
-            WrittenReference::Column(named) => (None, Some(named.column.into_name())),
-        };
+        let (mut reference, mut reference_column, mut reference_frame) = (None, None, None);
+        match written.reference {
+            WrittenReference::Path(path) if path == "unknown" => {}
+            WrittenReference::Path(path) => reference = Some(path),
+            WrittenReference::Column(named) => {
+                reference_column = Some(named.column.into_name());
+            }
+            WrittenReference::Frame(_)
+                if matches!(names, FrameNames::Column(_) | FrameNames::Pattern(_)) =>
+            {
+                return Err(self.at(
+                    offset,
+                    "`reference = { frame = … }` is for an `array`, `bytes` or a `video`: write the path of the picture",
+                ));
+            }
+            WrittenReference::Frame(named) => reference_frame = Some(named.frame),
+        }
         for path in reference.iter().chain(&written.folder) {
             self.relative(path, offset)?;
         }
@@ -253,6 +272,7 @@ impl Check<'_> {
             channel_order: written.channel_order,
             reference,
             reference_column,
+            reference_frame,
         })
     }
 

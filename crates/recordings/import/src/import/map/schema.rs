@@ -8,6 +8,7 @@ use taceva_core::{Channel, Channels, Clock, is_scorable};
 use toml::Spanned;
 
 use super::check::{Check, ColumnName};
+use super::drop_schema::WrittenDrop;
 use super::frame_schema::WrittenFrames;
 use super::rotation::WrittenRotations;
 use super::sections::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
@@ -16,7 +17,7 @@ use super::table_schema::WrittenTable;
 use super::zero::{WrittenGravity, WrittenZero};
 use crate::instant::zone_seconds;
 
-use super::{ColumnMap, DropRules, IdMap, ImportMap, MatrixMap, OriginMap, Placeholder, TimeMap};
+use super::{ColumnMap, IdMap, ImportMap, MatrixMap, OriginMap, TimeMap};
 use taceva_dataset::internal::{RESERVED, is_attribute_name, parse_toml, shown, toml_error};
 use taceva_dataset::{DatasetError, Footprint, RecordingFacts, SensorFacts, Source};
 
@@ -75,15 +76,6 @@ struct WrittenTime {
     unit: Option<Spanned<String>>,
     zone: Option<Spanned<String>>,
     clock: Clock,
-}
-
-#[derive(Default, Deserialize)]
-#[serde(deny_unknown_fields, default, expecting = "a table")]
-struct WrittenDrop {
-    column: Option<String>,
-    quality_flags: Vec<String>,
-    frames_named: Vec<String>,
-    placeholders: BTreeMap<String, f64>,
 }
 
 fn positive() -> i64 {
@@ -339,30 +331,6 @@ impl Check<'_> {
             column: column.into_name(),
             unit: source_unit,
             zone_s: zone_s.transpose()?,
-        })
-    }
-
-    fn drop(&self, written: WrittenDrop, channels: &Channels) -> Result<DropRules, DatasetError> {
-        let stranger = written
-            .placeholders
-            .keys()
-            .find(|name| channels.position(name).is_none());
-        if let Some(name) = stranger {
-            return Err(toml_error(
-                self.path,
-                None,
-                &format!("[drop.placeholders] names `{name}`, which is no channel of [columns]"),
-            ));
-        }
-        Ok(DropRules {
-            flag_column: written.column.unwrap_or_else(|| "quality_flags".to_owned()),
-            quality_flags: written.quality_flags,
-            frames_named: written.frames_named,
-            placeholders: written
-                .placeholders
-                .into_iter()
-                .map(|(channel, number)| Placeholder { channel, number })
-                .collect(),
         })
     }
 }

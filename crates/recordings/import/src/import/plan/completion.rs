@@ -6,11 +6,10 @@ use std::path::PathBuf;
 use super::ImportPlan;
 use super::reading::Reading;
 use crate::error::ImportError;
-use crate::import::frame_plan::PlannedFrames;
+use crate::import::frame_plan::{FrameSource, PlannedFrames};
 use crate::import::map::{FrameMap, FrameNames};
 use crate::import::mapping::mapping;
 use crate::import::omissions;
-use crate::import::references::Settled;
 use crate::import::resolve::JoinMatches;
 use crate::import::source::unnamed_images;
 use crate::import::summary::FrameSummary;
@@ -28,10 +27,12 @@ impl Reading<'_> {
         let dropped: Vec<String> = dropped
             .map(|(reason, count)| format!("{} {count}", shown(reason)))
             .collect();
+        let apart = self.joins.iter().filter_map(JoinMatches::apart);
+        let apart: String = apart.map(|spans| format!("; {spans}")).collect();
         let problem = match summary.rows_read {
             0 => "no row below the header: there is nothing to import".to_owned(),
             read => format!(
-                "all {read} rows are left out ({}): there is nothing to import",
+                "all {read} rows are left out ({}): there is nothing to import{apart}",
                 dropped.join(", ")
             ),
         };
@@ -52,7 +53,10 @@ impl Reading<'_> {
         let frames = self.planned_frames()?;
         self.warn_of_pictures();
         self.describe_channels();
+        self.warn_of_unused_names();
         self.summary.joins = self.joins.iter().map(JoinMatches::summary).collect();
+        let warnings = self.joins.iter().flat_map(JoinMatches::warnings);
+        self.summary.warnings.extend(warnings);
         if let Some(signals) = &self.signals {
             signals.count_absent_chunks(self.folder, &mut self.absent_chunks)?;
         }
@@ -85,26 +89,29 @@ impl Reading<'_> {
         let mut planned = Vec::new();
         for view in std::mem::take(&mut self.views) {
             let map = view.map;
-            let Settled {
-                reference,
-                different,
-            } = match &map.reference {
-                Some(path) => Settled {
-                    reference: Some(self.folder.file(self.folder.path(), path)?),
-                    different: 0,
-                },
-                None => {
+            let mut different = 0;
+            let reference = match (&map.reference, map.reference_frame) {
+                (Some(path), _) => {
+                    let path = self.folder.file(self.folder.path(), path)?;
+                    Some(FrameSource::File(path))
+                }
+                (None, Some(index)) => Some(view.frame_within(index)?),
+                (None, None) => {
                     let named = view.references.paths(self.folder);
                     self.named.extend(named);
                     let name = map.view.as_deref();
-                    view.references.settle(self.folder, name, &mut self.table)?
+                    let settled = view.references.settle(self.folder, name, &mut self.table)?;
+                    different = settled.different;
+                    settled.reference.map(FrameSource::File)
                 }
             };
-            self.named.extend(reference.clone());
+            if let Some(FrameSource::File(path)) = &reference {
+                self.named.insert(path.clone());
+            }
             self.summary.frames.push(FrameSummary {
                 view: map.view.clone(),
                 channel_order: map.channel_order,
-                reference: reference.clone(),
+                reference: reference.as_ref().map(FrameSource::named),
                 references: different as u64,
             });
             planned.push(PlannedFrames {

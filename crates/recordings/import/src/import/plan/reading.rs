@@ -77,6 +77,7 @@ impl<'a> Reading<'a> {
     pub(super) fn read(&mut self, path: &Path) -> Result<(), ImportError> {
         let mut rows = MappedTable::open(self.map, self.folder, path, self.decoders)?;
         path.clone_into(&mut self.current);
+        self.check_dropped_rows(&rows)?;
         let rows_folder = rows.folder();
         for (own, of_table) in self.views.iter_mut().zip(&mut rows.views) {
             own.depth = of_table.depth.take();

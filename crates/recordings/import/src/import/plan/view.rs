@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::error::ImportError;
 use crate::foreign::{DepthPixels, Pictures};
-use crate::import::frame_plan::PlannedFrame;
+use crate::import::frame_plan::{FrameSource, PlannedFrame};
 use crate::import::map::FrameMap;
 use crate::import::references::References;
+use taceva_dataset::internal::shown_path;
 
 /// Pictures of one view during reading.
 pub(super) struct ViewReading<'a> {
@@ -35,6 +37,34 @@ impl<'a> ViewReading<'a> {
             frames: Vec::new(),
             references: References::default(),
         }
+    }
+
+    /// Picture at `index` of the only file that holds the pictures of all rows.
+    ///
+    /// # Errors
+    /// [`ImportError`] if there are several files, or no such picture.
+    pub(super) fn frame_within(&self, index: u64) -> Result<FrameSource, ImportError> {
+        let mut files = self.frames.iter().filter_map(|frame| match &frame.from {
+            FrameSource::Within(pictures, _) => Some(pictures),
+            FrameSource::File(_) => None,
+        });
+        let Some(first) = files.next() else {
+            return Err(ImportError::path(
+                &format!("frame {index}"),
+                "the reference is a frame of a file, and no row has a picture in one",
+            ));
+        };
+        if let Some(other) = files.find(|other| other.path() != first.path()) {
+            return Err(ImportError::image(
+                other.path(),
+                format!(
+                    "`reference = {{ frame = {index} }}` needs one file with all pictures, and some are in {}: write the path of a picture",
+                    shown_path(first.path())
+                ),
+            ));
+        }
+        first.check_index(index)?;
+        Ok(FrameSource::Within(Arc::clone(first), index))
     }
 
     /// Base folder of named files: beside the table, unless the map states a folder.

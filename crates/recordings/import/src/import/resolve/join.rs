@@ -4,9 +4,10 @@ mod candidates;
 mod interpolation;
 mod matches;
 mod matching;
+mod timing;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::Sources;
 use super::cell::cell_of;
@@ -25,6 +26,7 @@ use interpolation::{Gap, Interpolation};
 use matches::TableUses;
 use matching::{At, about, comparable, seconds};
 use taceva_dataset::internal::shown;
+use timing::{TimedRow, Timing};
 
 pub(in crate::import) use matches::JoinMatches;
 
@@ -34,8 +36,8 @@ pub(super) struct Joined<'a> {
     tables: Vec<Candidates>,
     /// One match per row of the main table.
     matches: Vec<Match>,
-    /// Greatest time difference of a match, s.
-    greatest_gap_s: Option<f64>,
+    /// Times, of a join by time.
+    timing: Timing,
     /// Columns that need special interpolation between two rows.
     interpolations: Vec<Interpolation>,
 }
@@ -58,7 +60,7 @@ impl<'a> Joined<'a> {
             map,
             tables: Vec::new(),
             matches: Vec::new(),
-            greatest_gap_s: None,
+            timing: Timing::default(),
             interpolations: Interpolation::of_join(sources.map, &map.name),
         };
         let mut known: BTreeMap<String, usize> = BTreeMap::new();
@@ -85,9 +87,11 @@ impl<'a> Joined<'a> {
             };
             let at = joined.find(sources, table, row)?;
             if at == At::Nowhere && map.unmatched == Unmatched::Refuse {
+                let spans = joined.timing.spans(&map.name);
+                let spans = spans.map_or_else(String::new, |spans| format!("; {spans}"));
                 return Err(table_error!(
                     sources.main.place(row, ""),
-                    "no row of {} matches it (join `{}`); write `unmatched = \"drop\"` to leave out and count such rows",
+                    "no row of {} matches it (join `{}`){spans}; write `unmatched = \"drop\"` to leave out and count such rows",
                     shown(&joined.tables[table].table.path().to_string_lossy()),
                     map.name
                 ));
@@ -211,6 +215,17 @@ impl<'a> Joined<'a> {
         tables.try_for_each(|candidates| candidates.table.count_absent_chunks(folder, &own, into))
     }
 
+    /// Warning of rows of the main table whose times are in a wrong order.
+    pub(super) fn wrong_order(&self, sources: &Sources<'_>) -> Option<ImportWarning> {
+        let (first, rows) = self.timing.swapped()?;
+        let mut place = sources.main.place(first, "");
+        place.path = PathBuf::from(&sources.relative);
+        Some(ImportWarning::TimeOrder {
+            at: place.to_string(),
+            rows,
+        })
+    }
+
     /// Summary of the matches with `main`.
     pub(super) fn matched(&self, main: &ForeignTable) -> JoinMatches {
         let mut used: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); self.tables.len()];
@@ -248,7 +263,7 @@ impl<'a> Joined<'a> {
             },
             matched: matched as u64,
             unmatched: (self.matches.len() - matched) as u64,
-            greatest_gap_s: self.greatest_gap_s,
+            timing: self.timing.clone(),
             tables: tables.collect(),
         }
     }
@@ -342,10 +357,14 @@ impl<'a> Joined<'a> {
                 };
                 let lag_s = self.lag_ms(sources, row, &join.lag)? / 1e3;
                 let found = about(&candidates.by_time, instant + lag_s, join);
-                if let Some((_, gap_s)) = found {
-                    self.greatest_gap_s =
-                        Some(self.greatest_gap_s.map_or(gap_s, |most| most.max(gap_s)));
-                }
+                let timed = TimedRow {
+                    row,
+                    time_s: instant,
+                    lag_s,
+                    pick: join.pick,
+                    gap_s: found.map(|(_, gap_s)| gap_s),
+                };
+                self.timing.add(timed, candidates);
                 Ok(found.map_or(At::Nowhere, |(at, _)| at))
             }
         }

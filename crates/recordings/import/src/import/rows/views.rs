@@ -120,6 +120,25 @@ impl MappedTable<'_> {
         (!cell.is_empty()).then(|| cell.to_owned())
     }
 
+    /// Rules that drop the row by a picture in a clip or an array, such as `clip.mp4#12`.
+    pub(super) fn names_within_left_out(&self, row: usize) -> Vec<String> {
+        let rules = &self.map.drop.frames_named;
+        if !rules.iter().any(|rule| rule.contains('#')) {
+            return Vec::new();
+        }
+        let names = (0..self.views.len()).filter_map(|view| match self.frame_name(view, row) {
+            Ok((FrameName::Within(file, index), _)) => {
+                let file = file.as_deref().unwrap_or(self.table.source());
+                Some(format!("{file}#{index}"))
+            }
+            _ => None,
+        });
+        let names = names.filter(|name| rules.contains(name));
+        names
+            .map(|name| format!("frame `{}`", shown(&name)))
+            .collect()
+    }
+
     /// Rules that drop the row by the names of its pictures.
     pub(super) fn names_left_out(&self, row: usize) -> Vec<String> {
         let rules = &self.map.drop.frames_named;

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::matching::{comparable, seconds};
+use super::timing::usual_step_s;
 use crate::csv_table::number;
 use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
@@ -25,6 +26,8 @@ pub(super) struct Candidates {
     pub(super) by_time: Vec<(f64, usize)>,
     /// For a join by time: number of rows with a time, of which `by_time` has the first of each time.
     pub(super) timed: usize,
+    /// For a join by time: usual step between its rows, s.
+    pub(super) usual_s: Option<f64>,
     /// For a join with `until`: number and row, in order of the number.
     pub(super) until: Vec<(u64, usize)>,
 }
@@ -82,6 +85,7 @@ impl Candidates {
             by_key: HashMap::new(),
             by_time: Vec::new(),
             timed: 0,
+            usual_s: None,
             until: Vec::new(),
         };
         let Candidates {
@@ -90,6 +94,7 @@ impl Candidates {
             by_key,
             by_time,
             timed,
+            usual_s,
             until,
             ..
         } = &mut candidates;
@@ -153,6 +158,7 @@ impl Candidates {
                 *timed = by_time.len();
                 // The first of several rows at one time is kept.
                 by_time.dedup_by(|later, first| later.0.total_cmp(&first.0).is_eq());
+                *usual_s = usual_step_s(by_time);
                 if let Some([_, (_, row)]) = back.as_deref() {
                     return Err(table_error!(
                         table.place(*row, &join.time.column),

@@ -3,8 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use super::timing::Timing;
 use crate::error::{ImportError, table_error};
 use crate::import::summary::JoinSummary;
+use crate::import::warning::ImportWarning;
 use taceva_dataset::internal::shown_path;
 
 /// Matches of one main table with a joined table.
@@ -16,7 +18,8 @@ pub(in crate::import) struct JoinMatches {
     pub(super) counted_by: Option<&'static str>,
     pub(super) matched: u64,
     pub(super) unmatched: u64,
-    pub(super) greatest_gap_s: Option<f64>,
+    /// Times, of a join by time.
+    pub(super) timing: Timing,
     /// Use of each joined table.
     pub(super) tables: BTreeMap<PathBuf, TableUses>,
 }
@@ -34,8 +37,7 @@ impl JoinMatches {
     pub(in crate::import) fn add(&mut self, other: JoinMatches) {
         self.matched += other.matched;
         self.unmatched += other.unmatched;
-        let gaps = [self.greatest_gap_s, other.greatest_gap_s];
-        self.greatest_gap_s = gaps.into_iter().flatten().reduce(f64::max);
+        self.timing.add_table(other.timing);
         for (path, uses) in other.tables {
             match self.tables.get_mut(&path) {
                 Some(known) => known.used.extend(uses.used),
@@ -82,6 +84,17 @@ impl JoinMatches {
         &self.name
     }
 
+    /// Warnings about its times.
+    pub(in crate::import) fn warnings(&self) -> Vec<ImportWarning> {
+        self.timing.warnings(&self.name, self.matched)
+    }
+
+    /// Spans of the times of both sides in words, if no row of a join by time has a match.
+    pub(in crate::import) fn apart(&self) -> Option<String> {
+        let spans = self.timing.spans(&self.name);
+        spans.filter(|_| self.matched == 0)
+    }
+
     pub(in crate::import) fn summary(&self) -> JoinSummary {
         let sum = |count: fn(&TableUses) -> usize| -> u64 {
             self.tables.values().map(|uses| count(uses) as u64).sum()
@@ -94,7 +107,7 @@ impl JoinMatches {
             skipped: sum(|uses| uses.skipped),
             frame_id: self.frame_id.clone(),
             in_other_frames: sum(|uses| uses.in_other_frames),
-            greatest_gap_s: self.greatest_gap_s,
+            greatest_gap_s: self.timing.greatest_gap_s,
         }
     }
 }

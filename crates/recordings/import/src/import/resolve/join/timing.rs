@@ -1,0 +1,231 @@
+//! Times of a join by time: spans, distances, and signs of a wrong lag, unit, order or tolerance.
+
+use super::candidates::Candidates;
+use crate::import::map::Pick;
+use crate::import::warning::ImportWarning;
+
+/// Least number of rows for a statement about a join.
+const LEAST: u64 = 10;
+/// Distance of a match across a pause: a multiple of the usual step, and a time, s.
+const FAR: f64 = 3.0;
+const FAR_S: f64 = 0.05;
+/// Greatest lag that a delay of pictures explains, s.
+const DELAY_S: f64 = 0.1;
+/// Greatest difference of equal times, s, and of times that are equal by a regular clock, as a share of its step.
+const EQUAL_S: f64 = 1e-6;
+const REGULAR: f64 = 0.01;
+/// Greatest difference of a ratio of times from the factor of a unit, as a share.
+const FACTOR: f64 = 0.01;
+/// Greatest share of rows in a wrong order, as their inverse: a table with more was sorted otherwise.
+const SWAPPED: u64 = 10;
+
+/// Row of a main table with its time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TimedRow {
+    pub(super) row: usize,
+    pub(super) time_s: f64,
+    pub(super) lag_s: f64,
+    pub(super) pick: Pick,
+    /// Distance of its match, s; `None` without one.
+    pub(super) gap_s: Option<f64>,
+}
+
+/// First and last time, s.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    first_s: f64,
+    last_s: f64,
+}
+
+/// Times of all rows that a join matches.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Timing {
+    rows: u64,
+    /// Span of the rows, in the clock of the joined table.
+    own: Option<Span>,
+    joined: Option<Span>,
+    /// Greatest distance of a match, s.
+    pub(super) greatest_gap_s: Option<f64>,
+    /// Rows with a match across a pause of the joined table.
+    far: u64,
+    /// Usual step of the joined table, s.
+    usual_s: f64,
+    lagged: Lagged,
+    /// The two rows before the next one.
+    recent: [Option<TimedRow>; 2],
+    /// Rows earlier than the row before them, whose next row is later than both.
+    swapped: u64,
+    first_swapped: Option<usize>,
+}
+
+/// Rows with a long lag, and those of them that equal the time of a joined row.
+#[derive(Clone, Debug, Default)]
+struct Lagged {
+    rows: u64,
+    without_lag: u64,
+    with_lag: u64,
+    /// Equal to a time that is shifted by whole steps.
+    by_chance: u64,
+}
+
+impl Span {
+    fn union(one: Option<Span>, other: Option<Span>) -> Option<Span> {
+        let spans = [one, other].into_iter().flatten();
+        spans.reduce(|one, other| Span {
+            first_s: one.first_s.min(other.first_s),
+            last_s: one.last_s.max(other.last_s),
+        })
+    }
+}
+
+impl Timing {
+    /// Adds a row of the main table, matched among `candidates`.
+    pub(super) fn add(&mut self, row: TimedRow, candidates: &Candidates) {
+        self.rows += 1;
+        let shown_s = row.time_s + row.lag_s;
+        let own = Span {
+            first_s: shown_s,
+            last_s: shown_s,
+        };
+        self.own = Span::union(self.own, Some(own));
+        let ends = candidates.by_time.first().zip(candidates.by_time.last());
+        let joined = ends.map(|(first, last)| Span {
+            first_s: first.0,
+            last_s: last.0,
+        });
+        self.joined = Span::union(self.joined, joined);
+        let gaps = [self.greatest_gap_s, row.gap_s];
+        self.greatest_gap_s = gaps.into_iter().flatten().reduce(f64::max);
+        if let Some(usual_s) = candidates.usual_s {
+            // A row that is held until the next one is valid at any distance.
+            let is_far = |gap_s: f64| gap_s > (FAR * usual_s).max(FAR_S);
+            if row.pick != Pick::Before && row.gap_s.is_some_and(is_far) {
+                self.far += 1;
+            }
+            self.usual_s = self.usual_s.max(usual_s);
+            self.lagged.add(&row, candidates, usual_s);
+        }
+        if let [Some(before), Some(last)] = &self.recent
+            && last.time_s < before.time_s
+            && row.time_s > before.time_s
+        {
+            self.swapped += 1;
+            self.first_swapped = self.first_swapped.or(Some(last.row));
+        }
+        self.recent = [self.recent[1], Some(row)];
+    }
+
+    /// Adds the times of another main table.
+    pub(super) fn add_table(&mut self, other: Timing) {
+        self.rows += other.rows;
+        self.own = Span::union(self.own, other.own);
+        self.joined = Span::union(self.joined, other.joined);
+        let gaps = [self.greatest_gap_s, other.greatest_gap_s];
+        self.greatest_gap_s = gaps.into_iter().flatten().reduce(f64::max);
+        self.far += other.far;
+        self.usual_s = self.usual_s.max(other.usual_s);
+        self.lagged.rows += other.lagged.rows;
+        self.lagged.without_lag += other.lagged.without_lag;
+        self.lagged.with_lag += other.lagged.with_lag;
+        self.lagged.by_chance += other.lagged.by_chance;
+    }
+
+    /// First of a few rows whose times are in a wrong order, with the number of these rows.
+    pub(super) fn swapped(&self) -> Option<(usize, u64)> {
+        let first = self.first_swapped?;
+        (self.swapped * SWAPPED <= self.rows).then_some((first, self.swapped))
+    }
+
+    /// Spans of both tables in words, with the factor of a wrong unit.
+    pub(super) fn spans(&self, join: &str) -> Option<String> {
+        let (own, joined) = self.own.zip(self.joined)?;
+        let is_near = |ratio: f64| (ratio - 1.0).abs() < FACTOR;
+        let ratio = own.last_s / joined.last_s;
+        let factors = [1e3, 1e6, 1e9];
+        let larger = factors.iter().find(|factor| is_near(ratio / *factor));
+        let smaller = factors.iter().find(|factor| is_near(ratio * *factor));
+        let unit = match (larger, smaller) {
+            (Some(factor), _) => {
+                format!("; the former are {factor} times the latter: correct a `unit`")
+            }
+            (None, Some(factor)) => {
+                format!("; the latter are {factor} times the former: correct a `unit`")
+            }
+            (None, None) => String::new(),
+        };
+        Some(format!(
+            "times of the rows plus `lag_ms` are {:.3} to {:.3} s, times of `{join}` are {:.3} to {:.3} s{unit}",
+            own.first_s, own.last_s, joined.first_s, joined.last_s
+        ))
+    }
+
+    /// Warnings about the lag, the tolerance and the matches of `join`, of which `matched` rows have one.
+    pub(super) fn warnings(&self, join: &str, matched: u64) -> Vec<ImportWarning> {
+        let mut warnings = Vec::new();
+        let join_name = || join.to_owned();
+        if self.far > 0 {
+            let most_ms = 1e3 * (FAR * self.usual_s).max(FAR_S);
+            warnings.push(ImportWarning::JoinPause {
+                join: join_name(),
+                rows: self.far,
+                farthest_ms: format!("{:.0}", 1e3 * self.greatest_gap_s.unwrap_or_default()),
+                usual_ms: format!("{:.1}", 1e3 * self.usual_s),
+                tolerance_ms: format!("{most_ms:.0}"),
+            });
+        }
+        if self.lagged.is_of_one_clock() {
+            warnings.push(ImportWarning::JoinLag {
+                join: join_name(),
+                rows: self.lagged.rows,
+                equal: self.lagged.without_lag,
+            });
+        }
+        if self.rows >= LEAST && 2 * matched < self.rows {
+            warnings.extend(self.spans(join).map(|spans| ImportWarning::JoinFew {
+                join: join_name(),
+                rows: self.rows,
+                matched,
+                spans,
+            }));
+        }
+        warnings
+    }
+}
+
+impl Lagged {
+    fn add(&mut self, row: &TimedRow, candidates: &Candidates, usual_s: f64) {
+        if row.lag_s.abs() <= DELAY_S {
+            return;
+        }
+        let has = |time_s: f64, within_s: f64| {
+            let times = &candidates.by_time;
+            let at = times.partition_point(|(time, _)| *time < time_s - within_s);
+            times
+                .get(at)
+                .is_some_and(|(time, _)| *time <= time_s + within_s)
+        };
+        let near_s = (REGULAR * usual_s).max(5.0 * EQUAL_S);
+        let mut steps = [-2.0, -1.0, 1.0, 2.0].into_iter();
+        self.rows += 1;
+        self.without_lag += u64::from(has(row.time_s, EQUAL_S));
+        self.with_lag += u64::from(has(row.time_s + row.lag_s, EQUAL_S));
+        self.by_chance += u64::from(steps.any(|step| has(row.time_s + step * usual_s, near_s)));
+    }
+
+    /// True if nearly all rows have a joined row at their own time, but neither with their lag nor by a regular clock.
+    fn is_of_one_clock(&self) -> bool {
+        self.rows >= LEAST
+            && 10 * self.without_lag >= 9 * self.rows
+            && 2 * self.with_lag <= self.rows
+            && 2 * self.by_chance <= self.rows
+    }
+}
+
+/// Usual step between rows at `times`, s: three quarters of the steps are at most as long. `None` for few rows.
+pub(super) fn usual_step_s(times: &[(f64, usize)]) -> Option<f64> {
+    let pairs = times.windows(2);
+    let mut steps: Vec<f64> = pairs.map(|pair| pair[1].0 - pair[0].0).collect();
+    steps.sort_by(f64::total_cmp);
+    let usual_s = steps.get(steps.len() * 3 / 4).copied();
+    usual_s.filter(|_| steps.len() as u64 >= LEAST)
+}
