@@ -2,6 +2,7 @@
 
 mod comparability;
 mod estimate;
+mod notes;
 mod overview;
 mod paired;
 mod remarks;
@@ -17,19 +18,17 @@ pub use render::COMPARISON_SCHEMA;
 pub use request::RequestError;
 pub use ties::ties;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use taceva_core::Unit;
 use taceva_metrics::{
     Better, ComparisonError, Difference, Estimate, Question, Side, Sides, Standing, Verdict,
-    by_intervals, catalogue, decide,
+    by_intervals, decide,
 };
 
-use crate::names::listed;
 use crate::results::Study;
-use crate::training::demonstration;
 use remarks::Remarks;
-use taceva_results::{Score, not_measured};
+use taceva_results::Score;
 
 /// Options of a comparison.
 #[derive(Clone, Debug, Default)]
@@ -181,58 +180,11 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     }
     Comparison {
         asides: asides(studies, &names, &answers),
-        notes: demonstration(studies)
-            .map(|words| words.trim_end_matches('.').to_owned())
-            .into_iter()
-            .chain(comparability::notes(studies, &names))
-            .chain(unmeasured(studies))
-            .chain(trainings(&names, &answers))
-            .chain(unpaired)
-            .chain(unknown(studies, request))
-            .collect(),
+        notes: notes::notes(studies, &names, &answers, unpaired, request),
         names,
         answers,
         asked: request.metrics.clone(),
     }
-}
-
-/// Note that some or all samples were not measured.
-fn unmeasured(studies: &[Study]) -> Option<String> {
-    let words = not_measured(studies.iter().map(|study| study.source.as_str()))?;
-    Some(words.trim_end_matches('.').to_owned())
-}
-
-/// Note on metrics that are not compared because the catalogue has no direction for them.
-fn unknown(studies: &[Study], request: &CompareRequest) -> Option<String> {
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    for study in studies {
-        let metrics = study.scores.iter().map(|score| score.metric.as_str());
-        let unknown = metrics.filter(|metric| catalogue::find(metric).is_none());
-        for metric in unknown.collect::<BTreeSet<&str>>() {
-            *counts.entry(metric).or_default() += 1;
-        }
-    }
-    let shared = counts.into_iter().filter(|(_, count)| *count > 1);
-    let shared: Vec<String> = shared.map(|(metric, _)| metric.to_owned()).collect();
-    (request.metrics.is_empty() && !shared.is_empty()).then(|| {
-        format!(
-            "{} not compared: this version of taceva does not know which values are better",
-            listed(&shared)
-        )
-    })
-}
-
-/// Note on differences that depend on a single training of a model with a random seed, with the option for more seeds.
-fn trainings(names: &[String], answers: &[Answer]) -> Option<String> {
-    let shown = answers.iter().filter(|answer| answer.better().is_some());
-    let drawn: BTreeSet<&str> = shown.flat_map(|answer| answer.drawn(names)).collect();
-    let drawn: Vec<String> = drawn.into_iter().map(str::to_owned).collect();
-    (!drawn.is_empty()).then(|| {
-        format!(
-            "differences rest on one training of {}: another seed changes them, and no interval includes that; for scenes, repeat `taceva run` with --seeds 1-3; for recordings, evaluate with --set seed=2 too",
-            listed(&drawn)
-        )
-    })
 }
 
 /// Remarks on the answers, by score.

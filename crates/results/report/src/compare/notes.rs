@@ -1,0 +1,70 @@
+//! Notes of a comparison for its reader.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use taceva_metrics::catalogue;
+use taceva_results::not_measured;
+
+use super::{Answer, CompareRequest, comparability};
+use crate::names::listed;
+use crate::results::Study;
+use crate::training::demonstration;
+
+/// All notes. `unpaired` holds reasons why predictions of one truth were not compared sample by sample.
+pub(super) fn notes(
+    studies: &[Study],
+    names: &[String],
+    answers: &[Answer],
+    unpaired: Vec<String>,
+    request: &CompareRequest,
+) -> Vec<String> {
+    let demonstration = demonstration(studies);
+    demonstration
+        .map(|words| words.trim_end_matches('.').to_owned())
+        .into_iter()
+        .chain(comparability::notes(studies, names))
+        .chain(unmeasured(studies))
+        .chain(trainings(names, answers))
+        .chain(unpaired)
+        .chain(unknown(studies, request))
+        .collect()
+}
+
+/// Note that some or all samples were not measured.
+fn unmeasured(studies: &[Study]) -> Option<String> {
+    let words = not_measured(studies.iter().map(|study| study.source.as_str()))?;
+    Some(words.trim_end_matches('.').to_owned())
+}
+
+/// Note on metrics that are not compared because the catalogue has no direction for them.
+fn unknown(studies: &[Study], request: &CompareRequest) -> Option<String> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for study in studies {
+        let metrics = study.scores.iter().map(|score| score.metric.as_str());
+        let unknown = metrics.filter(|metric| catalogue::find(metric).is_none());
+        for metric in unknown.collect::<BTreeSet<&str>>() {
+            *counts.entry(metric).or_default() += 1;
+        }
+    }
+    let shared = counts.into_iter().filter(|(_, count)| *count > 1);
+    let shared: Vec<String> = shared.map(|(metric, _)| metric.to_owned()).collect();
+    (request.metrics.is_empty() && !shared.is_empty()).then(|| {
+        format!(
+            "{} not compared: this version of taceva does not know which values are better",
+            listed(&shared)
+        )
+    })
+}
+
+/// Note on differences that depend on a single training of a model with a random seed, with the option for more seeds.
+fn trainings(names: &[String], answers: &[Answer]) -> Option<String> {
+    let shown = answers.iter().filter(|answer| answer.better().is_some());
+    let drawn: BTreeSet<&str> = shown.flat_map(|answer| answer.drawn(names)).collect();
+    let drawn: Vec<String> = drawn.into_iter().map(str::to_owned).collect();
+    (!drawn.is_empty()).then(|| {
+        format!(
+            "differences rest on one training of {}: another seed changes them, and no interval includes that; for scenes, repeat `taceva run` with --seeds 1-3; for recordings, evaluate with --set seed=2 too",
+            listed(&drawn)
+        )
+    })
+}
