@@ -204,8 +204,8 @@ fn are_beside(
         && table.rows != pictures.paths.len()
 }
 
-/// Table whose rows are the samples: prefers tables that name pictures, then tables of taxels, then of as many rows as a clip has frames, then the
-/// most channels.
+/// Table whose rows are the samples. Prefers tables that name pictures, then taxels, then as many rows as the clip has frames, then the most
+/// channels.
 fn main_table<'t, 'g>(
     folder: &SourceFolder,
     groups: &[FileGroup],

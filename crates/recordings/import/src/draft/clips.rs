@@ -24,7 +24,7 @@ pub(super) struct OnlyClip {
 }
 
 impl OnlyClip {
-    /// Evidence that each row of `table` is a frame: 2 for as many rows in a file with the name of the clip, 1 for as many, 0 for others.
+    /// Evidence that each row of `table` is a frame. 2 for as many rows in a file named as the clip, 1 for as many, 0 for others.
     pub(super) fn fit(&self, table: &SeenTable<'_>) -> u8 {
         let is_as_many = table.rows as u64 == self.frames && table.group.paths.len() == 1;
         let is_named = table.group.stem().starts_with(&self.stem);

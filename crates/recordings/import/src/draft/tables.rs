@@ -169,8 +169,9 @@ impl<'g> SeenTable<'g> {
                 (*unit, *guess) = ("s", None);
             }
             let last = rows.checked_sub(1).map(|row| table.cell(row, &name));
+            let last = last.and_then(Result::ok).unwrap_or_default();
             SeenColumn {
-                last: last.and_then(Result::ok).unwrap_or_default(),
+                last: last.into_owned(),
                 taxels: taxels_of(&role, &cells),
                 empty: match role {
                     Role::Other | Role::Attribute => empty_cells(&table, &name),
