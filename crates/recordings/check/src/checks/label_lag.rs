@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Field, counted};
+use taceva_core::{Field, counted, shown};
 use taceva_metrics::STREAM_S;
 
 use crate::evidence::Evidence;
@@ -26,6 +26,11 @@ const SHARE: usize = 4;
 /// Minimum correlation of pictures and forces at the lag, and minimum factor by which the lag reduces the unexplained variance.
 const CLEAR: f64 = 0.6;
 const BETTER: f64 = 1.5;
+/// Parts of the recording, and the minimum number of parts that show the lag too. A drift favours another lag only in the whole.
+const PARTS: usize = 3;
+const AGREEING: usize = 2;
+/// Maximum lag that a gel which recovers slowly explains, s.
+const SLOW_GEL_S: f64 = 0.1;
 
 /// Maximum lag as a share of the duration of the recording.
 const OF_RECORDING: f64 = 0.1;
@@ -62,29 +67,75 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let name = table.channels().as_slice()[load].name();
     let lag = Lag::of(&streams);
     let found = lag.filter(|lag| {
-        lag.steps != 0
-            && lag.best >= CLEAR
-            && 1.0 - lag.standing.powi(2) >= BETTER * (1.0 - lag.best.powi(2))
+        lag.steps != 0 && is_clear(lag.best, lag.standing) && lag.holds_in_parts(&streams)
     });
-    let message = found.map(|lag| {
+    let found = found.map(|lag| {
         let (later, steps) = match lag.steps > 0 {
             true => ("later", lag.steps),
             false => ("earlier", -lag.steps),
         };
-        format!(
+        let (severity, cause) = match lag.seconds.abs() > SLOW_GEL_S {
+            true => (Severity::Warning, ""),
+            false => (
+                Severity::Note,
+                "; a gel that recovers slowly can cause so short a lag",
+            ),
+        };
+        let message = format!(
             "{name} is about {:.0} ms ({}) {later} than the pictures: their correlation is {:.2} with this shift and {:.2} \
-             without, n {}",
+             without, n {}{}{cause}",
             1e3 * lag.seconds.abs(),
             counted(steps.unsigned_abs(), "step"),
             lag.best,
             lag.standing,
-            count
-        )
+            count,
+            line(evidence, name, lag.seconds).unwrap_or_default()
+        );
+        Found::overall(severity, message)
     });
-    message
-        .into_iter()
-        .map(|message| Found::overall(Severity::Warning, message))
-        .collect()
+    found.into_iter().collect()
+}
+
+/// Line of the map without a lag of `seconds` of the channel `name`; `None` unless a join by time with one lag gives it.
+fn line(evidence: &Evidence<'_>, name: &str, seconds: f64) -> Option<String> {
+    let mut columns = evidence.header.columns.iter();
+    let column = columns.find(|column| column.label == name)?;
+    let mut joins = evidence.header.joins.iter();
+    let join = joins.find(|join| {
+        let prefix = format!("{}.", join.name);
+        join.by == "time" && column.from.iter().any(|from| from.starts_with(&prefix))
+    })?;
+    // Without a sign of zero.
+    let lag_ms = (join.lag_ms? + 1e3 * seconds).round() + 0.0;
+    Some(format!(
+        "; `lag_ms = {lag_ms}` in the [[join]] `{}` removes it",
+        shown(&join.name)
+    ))
+}
+
+/// True if the correlation at a lag is strong, and clearly better than the one without.
+fn is_clear(best: f64, standing: f64) -> bool {
+    best >= CLEAR && 1.0 - standing.powi(2) >= BETTER * (1.0 - best.powi(2))
+}
+
+/// Absolute correlation of pictures and forces that are `later` steps later.
+fn correlation_at(streams: &[Vec<Instant>], later: i64) -> f64 {
+    let shift = usize::try_from(later.unsigned_abs()).unwrap_or(usize::MAX);
+    let shifted = || {
+        streams.iter().flat_map(move |stream| {
+            let behind = stream.get(shift..).unwrap_or(&[]);
+            let before = &stream[..behind.len()];
+            match later >= 0 {
+                true => before.iter().zip(behind),
+                false => behind.iter().zip(before),
+            }
+        })
+    };
+    correlation(
+        shifted().map(|((_, light, _), _)| *light),
+        shifted().map(|(_, (_, _, force))| *force),
+    )
+    .abs()
 }
 
 /// The lag with the best correlation of forces and pictures.
@@ -138,24 +189,7 @@ impl Lag {
         if count < LEAST || step > STREAM_S {
             return None;
         }
-        let shifted = |later: i64| {
-            let shift = usize::try_from(later.unsigned_abs()).unwrap_or(usize::MAX);
-            streams.iter().flat_map(move |stream| {
-                let behind = stream.get(shift..).unwrap_or(&[]);
-                let before = &stream[..behind.len()];
-                match later >= 0 {
-                    true => before.iter().zip(behind),
-                    false => behind.iter().zip(before),
-                }
-            })
-        };
-        let at = |later: i64| -> f64 {
-            correlation(
-                shifted(later).map(|((_, light, _), _)| *light),
-                shifted(later).map(|(_, (_, _, force))| *force),
-            )
-            .abs()
-        };
+        let at = |later| correlation_at(streams, later);
         let spans = streams
             .iter()
             .filter_map(|stream| Some(stream.last()?.0 - stream.first()?.0));
@@ -188,6 +222,19 @@ impl Lag {
             best: best.1,
             standing: at(0),
         })
+    }
+
+    /// True if the lag is clear in most parts of the recording.
+    fn holds_in_parts(&self, streams: &[Vec<Instant>]) -> bool {
+        let holds = |number: &usize| {
+            let part = streams.iter().map(|stream| {
+                let end = |parts: usize| stream.len() * parts / PARTS;
+                stream[end(*number)..end(number + 1)].to_vec()
+            });
+            let part: Vec<Vec<Instant>> = part.collect();
+            is_clear(correlation_at(&part, self.steps), correlation_at(&part, 0))
+        };
+        (0..PARTS).filter(holds).count() >= AGREEING
     }
 }
 
@@ -262,6 +309,16 @@ mod tests {
         let lag = Lag::of(&streams).expect("streams");
         assert_eq!(lag.steps, 5);
         assert!(lag.best > 0.99, "{lag:?}");
+    }
+
+    #[test]
+    fn a_lag_of_one_part_alone_does_not_hold_in_the_parts() {
+        let lag = Lag::of(&[presses(5)]).expect("a stream");
+        assert!(lag.holds_in_parts(&[presses(5)]));
+        // One part alone is late.
+        let mut one = presses(0);
+        one[..130].clone_from_slice(&presses(5)[..130]);
+        assert!(!lag.holds_in_parts(&[one]));
     }
 
     #[test]

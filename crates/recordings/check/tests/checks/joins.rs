@@ -108,3 +108,52 @@ fn the_reading_before_is_older_and_a_table_that_is_as_fast_is_no_slow_one() {
     says_nothing(&joined(&cam, &force(200.0), "nearest", ALL), "TAC037");
     says_nothing(&joined(&cam, &force(50.0), "nearest", ALL), "TAC037");
 }
+
+#[test]
+fn a_log_whose_clock_is_ahead_is_warned_of_with_the_lag_to_write() {
+    let press = |row: i32| -> f64 {
+        let depth = 0.4 + 0.2 * f64::from((row.div_euclid(40) * 3).rem_euclid(4));
+        depth * (1.0 - (f64::from(row.rem_euclid(40)) / 20.0 - 1.0).abs())
+    };
+    let presses: Vec<f64> = (0..240).map(press).collect();
+    let time = |row: i32| f64::from(row) / 30.0;
+    let cam: String = (0..240).map(|row| format!("{:.4}\n", time(row))).collect();
+    for (ahead_s, lag_ms, expected) in [
+        (0.2, "0", Some("later than the pictures")),
+        (0.2, "133", Some("67 ms (2 steps) later")),
+        (0.2, "200", None),
+        (-0.2, "0", Some("earlier than the pictures")),
+    ] {
+        let ft = (-40..280).map(|row| format!("{:.4},{:.4}\n", time(row) + ahead_s, press(row)));
+        let files = [
+            ("cam.csv", format!("t\n{cam}").into_bytes()),
+            (
+                "ft.csv",
+                format!("t,fz\n{}", ft.collect::<String>()).into_bytes(),
+            ),
+            ("f.npy", pictures(&presses)),
+        ];
+        let map = format!(
+            "map_version = 2\ntable = \"cam.csv\"\n{PICTURES}[columns]\nFz = {{ from = \"ft.fz\", unit = \"N\" }}\n[time]\nclock = \"monotonic\"\ncolumn = \"t\"\nunit = \"s\"\n[[join]]\nname = \"ft\"\ntable = \"ft.csv\"\ntime = {{ column = \"t\", unit = \"s\" }}\npick = \"linear\"\ntolerance_ms = 100\nlag_ms = {lag_ms}\n{SENSOR}"
+        );
+        let report = imported(&files, &map, &["TAC019"]);
+        let Some(expected) = expected else {
+            says_nothing(&report, "TAC019");
+            continue;
+        };
+        let said = message(&report, "TAC019");
+        assert!(said.contains(expected), "{said}");
+        let right = format!(
+            "`lag_ms = {:.0}` in the [[join]] `ft` removes it",
+            1e3 * ahead_s
+        );
+        // Lags are found in steps of the pictures.
+        if lag_ms == "0" {
+            assert_eq!(codes(&report), [("TAC019", Severity::Warning)]);
+            assert!(said.contains(&right), "{said}");
+        } else {
+            assert_eq!(codes(&report), [("TAC019", Severity::Note)]);
+            assert!(said.contains("a gel that recovers slowly"), "{said}");
+        }
+    }
+}
