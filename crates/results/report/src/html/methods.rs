@@ -13,6 +13,7 @@ use crate::names::{listed, names};
 use crate::results::Study;
 use crate::scores::ScoreTable;
 use crate::short_digests::short_digests;
+use taceva_results::Interval;
 
 /// Citation of the study that defined the metrics, as its publisher prints it.
 const STUDY: &str = "@article{taceva-study,\n  author  = {Cong, Qingzheng and Oh, Steven and Fan, Wen and Luo, Shan and Althoefer, Kaspar and Zhang, Dandan},\n  title   = {{TacEva}: A Performance Evaluation Framework for Vision-Based Tactile Sensors},\n  journal = {Advanced Intelligent Systems},\n  year    = {2026},\n  doi     = {10.1002/aisy.202501179}\n}";
@@ -263,17 +264,28 @@ fn scope(studies: &[Study]) -> String {
         true => "with models fitted in the same way",
         false => "with the same trained models",
     };
+    let what = match studies.len() {
+        1 => "Intervals",
+        _ => "Intervals and p values",
+    };
     format!(
-        " Intervals and p values apply to other {} on the same units {models}; they do not include the variation between units and trainings.",
+        " {what} apply to other {} on the same units {models}; they do not include the variation between units and trainings.",
         clusters(studies)
     )
 }
 
-/// Clusters that intervals leave out, in the plural: `contact points`, `groups by object`.
+/// Clusters that intervals leave out, in the plural: `contact points`, `groups by object`, `samples`.
 pub(super) fn clusters(studies: &[Study]) -> String {
+    let are_samples = |study: &Study| {
+        let intervals = study.scores.iter();
+        let intervals = intervals.filter_map(|score| score.interval.as_ref());
+        let mut methods = intervals.filter_map(Interval::method);
+        methods.any(|method| method.contains("samples taken as independent"))
+    };
     let kind = |study: &Study| match study.clustered_by() {
         Some("block of time") => "blocks of time".to_owned(),
         Some(group) => format!("groups by {group}"),
+        None if are_samples(study) => "samples".to_owned(),
         None => "contact points".to_owned(),
     };
     let mut kinds: Vec<String> = studies.iter().map(kind).collect();

@@ -134,3 +134,13 @@ fn methods_state_how_a_fit_chose_its_setting() {
     let page = page(&[support::study(&result)]);
     assert!(page.contains(&format!("; its fit chose {how}.")), "{page}");
 }
+
+#[test]
+fn the_intervals_of_independent_samples_apply_to_samples() {
+    let result = support::results("one", 1.0).to_string();
+    let method = "jackknife, samples taken as independent, G=20";
+    let result = result.replace("jackknife by point_id, G=20", method);
+    let result: serde_json::Value = serde_json::from_str(&result).expect("a result");
+    let page = page(&[support::study(&result)]);
+    assert!(page.contains(" Intervals apply to other samples on the same units"));
+}
