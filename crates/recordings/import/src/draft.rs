@@ -18,6 +18,7 @@ use crate::error::ImportError;
 use crate::foreign::is_recording;
 use crate::layouts::Preset;
 use crate::source_folder::SourceFolder;
+use clips::OnlyClip;
 use survey::FileGroup;
 use tables::SeenTable;
 
@@ -59,7 +60,7 @@ impl MapDraft {
             .iter()
             .partition(|group| frames::is_picture(&group.ending));
         let mut tables = Vec::new();
-        let mut notes = Vec::new();
+        let (mut notes, mut unread) = (Vec::new(), Vec::new());
         for group in others
             .iter()
             .filter(|group| !clips::is_clip(&group.ending))
@@ -74,7 +75,10 @@ impl MapDraft {
             }
             match SeenTable::read(&source, group) {
                 Ok(Some(table)) => tables.push(table),
-                Ok(None) => notes.extend(notes::refused_form(group)),
+                Ok(None) => match notes::refused_form(group) {
+                    Some(note) => notes.push(note),
+                    None => unread.push(*group),
+                },
                 Err(problem) => notes.push(format!("not read: {problem}")),
             }
         }
@@ -84,6 +88,7 @@ impl MapDraft {
             .find_map(|group| SeenTable::of_lerobot(&source, group));
         if let Some(lerobot) = lerobot {
             tables.clear();
+            unread.clear();
             match lerobot {
                 Ok(table) => tables.push(table),
                 Err(problem) => notes.push(format!("not read: {problem}")),
@@ -91,13 +96,19 @@ impl MapDraft {
         }
         let bare = groups.iter().find(|group| clips::is_clip(&group.ending));
         let most = pictures.iter().max_by_key(|group| group.paths.len());
-        let main = main_table(&source, &groups, &tables);
+        let clip = clips::only(&source, &groups);
+        let main = main_table(&source, &groups, clip.as_ref(), &tables);
         let array =
             main.filter(|main| most.is_some_and(|most| are_beside(&source, &groups, main, most)));
         notes.extend(array.map(notes::array_beside_pictures));
+        let said: Vec<String> = notes
+            .iter()
+            .cloned()
+            .chain(notes::unread(&unread))
+            .collect();
         let text = match main.filter(|_| array.is_none()) {
             Some(main) => {
-                let text = map_text::of_table(&source, &groups, main, &tables, &notes);
+                let text = map_text::of_table(&source, &groups, main, &tables, &said);
                 if let (Some(reason), true) = (main.unread.first(), is_empty(&text)) {
                     return Err(ImportError::request(
                         folder,
@@ -110,7 +121,7 @@ impl MapDraft {
                 text
             }
             None => match most {
-                Some(group) => map_text::of_files(group, &notes),
+                Some(group) => map_text::of_files(group, &said),
                 None => {
                     return Err(ImportError::request(
                         folder,
@@ -191,10 +202,12 @@ fn are_beside(
         && table.rows != pictures.paths.len()
 }
 
-/// Table whose rows are the samples: prefers tables that name pictures, then tables of taxels, then the most channels.
+/// Table whose rows are the samples. Prefers tables that name pictures, then taxels, then as many rows as the clip has frames, then the most
+/// channels.
 fn main_table<'t, 'g>(
     folder: &SourceFolder,
     groups: &[FileGroup],
+    clip: Option<&OnlyClip>,
     tables: &'t [SeenTable<'g>],
 ) -> Option<&'t SeenTable<'g>> {
     let candidates = tables
@@ -206,6 +219,7 @@ fn main_table<'t, 'g>(
             (
                 frames::evidence(folder, groups, table),
                 !table.is_single_array && !table.own_taxels().is_empty(),
+                clip.map_or(0, |clip| clip.fit(table)),
                 table.channels(),
                 table.group.paths.len(),
                 table.rows,

@@ -6,6 +6,7 @@ use taceva_core::counted;
 use taceva_video::{Decoders, Video};
 
 use super::frames::{FrameLines, are_pairs, counted_through, of_views};
+use super::joins::span_s;
 use super::roles::Role;
 use super::survey::FileGroup;
 use super::tables::SeenTable;
@@ -13,6 +14,36 @@ use crate::source_folder::SourceFolder;
 
 pub(super) fn is_clip(ending: &str) -> bool {
     matches!(ending, "avi" | "mp4" | "mkv" | "mov" | "webm")
+}
+
+/// The only clip of a folder.
+pub(super) struct OnlyClip {
+    /// Name without its ending.
+    stem: String,
+    frames: u64,
+}
+
+impl OnlyClip {
+    /// Evidence that each row of `table` is a frame. 2 for as many rows in a file named as the clip, 1 for as many, 0 for others.
+    pub(super) fn fit(&self, table: &SeenTable<'_>) -> u8 {
+        let is_as_many = table.rows as u64 == self.frames && table.group.paths.len() == 1;
+        let is_named = table.group.stem().starts_with(&self.stem);
+        u8::from(is_as_many) + u8::from(is_as_many && is_named)
+    }
+}
+
+/// The clip among `groups` if it is the only one and can be opened.
+pub(super) fn only(folder: &SourceFolder, groups: &[FileGroup]) -> Option<OnlyClip> {
+    let mut clips = groups.iter().filter(|group| is_clip(&group.ending));
+    let (clip, others) = (clips.next()?, clips.next());
+    if others.is_some() || clip.paths.len() > 1 {
+        return None;
+    }
+    let video = Video::open(&folder.path().join(clip.first()), &Decoders::default());
+    Some(OnlyClip {
+        stem: clip.stem().to_owned(),
+        frames: video.ok()?.info().frames,
+    })
 }
 
 /// Frames of the clips among `groups` for the rows of `main`.
@@ -35,7 +66,7 @@ pub(super) fn of(
     let index = index.map_or("row", |column| column.name.as_str());
     let of_one = |clip: &str| {
         let open = match index {
-            "row" => other_length(&folder.path().join(clip), main.rows),
+            "row" => other_length(&folder.path().join(clip), main),
             _ => None,
         };
         let index = open.unwrap_or_else(|| format!("index = {index:?}"));
@@ -63,22 +94,41 @@ fn lines(clip: &str, index: String) -> FrameLines {
     }
 }
 
-/// Open line for a clip whose frame count differs from `rows`; `None` if they agree or the clip cannot be opened.
-fn other_length(clip: &Path, rows: usize) -> Option<String> {
+/// Greatest ratio of the time spans of a clip and a table that may have been recorded together.
+const SPANS: f64 = 10.0;
+
+/// Open line for a clip whose frame count differs from the rows of `main`; `None` if they agree or the clip cannot be opened.
+fn other_length(clip: &Path, main: &SeenTable<'_>) -> Option<String> {
     let video = Video::open(clip, &Decoders::default()).ok()?;
-    let frames = video.info().frames;
-    (frames != rows as u64).then(|| {
-        let name = clip.file_name().unwrap_or_default().to_string_lossy();
-        let (rate, times) = match video.info().times_s {
-            Some(_) => ("", "at the times that the clip states"),
-            None => (", rate = FRAMES_A_SECOND", "at this rate"),
-        };
-        format!(
-            "index = \"?\"   # {}, {}: name the column with the frame number. If their clocks differ, write\n\
-             # table = {{ file = {name:?}, format = \"clip\"{rate} }} above, whose rows are the frames {times}, join this table by [[join]] \
-             with `time`, and omit `index`",
-            counted(frames, "frame"),
-            counted(rows, "row")
-        )
-    })
+    let info = video.info();
+    let open = format!(
+        "index = \"?\"   # {}, {}: name the column with the frame number",
+        counted(info.frames, "frame"),
+        counted(main.rows, "row")
+    );
+    if info.frames == main.rows as u64 {
+        return None;
+    }
+    let ends = info.times_s.as_deref();
+    let of_clip = ends.and_then(|times| Some(times.last()? - times.first()?));
+    let of_table = main.time().and_then(|time| span_s(&time));
+    let of_table = of_table.map(|[first, last]| last - first);
+    if let Some((clip_s, table_s)) = of_clip.zip(of_table)
+        && !(table_s / SPANS..=table_s * SPANS).contains(&clip_s)
+    {
+        return Some(format!(
+            "{open}. The clip states times over {clip_s:.1} s, the table over {table_s:.1} s: do not join them by these times.\n\
+             # Without such a column, write the time of each frame to a text file, one a line, and draft again"
+        ));
+    }
+    let name = clip.file_name().unwrap_or_default().to_string_lossy();
+    let (rate, times) = match info.times_s {
+        Some(_) => ("", "at the times that the clip states"),
+        None => (", rate = FRAMES_A_SECOND", "at this rate"),
+    };
+    Some(format!(
+        "{open}. If their clocks differ, write\n\
+         # table = {{ file = {name:?}, format = \"clip\"{rate} }} above, whose rows are the frames {times}, join this table by [[join]] \
+         with `time`, and omit `index`"
+    ))
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::roles::{Role, median_step};
-use super::tables::SeenTable;
+use super::tables::{SeenTable, SeenTime};
 
 /// Joined table with the lines of its `[[join]]`.
 #[derive(Debug)]
@@ -119,12 +119,6 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     let (own_time, time) = (main.time()?, other.time()?);
     let (own, own_unit) = (own_time.column, own_time.unit);
     let (there, unit) = (time.column, time.unit);
-    let seconds = |cells: &[String], unit: &str| -> Option<(f64, f64)> {
-        let second = second_in(unit);
-        let first: f64 = cells.first()?.parse().ok()?;
-        let last: f64 = cells.last()?.parse().ok()?;
-        Some((first / second, last / second))
-    };
     let is_rising = |cells: &[String]| {
         let times = cells.iter().filter_map(|cell| cell.parse::<f64>().ok());
         times.is_sorted()
@@ -132,21 +126,30 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     if !is_rising(&there.cells) {
         return None;
     }
-    let (begin, end) = seconds(&own.cells, own_unit)?;
-    let (first, last) = seconds(&there.cells, unit)?;
-    if first > end || last < begin {
+    let [begin, end] = span_s(&own_time)?;
+    let [first, last] = span_s(&time)?;
+    let is_apart = first > end || last < begin;
+    let seen: [f64; 2] =
+        [there.cells.first()?, there.cells.last()?].map(|cell| in_seconds(cell, unit));
+    let spacing_ms = 1e3 * (seen[1] - seen[0]) / (there.cells.len().max(2) - 1) as f64;
+    if is_apart || !spacing_ms.is_finite() {
         return None;
     }
-    let spacing_ms = 1e3 * (last - first) / (there.cells.len().max(2) - 1) as f64;
     let rates = rate_hz(&own.cells, own_unit).zip(rate_hz(&there.cells, unit));
     let pick = match rates {
         Some((own, other)) => pick_by_rates(own, other),
         None => "pick = \"nearest\"".to_owned(),
     };
-    // Both neighbours of an instant must lie within the tolerance, and steps vary.
-    let (steps, tolerance) = match pick.starts_with(LINEAR) {
-        true => (2.0, "twice the time between two of its rows"),
-        false => (1.0, "the time between two of its rows"),
+    let (tolerance_ms, tolerance) = match rates {
+        // Both neighbours of an instant must lie within the tolerance, and steps vary.
+        _ if pick.starts_with(LINEAR) => {
+            (2.0 * spacing_ms, "twice the time between two of its rows")
+        }
+        Some((own, _)) if spacing_ms > PRESSES_MS => (
+            (SHARE_OF_STEP * spacing_ms).min(1e3 / own),
+            "at most a tenth of the time between two of its rows: another press must not match",
+        ),
+        _ => (spacing_ms, "the time between two of its rows"),
     };
     Some(vec![
         format!(
@@ -157,11 +160,29 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
         pick,
         format!(
             "tolerance_ms = {:.3}   # {tolerance}",
-            steps * spacing_ms.max(0.001)
+            tolerance_ms.max(0.001)
         ),
         "lag_ms = 0   # how far its clock is ahead: the files do not state it".to_owned(),
         "unmatched = \"drop\"".to_owned(),
     ])
+}
+
+/// Time between two rows from which they are single presses and no stream, ms.
+const PRESSES_MS: f64 = 1_000.0;
+
+/// Share of the time between two rows in which a row of the same press is expected.
+const SHARE_OF_STEP: f64 = 0.1;
+
+/// First and last time of a table, s; `None` if they are no numbers.
+pub(super) fn span_s(time: &SeenTime<'_>) -> Option<[f64; 2]> {
+    let ends = [time.column.cells.first()?, &time.column.last];
+    let ends = ends.map(|cell| in_seconds(cell, time.unit));
+    ends.iter().all(|end| end.is_finite()).then_some(ends)
+}
+
+/// A time in seconds; NaN if it is no number.
+fn in_seconds(cell: &str, unit: &str) -> f64 {
+    cell.parse::<f64>().unwrap_or(f64::NAN) / second_in(unit)
 }
 
 /// Number of units called `unit` in a second.
@@ -190,6 +211,9 @@ const NEAR_RATE: f64 = 0.9;
 fn pick_by_rates(own: f64, other: f64) -> String {
     let both = format!("{} beside {} of the main table", in_hz(other), in_hz(own));
     match other < NEAR_RATE * own {
+        true if 1e3 / other > PRESSES_MS => format!(
+            "pick = \"nearest\"   # {both}: its rows are single presses, and only rows at such a press are kept"
+        ),
         true => format!(
             "{LINEAR}   # {both}: each of its rows would serve several, so numbers between two of its rows are interpolated"
         ),
@@ -229,6 +253,13 @@ mod tests {
             assert!(near.starts_with("pick = \"nearest\"   # "), "{near}");
         }
         assert!(pick_by_rates(30.0, 200.0).ends_with("is at most 2.500 ms away"));
+        // Between two presses there is nothing to interpolate.
+        let presses = pick_by_rates(16.0, 0.25);
+        assert!(presses.starts_with("pick = \"nearest\"   # "), "{presses}");
+        assert!(
+            presses.ends_with("only rows at such a press are kept"),
+            "{presses}"
+        );
     }
 
     #[test]

@@ -3,11 +3,22 @@
 use super::survey::FileGroup;
 use super::tables::SeenTable;
 use crate::import::converter;
+use taceva_dataset::internal::first_names;
 
 /// Note on an unreadable file, with a converter for it.
 pub(super) fn refused_form(group: &FileGroup) -> Option<String> {
     let remedy = converter(group.first())?;
     Some(format!("{} is not read: {remedy}", group.first()))
+}
+
+/// Limit of files that a note names.
+const NAMED: usize = 8;
+
+/// Note on files of other kinds; `None` if there are none. Maps of this program are not mentioned.
+pub(super) fn unread(groups: &[&FileGroup]) -> Option<String> {
+    let others = groups.iter().filter(|group| group.ending != "toml");
+    let names: Vec<&str> = others.map(|group| group.pattern()).collect();
+    (!names.is_empty()).then(|| format!("Not read: {}", first_names(&names, NAMED)))
 }
 
 /// Advice for clips without a table.

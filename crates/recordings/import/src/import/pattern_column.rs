@@ -23,7 +23,7 @@ impl<'p> PatternColumn<'p> {
     /// Parses the text within `{}`.
     pub(super) fn parse(text: &'p str) -> PatternColumn<'p> {
         let padded = text.rsplit_once(":0").and_then(|(name, digits)| {
-            let digits = digits.parse().ok()?;
+            let digits: usize = digits.parse().ok()?;
             (1..=DIGITS_MAX).contains(&digits).then_some((name, digits))
         });
         let (name, digits) = padded.unwrap_or((text, 0));

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use taceva_video::{Decoders, Video};
 
+use super::drafts::filled;
 use super::{FACTS, draft, imported, lab, line, planned};
 
 const CLIP: &str = concat!(
@@ -140,5 +141,45 @@ fn a_draft_pairs_frames_and_rows_by_their_number_only_where_there_are_as_many() 
             "format = \"clip\" } above, whose rows are the frames at the times that the clip states",
         );
         assert_eq!(says_form, rows != frames, "{draft}");
+    }
+}
+
+#[test]
+fn a_clip_of_a_much_shorter_time_than_its_table_is_not_to_be_joined_by_its_times() {
+    let rows = (0..40).map(|row| format!("{0:.1},{0:.1}\n", f64::from(row) * 50.0));
+    let table = format!("t_s,fz\n{}", rows.collect::<String>());
+    let draft = draft(folder(&table).path());
+    let found = line(&draft, "index = ");
+    assert!(
+        found.starts_with("index = \"?\"") && found.ends_with("do not join them by these times."),
+        "{draft}"
+    );
+    assert!(draft.contains("the table over 1950.0 s"), "{draft}");
+    assert!(!draft.contains("format = \"clip\""), "{draft}");
+}
+
+#[test]
+fn a_text_file_with_the_time_of_each_frame_is_the_table_that_others_join() {
+    let clip = Video::open(CLIP.as_ref(), &Decoders::default()).expect("a clip");
+    let frames = u32::try_from(clip.info().frames).expect("few");
+    let folder = folder(&log());
+    let stamps = (0..frames).map(|frame| format!("{:.6}\n", 0.1 + f64::from(frame) / 30.0));
+    let stamps: String = stamps.collect();
+    std::fs::write(folder.path().join("clip_stamps.txt"), stamps).expect("written");
+    std::fs::write(folder.path().join("notes.txt"), "pressed on Monday\n").expect("written");
+    let text = draft(folder.path());
+    let table = line(&text, "table = ");
+    assert!(
+        table.starts_with("table = { file = \"clip_stamps.txt\", header = false }"),
+        "{text}"
+    );
+    assert_eq!(line(&text, "index = "), "index = \"row\"");
+    // No file is passed over without a word.
+    assert!(text.contains("\n# Not read: notes.txt\n"), "{text}");
+    let forces = imported(folder.path(), &filled(&text), "Fz");
+    assert_eq!(u32::try_from(forces.len()), Ok(frames));
+    for (frame, force) in (0..).zip(forces) {
+        let expected = 0.1 + f64::from(frame) / 30.0;
+        assert!((force - expected).abs() < 1e-4, "{force} for {expected}");
     }
 }

@@ -4,6 +4,7 @@ mod angles;
 mod clips;
 mod converters;
 mod coordinate_frames;
+mod drafted_joins;
 mod drafts;
 mod held;
 mod lags;

@@ -28,7 +28,8 @@ pub(super) fn cut_key(before: BeforeCut) -> (&'static str, String) {
 pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, String)> {
     let plain = |form| Some((form, String::new()));
     match group.ending.as_str() {
-        "csv" | "tsv" => {
+        "txt" if !is_numeric(path) => None,
+        "csv" | "tsv" | "txt" => {
             let guessed = TextForm::guessed(&beginning(path)?);
             let form = |has_header: bool| TextForm {
                 has_header,
@@ -90,6 +91,25 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
             Some((of(Some(rows)), extra))
         }
     }
+}
+
+/// Number of lines of a text that must be numbers for a table.
+const LINES: usize = 20;
+
+/// True if each cell in the first lines of a text is a number: a table without a header, and no prose.
+fn is_numeric(path: &Path) -> bool {
+    let Some(text) = beginning(path) else {
+        return false;
+    };
+    let lines: Vec<&str> = text.lines().take(LINES).collect();
+    let is_number = |cell: &str| number::number(cell).is_ok_and(|found| found.is_some());
+    let are_numbers = |line: &&str| {
+        let mut cells = line
+            .split([',', ';', ' ', '\t'])
+            .filter(|cell| !cell.is_empty());
+        cells.next().is_some_and(is_number) && cells.all(is_number)
+    };
+    lines.len() > 1 && lines.iter().all(are_numbers)
 }
 
 /// Leading bytes of a text table from which its form is guessed.

@@ -319,6 +319,7 @@ mod tests {
 
     fn column(name: &str, numbers: &[f64]) -> SeenColumn {
         SeenColumn {
+            last: String::new(),
             name: name.to_owned(),
             role: Role::Number,
             cells: numbers.iter().map(f64::to_string).collect(),

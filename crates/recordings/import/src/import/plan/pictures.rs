@@ -77,10 +77,16 @@ impl Reading<'_> {
         {
             return;
         }
+        let axes = match &self.views[view].map.names {
+            FrameNames::Array(_) => "; the order of the axes may be wrong, too (`layout`)",
+            _ => "",
+        };
+        let first = match count > rows {
+            true => format!(", or write `index = \"row\"` if the first {rows} match in order"),
+            false => String::new(),
+        };
         let problem = format!(
-            "{count} pictures for {rows} rows, and no `index`: name the column with the number of the picture, or write \
-                `index = \"row\"` if the first {} match in order; the order of the axes may be wrong, too (`layout`)",
-            count.min(rows)
+            "{count} pictures for {rows} rows, and no `index`: name the column with the number of the picture{first}{axes}"
         );
         let unequal = ImportError::image(pictures.path(), problem);
         self.unequal = Some(unequal.named_at(Place::file(&self.current)));
