@@ -86,6 +86,25 @@ fn a_file_stands_for_its_folder_in_drafts_and_in_the_commands_that_follow() {
 }
 
 #[test]
+fn a_channel_is_left_out_by_none_and_a_named_column_keeps_the_reason_against_it() {
+    let bench = Bench::new();
+    let rows = (0..8).map(|row| format!("{0}.5,{0}.25,{0}.75,0.0\n", row * row % 7));
+    let table = format!("fz_raw,fz_filtered,fz_cmd,fx\n{}", rows.collect::<String>());
+    bench.write("lab/labels.csv", &table);
+    // The answers for Fz, its unit, Fx (left out) and the sensor.
+    let ran = bench.answered("init recording lab --out map.toml", "fz_cmd\nN\n\nmy gel\n");
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    let map = read(&bench, "map.toml");
+    let named = "Fz = { from = \"fz_cmd\", unit = \"N\" }   # named by you, though by `cmd` commanded, not measured\n";
+    assert!(map.contains(named), "{map}");
+    assert!(map.contains("\n# Left out: Fx = "), "{map}");
+    let against = "the draft takes \"fz_cmd\" for no channel";
+    assert!(ran.err.contains(against), "{}", ran.err);
+    assert!(!ran.out.contains("fill in"), "{}", ran.out);
+    bench.ok("import lab --map map.toml --explain");
+}
+
+#[test]
 fn a_folder_without_labels_is_followed_by_predictions() {
     let bench = lab();
     fs::remove_file(bench.path("lab/labels.csv")).expect("it was there");
@@ -133,7 +152,7 @@ fn an_import_without_a_map_names_the_command_that_writes_one() {
 }
 
 #[test]
-fn answers_that_end_are_refused_with_the_question() {
+fn answers_that_end_are_refused_with_the_question_and_the_earlier_ones_are_kept() {
     let bench = lab();
     let ran = bench.answered("init recording lab --out first.toml", "mm\n");
     assert_eq!(ran.code, 2, "{}", ran.err);
@@ -143,7 +162,23 @@ fn answers_that_end_are_refused_with_the_question() {
         "{}",
         ran.err
     );
-    assert!(!bench.path("first.toml").exists());
+    assert!(
+        ran.err.contains("the answers so far are in first.toml"),
+        "{}",
+        ran.err
+    );
+    let map = read(&bench, "first.toml");
+    assert!(
+        map.contains("Px = { from = \"Px\", unit = \"mm\" }"),
+        "{map}"
+    );
+    assert!(
+        map.contains("Fz = { from = \"Fz\", unit = \"?\" }"),
+        "{map}"
+    );
+    let ran = bench.answered("init recording lab --out second.toml", "");
+    assert_eq!(ran.code, 2, "{}", ran.err);
+    assert!(!bench.path("second.toml").exists());
 }
 
 #[test]

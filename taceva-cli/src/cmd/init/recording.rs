@@ -12,6 +12,7 @@ use crate::args::InitTarget;
 use crate::cmd::Usage;
 use crate::cmd::import::folder_of;
 use crate::cmd::open_places::{OPEN, code, open_places};
+use crate::output;
 
 pub(super) fn write(
     source: &Path,
@@ -27,7 +28,19 @@ pub(super) fn write(
         )));
     }
     let draft = MapDraft::of(source)?;
-    let text = filled(draft.text(), &path, interview)?;
+    let mut lines: Vec<String> = draft.text().lines().map(str::to_owned).collect();
+    let answered = fill(&mut lines, &path, interview);
+    let text = lines.join("\n") + "\n";
+    if let Err(error) = answered {
+        if text != draft.text() {
+            output::write(Some(&path), |out| out.write_all(text.as_bytes()))?;
+            interview.say(&format!(
+                "the answers so far are in {}: fill in the rest there, or begin again with --force",
+                quoted(&path)
+            ));
+        }
+        return Err(error);
+    }
     let folder = quoted(folder_of(source));
     let import = format!("taceva import {folder} --map {}", quoted(&path));
     let mut next = remarks(&text, &quoted(&path));
@@ -107,15 +120,12 @@ fn remarks(map: &str, path: &str) -> Vec<String> {
     remarks
 }
 
-/// The reason why the draft takes `column` for no channel, if it does so.
-fn excluded<'d>(draft: &'d str, column: &str) -> Option<&'d str> {
-    let listed = draft
-        .lines()
-        .find_map(|line| line.strip_prefix(NO_CHANNELS))?;
+/// The reason why a draft takes `column` for no channel, if it is among the `excluded` columns.
+fn reason_against<'e>(excluded: &'e str, column: &str) -> Option<&'e str> {
     let named = format!("{column} (");
-    let mut places = listed.match_indices(named.as_str());
-    let (at, _) = places.find(|(at, _)| *at == 0 || listed[..*at].ends_with(", "))?;
-    listed[at + named.len()..].split(')').next()
+    let mut places = excluded.match_indices(named.as_str());
+    let (at, _) = places.find(|(at, _)| *at == 0 || excluded[..*at].ends_with(", "))?;
+    excluded[at + named.len()..].split(')').next()
 }
 
 /// `line` with a comment that its value was named in place of the comment of the draft; `why` is a reason against it.
@@ -128,18 +138,34 @@ fn named(line: &str, why: Option<&str>) -> String {
     }
 }
 
-/// `draft` with an answer in each open place of a line that is no comment. With `--yes` places without a default stay open.
-fn filled(draft: &str, path: &Path, interview: &mut Interview) -> anyhow::Result<String> {
+/// Answer that leaves a channel out of the map.
+const LEFT_OUT: &str = "none";
+
+/// Puts an answer in each open place of a line of the draft that is no comment. With `--yes` places without a default stay open.
+///
+/// # Errors
+/// As [`Interview::ask`]; `lines` keep the earlier answers.
+fn fill(lines: &mut [String], path: &Path, interview: &mut Interview) -> anyhow::Result<()> {
     if interview.takes_defaults() {
-        return Ok(draft.replace("\nmodel = \"?\"\n", "\nmodel = \"unknown\"\n"));
+        for line in lines {
+            if line == "model = \"?\"" {
+                "model = \"unknown\"".clone_into(line);
+            }
+        }
+        return Ok(());
     }
-    let mut lines: Vec<String> = draft.lines().map(str::to_owned).collect();
+    let excluded = lines.iter().find_map(|line| line.strip_prefix(NO_CHANNELS));
+    let excluded = excluded.unwrap_or_default().to_owned();
     let mut earlier: BTreeMap<String, String> = BTreeMap::new();
     for at in 0..lines.len() {
         while let Some(place) = Place::of(&lines[at]) {
-            interview.say(&format!("line {}: {}", at + 1, lines[at].trim()));
-            let default = earlier.get(&place.kind).cloned();
-            let default = default.or_else(|| (place.key == "model").then(|| "unknown".to_owned()));
+            interview.say(&format!("line {}: {}", at + 1, explained(&lines[at..])));
+            let is_channel = place.is_channel();
+            let default = match (is_channel, place.key.as_str()) {
+                (true, _) => Some(LEFT_OUT.to_owned()),
+                (false, "model") => Some("unknown".to_owned()),
+                (false, _) => earlier.get(&place.kind).cloned(),
+            };
             let put = |answer: &str| {
                 let line = &lines[at];
                 format!(
@@ -149,24 +175,37 @@ fn filled(draft: &str, path: &Path, interview: &mut Interview) -> anyhow::Result
                 )
             };
             let check = |answer: &str| {
-                let mut tried = lines.clone();
+                let mut tried = lines.to_vec();
                 tried[at] = put(answer);
                 refusal(path, &tried.join("\n"), at).map_or(Ok(()), Err)
             };
             let answer = interview.ask(&place.question(), default.as_deref(), check)?;
+            if is_channel && answer == LEFT_OUT {
+                lines[at] = format!("# Left out: {}", lines[at]);
+                continue;
+            }
             lines[at] = put(&answer);
-            let why = excluded(draft, &answer).filter(|_| place.key == "from");
+            let why = reason_against(&excluded, &answer).filter(|_| is_channel);
             if let Some(why) = why {
                 interview.say(&format!("the draft takes {answer:?} for no channel: {why}"));
             }
             // The comment explained why the place was open.
-            if place.key == "from" || place.subject.is_none() {
+            if is_channel || place.subject.is_none() {
                 lines[at] = named(&lines[at], why);
             }
             earlier.insert(place.kind, answer);
         }
     }
-    Ok(lines.join("\n") + "\n")
+    Ok(())
+}
+
+/// The first of `lines`, with the comments below it that continue its own.
+fn explained(lines: &[String]) -> String {
+    let is_more = |line: &&String| line.starts_with("# ") && !line.starts_with("# or: ");
+    let more = lines.iter().skip(1).take_while(is_more);
+    let first = lines.first().into_iter();
+    let all: Vec<&str> = first.chain(more).map(|line| line.trim()).collect();
+    all.join("\n")
 }
 
 /// The reason why an import would refuse line `at` of a map, if it would.
@@ -211,12 +250,19 @@ impl Place {
         })
     }
 
+    /// True for the column of a channel.
+    fn is_channel(&self) -> bool {
+        self.key == "from" && self.subject.is_some()
+    }
+
     fn question(&self) -> String {
         let subject = self.subject.as_deref();
         match (self.key.as_str(), subject) {
             ("unit", Some(subject)) => format!("unit of {subject}, such as N, mN, gf, mm or um"),
             ("unit", None) => "unit of these times, such as s, ms, us or ns".to_owned(),
-            ("from", Some(subject)) => format!("column that holds {subject}"),
+            ("from", Some(subject)) => {
+                format!("column that holds {subject}, or {LEFT_OUT} to leave it out")
+            }
             ("model", None) => "name of the sensor".to_owned(),
             ("cut", _) => {
                 "keep, to read the messages before the cut of the recording, or refuse".to_owned()
@@ -229,7 +275,7 @@ impl Place {
 
 #[cfg(test)]
 mod tests {
-    use super::{Place, excluded, has_labels, named, remarks};
+    use super::{Place, explained, has_labels, named, reason_against, remarks};
 
     #[test]
     fn remarks_count_lines_of_the_map_and_no_comments() {
@@ -283,11 +329,10 @@ mod tests {
     #[test]
     fn an_answer_replaces_the_comment_of_the_draft_and_a_column_that_is_no_channel_keeps_the_reason()
      {
-        let draft =
-            "# No channels: seq (counts up by one), set (by `set` commanded, not measured)\n";
-        let why = excluded(draft, "set");
+        let excluded = "seq (counts up by one), set (by `set` commanded, not measured)";
+        let why = reason_against(excluded, "set");
         assert_eq!(why, Some("by `set` commanded, not measured"));
-        assert_eq!(excluded(draft, "et"), None);
+        assert_eq!(reason_against(excluded, "et"), None);
         let line =
             "Fz = { from = \"set\", unit = \"?\" }   # \"a\", \"b\" match equally by a guess";
         assert_eq!(
@@ -302,6 +347,12 @@ mod tests {
     }
 
     #[test]
+    fn a_comment_that_goes_on_below_its_line_is_explained_whole() {
+        let lines = ["index = \"?\"   # write", "# table = x", "# or: y", "z"].map(str::to_owned);
+        assert_eq!(explained(&lines), "index = \"?\"   # write\n# table = x");
+    }
+
+    #[test]
     fn an_open_place_says_its_key_and_its_channel() {
         let question = |line: &str| Place::of(line).map(|place| place.question());
         let unit = question("Fx = { from = \"ft[0]\", unit = \"?\" }   # a guess");
@@ -310,7 +361,8 @@ mod tests {
             Some("unit of Fx, such as N, mN, gf, mm or um")
         );
         let from = question("Fz = { from = \"?\", unit = \"?\" }   # a, b match equally");
-        assert_eq!(from.as_deref(), Some("column that holds Fz"));
+        let asked = "column that holds Fz, or none to leave it out";
+        assert_eq!(from.as_deref(), Some(asked));
         assert_eq!(
             question("model = \"?\"").as_deref(),
             Some("name of the sensor")
