@@ -58,6 +58,15 @@ pub enum ImportWarning {
         /// End of the complete records, byte.
         end: u64,
     },
+    /// Most rows on both sides of a join by time match none of the other side.
+    JoinApart {
+        /// Name of the join.
+        join: String,
+        /// Number of rows of the main table without a match.
+        unmatched: u64,
+        /// Number of rows of the joined table that no row uses.
+        unused: u64,
+    },
     /// The map names neither pictures nor signals, and the folder has pictures.
     NoPictures {
         /// Number of pictures in the folder.
@@ -68,8 +77,8 @@ pub enum ImportWarning {
 }
 
 impl ImportWarning {
-    /// Stable code for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight`, `zero-spread`, `cut-recording` or
-    /// `no-pictures`.
+    /// Stable code for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight`, `zero-spread`, `cut-recording`,
+    /// `join-apart` or `no-pictures`.
     pub fn code(&self) -> &'static str {
         match self {
             ImportWarning::ColumnTwice { .. } => "column-twice",
@@ -78,6 +87,7 @@ impl ImportWarning {
             ImportWarning::Midnight { .. } => "midnight",
             ImportWarning::ZeroSpread { .. } => "zero-spread",
             ImportWarning::CutRecording { .. } => "cut-recording",
+            ImportWarning::JoinApart { .. } => "join-apart",
             ImportWarning::NoPictures { .. } => "no-pictures",
         }
     }
@@ -130,6 +140,16 @@ impl fmt::Display for ImportWarning {
                 taceva_core::shown(file),
                 taceva_core::counted(*messages, "complete message"),
                 taceva_core::by_count(*messages, "is", "are")
+            ),
+            ImportWarning::JoinApart {
+                join,
+                unmatched,
+                unused,
+            } => write!(
+                f,
+                "join `{}`: {unmatched} rows match none of its rows, and {unused} of its rows match none, so that the others may match by \
+                 chance: compare the first and the last time of both tables, their units and `lag_ms`",
+                taceva_core::shown(join)
             ),
             ImportWarning::NoPictures { pictures, first } => write!(
                 f,

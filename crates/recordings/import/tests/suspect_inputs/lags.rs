@@ -1,6 +1,6 @@
 //! Clocks with a different lag in every run.
 
-use super::{FACTS, assert_near, imported, lab, planned};
+use super::{FACTS, assert_near, codes, imported, lab, planned, summary};
 
 const FORCES: &str = "t,fz\n0,0\n1,1\n2,2\n3,3\n";
 
@@ -75,4 +75,26 @@ fn a_file_without_a_lag_and_a_lag_that_is_no_number_are_refused() {
         let problem = problem.expect_err("refused");
         assert!(problem.contains(words), "{lag}: {problem}");
     }
+}
+
+#[test]
+fn a_join_in_which_most_rows_of_both_sides_match_none_is_warned_of() {
+    let rows = |begin: i32, step: i32| -> String {
+        let rows = (0..20).map(|row| format!("{},{row}.5\n", begin + step * row));
+        rows.collect()
+    };
+    // A clip of 20 s, and presses over 800 s: one matches by chance.
+    let main = format!("t,lag\n{}", rows(0, 1));
+    let of = |begin: i32, step: i32| {
+        let presses = format!("t,fz\n{}", rows(begin, step));
+        let folder = lab(&[("run.csv", &main), ("ft.csv", &presses)]);
+        let map = map("\"run.csv\"", "0", "").replace("tolerance_ms = 2000", "tolerance_ms = 100");
+        let map = map.replace(
+            "pick = \"linear\"",
+            "pick = \"nearest\"\nunmatched = \"drop\"",
+        );
+        codes(&summary(folder.path(), &map))
+    };
+    assert_eq!(of(0, 40), ["join-apart"]);
+    assert!(of(0, 1).is_empty());
 }

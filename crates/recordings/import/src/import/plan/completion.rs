@@ -53,6 +53,7 @@ impl Reading<'_> {
         self.warn_of_pictures();
         self.describe_channels();
         self.summary.joins = self.joins.iter().map(JoinMatches::summary).collect();
+        self.warn_of_joins();
         if let Some(signals) = &self.signals {
             signals.count_absent_chunks(self.folder, &mut self.absent_chunks)?;
         }
@@ -116,6 +117,22 @@ impl Reading<'_> {
         }
         self.find_unnamed();
         Ok(planned)
+    }
+
+    /// Warns of joins by time in which most rows of both sides have no match.
+    fn warn_of_joins(&mut self) {
+        let by_time = self.summary.joins.iter();
+        let by_time = by_time.filter(|join| join.greatest_gap_s.is_some());
+        // Each row that is matched uses one row or two.
+        let apart =
+            by_time.filter(|join| join.unmatched > join.matched && join.unused > 2 * join.matched);
+        let warnings = apart.map(|join| ImportWarning::JoinApart {
+            join: join.name.clone(),
+            unmatched: join.unmatched,
+            unused: join.unused,
+        });
+        let warnings: Vec<ImportWarning> = warnings.collect();
+        self.summary.warnings.extend(warnings);
     }
 
     /// Warns if the folder has several pictures, and the map names neither pictures nor signals.
