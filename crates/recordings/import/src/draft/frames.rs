@@ -1,7 +1,7 @@
 //! Finds the frames of a table.
 
-mod numbered;
 mod picture_lines;
+mod series;
 mod stems;
 
 use std::path::Path;
@@ -10,8 +10,8 @@ use super::survey::FileGroup;
 use super::tables::{SeenColumn, SeenTable};
 use super::views::{Sided, sided};
 use crate::source_folder::SourceFolder;
-pub(super) use numbered::none_found;
 use picture_lines::{in_array, in_table};
+pub(super) use series::none_found;
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
 
@@ -41,7 +41,7 @@ pub(super) struct FrameLines {
 pub(super) fn evidence(folder: &SourceFolder, groups: &[FileGroup], table: &SeenTable<'_>) -> u8 {
     match table.pictures.is_empty() && file_columns(folder, table).is_empty() {
         true => u8::from(
-            stems::of(folder, groups, table).is_some() || numbered::has_column(groups, table),
+            stems::of(folder, groups, table).is_some() || series::has_column(groups, table),
         ),
         false => 2,
     }
@@ -263,7 +263,7 @@ pub(super) fn of(
         (true, false) => vec![beside(0)],
         (true, true) => match stems::of(folder, groups, main) {
             Some(lines) => vec![lines],
-            None => numbered::of(folder, groups, main),
+            None => series::of(folder, groups, main),
         },
     }
 }

@@ -1,7 +1,7 @@
 //! Map as text: certain lines as they are, guesses with a reason, and `"?"` for facts that only the lab knows.
 
+mod column_lists;
 mod ids;
-mod listed;
 mod sections;
 mod signals;
 
@@ -15,8 +15,8 @@ use super::roles::candidate::Candidate;
 use super::survey::FileGroup;
 use super::tables::{SeenTable, Taxels};
 use crate::source_folder::SourceFolder;
+use column_lists::lists;
 use ids::{add_parts, attribute_name, group_points, repeat_column, shared_points};
-use listed::lists;
 use sections::{HEAD, Lines, add_frames, add_path, add_section, begun, ended, line};
 use signals::signals;
 use taceva_core::counted;
