@@ -49,6 +49,7 @@ pub(super) struct SeenColumn {
     pub(super) role: Role,
     /// First cells.
     pub(super) cells: Vec<String>,
+    /// Cell of the last row.
     pub(super) last: String,
     /// Shape of the lists in its first cell, if they hold many numbers, as taxels do.
     pub(super) taxels: Option<Vec<usize>>,
@@ -171,7 +172,7 @@ impl<'g> SeenTable<'g> {
             let last = rows.checked_sub(1).map(|row| table.cell(row, &name));
             let last = last.and_then(Result::ok).unwrap_or_default();
             SeenColumn {
-                last: last.into_owned(),
+                last: cell_list::plain(&last).to_owned(),
                 taxels: taxels_of(&role, &cells),
                 empty: match role {
                     Role::Other | Role::Attribute => empty_cells(&table, &name),

@@ -177,7 +177,7 @@ fn a_text_file_with_the_time_of_each_frame_is_the_table_that_others_join() {
     // No file is passed over without a word.
     assert!(text.contains("\n# Not read: notes.txt\n"), "{text}");
     let forces = imported(folder.path(), &filled(&text), "Fz");
-    assert_eq!(forces.len(), clip.info().frames as usize);
+    assert_eq!(u32::try_from(forces.len()), Ok(frames));
     for (frame, force) in (0..).zip(forces) {
         let expected = 0.1 + f64::from(frame) / 30.0;
         assert!((force - expected).abs() < 1e-4, "{force} for {expected}");
