@@ -2,7 +2,7 @@
 
 mod channels;
 mod completion;
-mod dropped;
+mod drop_rules;
 mod name_order;
 mod pictures;
 mod reading;
@@ -98,7 +98,7 @@ impl ImportPlan {
     ) -> Result<ImportPlan, ImportError> {
         let folder = SourceFolder::open(source)?;
         let tables = matching_files(&folder, &map.table)?;
-        dropped::check_tables(&folder, map, &tables)?;
+        drop_rules::check_tables(&folder, map, &tables)?;
         let mut reading = Reading::new(&folder, map, decoders);
         reading.count = tables.len();
         let signals = map.signals.as_ref();

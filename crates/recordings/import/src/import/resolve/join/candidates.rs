@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 
 use super::matching::{comparable, seconds};
-use super::timing::usual_step_s;
 use crate::csv_table::number;
 use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
@@ -13,6 +12,9 @@ use crate::import::resolve::coordinate_frame;
 use crate::import::resolve::times::TextTimes;
 use crate::import::resolve::unit_statement::{self, Of, Reading};
 use taceva_dataset::internal::shown;
+
+/// Least number of steps for the usual one.
+const LEAST_STEPS: usize = 10;
 
 /// Table with its candidate rows.
 pub(super) struct Candidates {
@@ -153,7 +155,8 @@ impl Candidates {
                 let back = back.map(<[_]>::to_vec);
                 // The first of several rows at one time is kept.
                 by_time.dedup_by(|later, first| later.0.total_cmp(&first.0).is_eq());
-                *usual_s = usual_step_s(by_time);
+                let steps = by_time.windows(2).map(|pair| pair[1].0 - pair[0].0);
+                *usual_s = usual_step_s(steps.collect());
                 if let Some([_, (_, row)]) = back.as_deref() {
                     return Err(table_error!(
                         table.place(*row, &join.time.column),
@@ -166,4 +169,11 @@ impl Candidates {
         }
         Ok(candidates)
     }
+}
+
+/// Usual of `steps_s`: three quarters are at most as long. `None` for few steps.
+fn usual_step_s(mut steps_s: Vec<f64>) -> Option<f64> {
+    steps_s.sort_by(f64::total_cmp);
+    let usual_s = steps_s.get(steps_s.len() * 3 / 4).copied();
+    usual_s.filter(|_| steps_s.len() >= LEAST_STEPS)
 }

@@ -220,12 +220,3 @@ impl Lagged {
             && 2 * self.by_chance <= self.rows
     }
 }
-
-/// Usual step between rows at `times`, s: three quarters of the steps are at most as long. `None` for few rows.
-pub(super) fn usual_step_s(times: &[(f64, usize)]) -> Option<f64> {
-    let pairs = times.windows(2);
-    let mut steps: Vec<f64> = pairs.map(|pair| pair[1].0 - pair[0].0).collect();
-    steps.sort_by(f64::total_cmp);
-    let usual_s = steps.get(steps.len() * 3 / 4).copied();
-    usual_s.filter(|_| steps.len() as u64 >= LEAST)
-}
