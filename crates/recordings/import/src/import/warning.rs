@@ -80,17 +80,6 @@ pub enum ImportWarning {
         /// Number of these rows at whose time the joined table has a row.
         equal: u64,
     },
-    /// Most rows of the main table have no match by time.
-    JoinFew {
-        /// Name of the join.
-        join: String,
-        /// Number of rows of the main table.
-        rows: u64,
-        /// Number of these rows with a match.
-        matched: u64,
-        /// Spans of the times of both tables, in words.
-        spans: String,
-    },
     /// Times of single rows of a main table are in a wrong order.
     TimeOrder {
         /// File and place of the first such row.
@@ -107,7 +96,7 @@ pub enum ImportWarning {
 
 impl ImportWarning {
     /// Stable code for scripts: `column-twice`, `grouped-digits`, `zone-unstated`, `midnight`, `zero-spread`, `cut-recording`, `join-pause`,
-    /// `join-lag`, `join-few`, `time-order` or `drop-unmatched`.
+    /// `join-lag`, `time-order` or `drop-unmatched`.
     pub fn code(&self) -> &'static str {
         match self {
             ImportWarning::ColumnTwice { .. } => "column-twice",
@@ -118,7 +107,6 @@ impl ImportWarning {
             ImportWarning::CutRecording { .. } => "cut-recording",
             ImportWarning::JoinPause { .. } => "join-pause",
             ImportWarning::JoinLag { .. } => "join-lag",
-            ImportWarning::JoinFew { .. } => "join-few",
             ImportWarning::TimeOrder { .. } => "time-order",
             ImportWarning::DropUnmatched { .. } => "drop-unmatched",
         }
@@ -193,18 +181,6 @@ impl fmt::Display for ImportWarning {
                  `lag_ms = 0`, unless the pictures are delayed that long",
                 taceva_core::shown(join),
                 taceva_core::counted(*rows, "row")
-            ),
-            ImportWarning::JoinFew {
-                join,
-                rows,
-                matched,
-                spans,
-            } => write!(
-                f,
-                "`{}` matches {matched} of {}: {}; compare `lag_ms`, `unit`, `start_s` and `tolerance_ms` with the clocks",
-                taceva_core::shown(join),
-                taceva_core::counted(*rows, "row"),
-                taceva_core::shown(spans)
             ),
             ImportWarning::TimeOrder { at, rows } => write!(
                 f,

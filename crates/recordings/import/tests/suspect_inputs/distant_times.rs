@@ -135,16 +135,3 @@ fn times_in_another_unit_that_match_nothing_are_refused_with_both_spans_and_the_
         }
     }
 }
-
-#[test]
-fn a_join_that_matches_less_than_half_of_the_rows_is_warned_of_with_both_spans() {
-    let ft: Vec<f64> = (0..50).map(|row| 0.1 * f64::from(row)).collect();
-    let cam: Vec<f64> = (0..20).map(f64::from).collect();
-    let warned = warning(&folder(&cam, &ft), "tolerance_ms = 100\nlag_ms = 0\n");
-    assert!(
-        warned.starts_with(
-            "join-few: `ft` matches 5 of 20 rows: times of the rows plus `lag_ms` are 0.000 to 19.000 s, times of `ft` are 0.000 to 4.900 s"
-        ),
-        "{warned}"
-    );
-}

@@ -86,7 +86,7 @@ impl JoinMatches {
 
     /// Warnings about its times.
     pub(in crate::import) fn warnings(&self) -> Vec<ImportWarning> {
-        self.timing.warnings(&self.name, self.matched)
+        self.timing.warnings(&self.name)
     }
 
     /// Spans of the times of both sides in words, if no row of a join by time has a match.

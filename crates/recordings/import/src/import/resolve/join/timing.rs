@@ -4,7 +4,7 @@ use super::candidates::Candidates;
 use crate::import::map::Pick;
 use crate::import::warning::ImportWarning;
 
-/// Least number of rows for a statement about a join.
+/// Least number of rows for a statement about a lag.
 const LEAST: u64 = 10;
 /// Distance of a match across a pause: a multiple of the usual step, and a time, s.
 const FAR: f64 = 3.0;
@@ -159,14 +159,13 @@ impl Timing {
         ))
     }
 
-    /// Warnings about the lag, the tolerance and the matches of `join`, of which `matched` rows have one.
-    pub(super) fn warnings(&self, join: &str, matched: u64) -> Vec<ImportWarning> {
+    /// Warnings about the tolerance and the lag of `join`.
+    pub(super) fn warnings(&self, join: &str) -> Vec<ImportWarning> {
         let mut warnings = Vec::new();
-        let join_name = || join.to_owned();
         if self.far > 0 {
             let most_ms = 1e3 * (FAR * self.usual_s).max(FAR_S);
             warnings.push(ImportWarning::JoinPause {
-                join: join_name(),
+                join: join.to_owned(),
                 rows: self.far,
                 farthest_ms: format!("{:.0}", 1e3 * self.greatest_gap_s.unwrap_or_default()),
                 usual_ms: format!("{:.1}", 1e3 * self.usual_s),
@@ -175,18 +174,10 @@ impl Timing {
         }
         if self.lagged.is_of_one_clock() {
             warnings.push(ImportWarning::JoinLag {
-                join: join_name(),
+                join: join.to_owned(),
                 rows: self.lagged.rows,
                 equal: self.lagged.without_lag,
             });
-        }
-        if self.rows >= LEAST && 2 * matched < self.rows {
-            warnings.extend(self.spans(join).map(|spans| ImportWarning::JoinFew {
-                join: join_name(),
-                rows: self.rows,
-                matched,
-                spans,
-            }));
         }
         warnings
     }
