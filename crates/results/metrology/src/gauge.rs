@@ -1,0 +1,1 @@
+//! Gauge studies: components of variance of a measuring system.
