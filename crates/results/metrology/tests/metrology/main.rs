@@ -1,1 +1,4 @@
 //! Values of published worked examples, recomputed.
+
+mod quantiles;
+mod support;
