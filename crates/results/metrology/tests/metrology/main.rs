@@ -1,4 +1,5 @@
 //! Values of published worked examples, recomputed.
 
+mod gauge;
 mod quantiles;
 mod support;
