@@ -5,6 +5,7 @@ pub mod bench;
 pub mod catalogue;
 mod count;
 pub mod distributions;
+pub mod elementary;
 mod error;
 mod evaluate;
 mod exact;

@@ -7,6 +7,18 @@ pub(crate) fn golden(text: &str) -> Value {
     serde_json::from_str(text).expect("golden values are JSON")
 }
 
+/// The golden case whose name begins with `name`.
+pub(crate) fn case(name: &str) -> Value {
+    let file = golden(include_str!("../golden/limits.json"));
+    let cases = file["cases"].as_array().expect("cases");
+    let is_it = |case: &&Value| {
+        case["name"]
+            .as_str()
+            .is_some_and(|text| text.starts_with(name))
+    };
+    cases.iter().find(is_it).expect("a case").clone()
+}
+
 /// The number at `pointer`.
 pub(crate) fn number(of: &Value, pointer: &str) -> f64 {
     of.pointer(pointer)
