@@ -27,7 +27,7 @@ impl Share {
 /// Regularised incomplete beta functions I(a, b) of `share` and 1 − I, a and b > 0.
 ///
 /// # Reference
-/// Abramowitz and Stegun 26.5.8; NIST Digital Library of Mathematical Functions 8.17.22.
+/// Didonato and Morris, ACM Transactions on Mathematical Software 18 (1992); NIST Digital Library of Mathematical Functions 8.17.
 pub(super) fn beta_tails(a: f64, b: f64, share: Share) -> Tails {
     let Share { part, rest } = share;
     if part <= 0.0 || rest <= 0.0 {
@@ -42,34 +42,45 @@ pub(super) fn beta_tails(a: f64, b: f64, share: Share) -> Tails {
     // xᵃ (1 − x)ᵇ / B(a, b) = a b / n × the binomial density.
     let front = exponential(exponent) * (a / n * b / TAU).sqrt();
     if part <= (a + 1.0) / (n + 2.0) {
-        Tails::of_below(front / a * fraction(a, b, part))
+        Tails::of_below(front * fraction(a, b, share))
     } else {
-        Tails::of_below(front / b * fraction(b, a, rest)).exchanged()
+        let share = Share {
+            part: rest,
+            rest: part,
+        };
+        Tails::of_below(front * fraction(b, a, share)).exchanged()
     }
 }
 
-/// The continued fraction of I, by Lentz's method.
-fn fraction(a: f64, b: f64, x: f64) -> f64 {
+/// The continued fraction of I over xᵃ (1 − x)ᵇ / B(a, b), by Lentz's method.
+///
+/// It has no difference of nearly equal numbers but a − (a + b) x, which is computed from the smaller of x and 1 − x.
+///
+/// # Reference
+/// Didonato and Morris, Algorithm 708, ACM Transactions on Mathematical Software 18 (1992), formula 9.
+fn fraction(a: f64, b: f64, share: Share) -> f64 {
     const LEAST: f64 = 1e-290;
     const MOST: u32 = 1_000_000;
-    let mut c = 1.0;
-    let mut d = 1.0 / least(1.0 - (a + b) * x / (a + 1.0), LEAST);
-    let mut result = d;
+    let Share { part: x, rest: y } = share;
+    let off = match x < y {
+        true => a - (a + b) * x,
+        false => (a + b) * y - b,
+    };
+    let mut c = least(a / (a + 1.0) * (off + 1.0), LEAST);
+    let (mut d, mut result) = (0.0, c);
     for step in 1..MOST {
-        let step = f64::from(step);
-        let twice = a + 2.0 * step;
-        let mut factor = 1.0;
-        let even = step * (b - step) * x / ((twice - 1.0) * twice);
-        let odd = -(a + step) * (a + b + step) * x / (twice * (twice + 1.0));
-        for numerator in [even, odd] {
-            d = 1.0 / least(1.0 + numerator * d, LEAST);
-            c = least(1.0 + numerator / c, LEAST);
-            factor *= c * d;
-        }
+        let n = f64::from(step);
+        let odd = a + 2.0 * n - 1.0;
+        let change = n * (b - n) * x / odd;
+        let above = (a + n - 1.0) / odd * (a + b + n - 1.0) * x * change;
+        let below = n + change + (a + n) / (a + 2.0 * n + 1.0) * (off + 1.0 + n * (1.0 + y));
+        d = 1.0 / least(below + above * d, LEAST);
+        c = least(below + above / c, LEAST);
+        let factor = c * d;
         result *= factor;
         if (factor - 1.0).abs() <= f64::EPSILON {
             break;
         }
     }
-    result
+    1.0 / result
 }

@@ -11,12 +11,13 @@ use crate::stats::exponential::exponential;
 ///
 /// The integrand is analytic and falls off at both ends, so the rule gains digits as fast as it gains points.
 fn tails(t: f64, freedom: f64, noncentrality: f64) -> Tails {
-    /// Exponent of the density below which nothing is left of a sum.
-    const GONE: f64 = 45.0;
+    /// Exponent of the density beyond which nothing is left of a tail of 10⁻²⁷.
+    const GONE: f64 = 100.0;
     let half = freedom / 2.0;
     // 2 (ν/2)^(ν/2) e^(−ν/2) / Γ(ν/2), the density of ln s at s = 1.
     let peak = 2.0 * (half / TAU).sqrt() * exponential(-stirling_error(half));
-    let step = 0.35 / (8.0 + 2.0 * freedom + t * t).sqrt();
+    // Φ changes over a range of ln s of about 1 / |δ|, the density over 1 / √(2 ν).
+    let step = 0.35 / (8.0 + 2.0 * freedom + noncentrality * noncentrality).sqrt();
     let (mut below, mut above) = (0.0, 0.0);
     let mut add = |log: f64| {
         let exponent = half * exponential_excess(2.0 * log);
