@@ -11,8 +11,8 @@
 //! ```
 //!
 //! # Reference
-//! Bland and Altman, Lancet 327 (1986); Carkeet, Optometry and Vision Science 92 (2015), exact ends; Zou, Statistical Methods in Medical
-//! Research 22 (2013), clusters.
+//! Bland and Altman, Lancet 327 (1986); Carkeet, Optometry and Vision Science 92 (2015), exact ends; Satterthwaite, Biometrics Bulletin 2
+//! (1946), clusters.
 
 use serde::{Deserialize, Serialize};
 use taceva_metrics::distributions::{noncentral_t, normal, student_t};
@@ -165,7 +165,8 @@ impl Agreement {
 
     /// Agreement of pairs in clusters, whose differences depend on each other within a cluster.
     ///
-    /// The standard deviation holds both components of variance, with degrees of freedom by Satterthwaite. `None` below two clusters, without
+    /// The standard deviation holds both components of variance, with degrees of freedom by Satterthwaite, so the
+    /// ends are approximate. `None` below two clusters, without
     /// two pairs in one of them, with a value that is not finite, or without any variation.
     ///
     /// ```

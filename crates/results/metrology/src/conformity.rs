@@ -1,9 +1,9 @@
 //! Conformity with a limit: probability, guard bands, decision rules and global risks.
 //!
 //! ```
-//! use taceva_metrology::conformity::{DecisionRule, Limits, Measured, Word, decide};
+//! use taceva_metrology::conformity::{DecisionRule, Limits, Measurement, Word, decide};
 //! // 0.045 N with a standard uncertainty of 0.004 N from 9 degrees of freedom, against at most 0.050 N.
-//! let measured = Measured::new(0.045, 0.004, 9.0)?;
+//! let measured = Measurement::new(0.045, 0.004, 9.0)?;
 //! let limits = Limits::at_most(0.050)?;
 //! let rule = DecisionRule::Guarded { r: 1.0, coverage: 0.95 };
 //! let decision = decide(&measured, &limits, &rule)?;
@@ -19,13 +19,13 @@
 mod decision;
 mod error;
 mod limits;
-mod measured;
+mod measurement;
 mod risk;
 mod rule;
 
 pub use decision::{Decision, Word, decide};
 pub use error::ConformityError;
 pub use limits::Limits;
-pub use measured::Measured;
+pub use measurement::Measurement;
 pub use risk::{GlobalRisk, Process};
 pub use rule::{DecisionRule, RuleSettings};

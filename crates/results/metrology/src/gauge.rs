@@ -27,15 +27,17 @@
 
 mod anova;
 mod assembly;
-mod balanced;
+mod cells;
 mod error;
 mod intervals;
 mod one_way;
 mod range;
+mod reading;
 mod report;
 mod settings;
 mod study;
 mod table;
+mod text;
 
 pub use error::GaugeError;
 pub use one_way::OneWay;

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{ConformityError, DecisionRule, Limits, Measured};
+use super::{ConformityError, DecisionRule, Limits, Measurement};
 
 /// Word of a decision, as ILAC-G8 has it.
 ///
@@ -56,8 +56,8 @@ impl fmt::Display for Word {
 /// Decision on one measured value, with all that it rests on.
 ///
 /// ```
-/// use taceva_metrology::conformity::{DecisionRule, Limits, Measured, decide};
-/// let measured = Measured::new(0.045, 0.004, f64::INFINITY)?;
+/// use taceva_metrology::conformity::{DecisionRule, Limits, Measurement, decide};
+/// let measured = Measurement::new(0.045, 0.004, f64::INFINITY)?;
 /// let rule = DecisionRule::Probability { p_conformity: 0.95 };
 /// let decision = decide(&measured, &Limits::at_most(0.05)?, &rule)?;
 /// let acceptance = decision.acceptance.and_then(|limits| limits.most()).ok_or("a limit")?;
@@ -68,7 +68,7 @@ impl fmt::Display for Word {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Decision {
-    /// Measured value.
+    /// Measurement value.
     pub value: f64,
     /// Standard uncertainty, in the unit of the value.
     pub standard_uncertainty: Option<f64>,
@@ -89,8 +89,8 @@ pub struct Decision {
 /// Decision on `measured` by `rule`.
 ///
 /// ```
-/// use taceva_metrology::conformity::{DecisionRule, Limits, Measured, Word, decide};
-/// let unknown = Measured::without_uncertainty(0.01)?;
+/// use taceva_metrology::conformity::{DecisionRule, Limits, Measurement, Word, decide};
+/// let unknown = Measurement::without_uncertainty(0.01)?;
 /// let rule = DecisionRule::Guarded { r: 1.0, coverage: 0.95 };
 /// let decision = decide(&unknown, &Limits::at_most(0.05)?, &rule)?;
 /// assert_eq!(decision.word, Word::Undecided);
@@ -100,7 +100,7 @@ pub struct Decision {
 /// # Errors
 /// [`ConformityError::Number`] for a rule whose settings are outside their range.
 pub fn decide(
-    measured: &Measured,
+    measured: &Measurement,
     limits: &Limits,
     rule: &DecisionRule,
 ) -> Result<Decision, ConformityError> {
@@ -166,7 +166,7 @@ fn word(is_accepted: bool, is_within: bool, is_refused: bool) -> Word {
 }
 
 /// Limits moved inwards by `guard` on the scale of the distribution; `None` if they leave no room.
-fn moved(measured: &Measured, limits: &Limits, guard: f64) -> Option<Limits> {
+fn moved(measured: &Measurement, limits: &Limits, guard: f64) -> Option<Limits> {
     limits.map(
         |least| measured.moved(least, guard),
         |most| measured.moved(most, -guard),
@@ -174,7 +174,7 @@ fn moved(measured: &Measured, limits: &Limits, guard: f64) -> Option<Limits> {
 }
 
 /// Values that have at least this probability of conformity; `None` if there is none.
-fn acceptance_of(measured: &Measured, limits: &Limits, least: f64) -> Option<Limits> {
+fn acceptance_of(measured: &Measurement, limits: &Limits, least: f64) -> Option<Limits> {
     let u = measured.expanded(0.5)?;
     if u <= 0.0 {
         return Some(*limits);

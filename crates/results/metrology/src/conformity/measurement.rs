@@ -9,14 +9,14 @@ use super::{ConformityError, Limits};
 /// A measured value, and its standard uncertainty with degrees of freedom if there is one.
 ///
 /// ```
-/// use taceva_metrology::conformity::{Limits, Measured};
-/// let measured = Measured::new(0.012, 0.006, f64::INFINITY)?;
+/// use taceva_metrology::conformity::{Limits, Measurement};
+/// let measured = Measurement::new(0.012, 0.006, f64::INFINITY)?;
 /// let p = measured.conformance_probability(&Limits::between(-0.02, 0.02)?);
 /// assert!(p.is_some_and(|p| (p - 0.908_788_732_061_098_4).abs() < 1e-14));
 /// # Ok::<(), taceva_metrology::conformity::ConformityError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measured {
+pub struct Measurement {
     value: f64,
     uncertainty: Option<Uncertainty>,
     is_logarithmic: bool,
@@ -29,12 +29,12 @@ struct Uncertainty {
     freedom: f64,
 }
 
-impl Measured {
+impl Measurement {
     /// Value and standard uncertainty in one unit; `freedom` may be infinite.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a value that is not finite, an uncertainty below 0 or degrees of freedom not above 0.
-    pub fn new(value: f64, standard: f64, freedom: f64) -> Result<Measured, ConformityError> {
+    pub fn new(value: f64, standard: f64, freedom: f64) -> Result<Measurement, ConformityError> {
         let is_right = standard >= 0.0 && standard.is_finite();
         check(
             "the standard uncertainty",
@@ -48,9 +48,9 @@ impl Measured {
             freedom > 0.0,
             "a number above 0",
         )?;
-        Ok(Measured {
+        Ok(Measurement {
             uncertainty: Some(Uncertainty { standard, freedom }),
-            ..Measured::without_uncertainty(value)?
+            ..Measurement::without_uncertainty(value)?
         })
     }
 
@@ -58,9 +58,9 @@ impl Measured {
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a value that is not finite.
-    pub fn without_uncertainty(value: f64) -> Result<Measured, ConformityError> {
+    pub fn without_uncertainty(value: f64) -> Result<Measurement, ConformityError> {
         check("the value", value, value.is_finite(), "a finite number")?;
-        Ok(Measured {
+        Ok(Measurement {
             value,
             uncertainty: None,
             is_logarithmic: false,
@@ -71,14 +71,14 @@ impl Measured {
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a value that is not above 0.
-    pub fn logarithmic(self) -> Result<Measured, ConformityError> {
+    pub fn logarithmic(self) -> Result<Measurement, ConformityError> {
         check(
             "the value",
             self.value,
             self.value > 0.0,
             "a number above 0 on a logarithmic scale",
         )?;
-        Ok(Measured {
+        Ok(Measurement {
             is_logarithmic: true,
             ..self
         })
@@ -176,13 +176,13 @@ impl Measured {
     }
 
     /// The same uncertainty about another value.
-    pub(super) fn at(&self, value: f64) -> Measured {
+    pub(super) fn at(&self, value: f64) -> Measurement {
         let ratio = if self.is_logarithmic {
             value / self.value
         } else {
             1.0
         };
-        Measured {
+        Measurement {
             value,
             uncertainty: self.uncertainty.map(|of| Uncertainty {
                 standard: of.standard * ratio,

@@ -3,7 +3,7 @@
 use taceva_metrics::distributions::f_ratio;
 use taceva_metrics::{Dyadic, ExactSum};
 
-use super::balanced::Balanced;
+use super::cells::Balanced;
 use super::table::{Source, TableRow};
 use super::{Design, GaugeSettings};
 use crate::fraction::Fraction;

@@ -1,7 +1,7 @@
 //! Reports put together from components, intervals and remarks.
 
 use super::anova::{Raw, Squares};
-use super::balanced::Balanced;
+use super::cells::Balanced;
 use super::intervals::{Intervals, intervals};
 use super::range::estimate;
 use super::report::{

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::study::Reading;
+use super::reading::Reading;
 use super::{Design, GaugeError, GaugeSettings};
 
 /// Labels of parts, operators and trials, in alphabetical order.

@@ -7,7 +7,7 @@ use taceva_metrics::distributions::chi_square;
 
 use super::GaugeSettings;
 use super::anova::{Square, Squares, count, real};
-use super::balanced::Balanced;
+use super::cells::Balanced;
 use super::report::ComponentName;
 
 /// Probability outside each end.

@@ -4,7 +4,7 @@ use taceva_metrics::distributions::normal;
 use taceva_metrics::{Dyadic, ExactSum};
 
 use super::anova::{count, real};
-use super::balanced::Balanced;
+use super::cells::Balanced;
 use crate::fraction::Fraction;
 use crate::quadrature::integral;
 
@@ -25,11 +25,11 @@ use crate::quadrature::integral;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RangeConstants {
-    /// Of the mean range of the trials.
+    /// Factor of the mean range of the trials.
     pub k1: f64,
-    /// Of the range of the means of operators.
+    /// Factor of the range of the means of operators.
     pub k2: f64,
-    /// Of the range of the means of parts.
+    /// Factor of the range of the means of parts.
     pub k3: f64,
 }
 
@@ -111,11 +111,11 @@ pub struct RangeEstimate {
     pub equipment: f64,
     /// Appraiser variation, of the operators.
     pub appraiser: f64,
-    /// Of equipment and appraisers together.
+    /// Equipment and appraisers together.
     pub gauge: f64,
-    /// Of the parts.
+    /// Variation of the parts.
     pub part: f64,
-    /// Of all together.
+    /// Gauge and parts together.
     pub total: f64,
 }
 

@@ -3,12 +3,14 @@
 use std::collections::BTreeMap;
 
 use super::assembly::assemble;
-use super::balanced::Balanced;
-use super::{GaugeError, GaugeReport, GaugeSettings};
+use super::cells::{Balanced, Names};
+use super::range::estimate;
+use super::reading::Reading;
+use super::{GaugeError, GaugeReport, GaugeSettings, RangeConstants, RangeEstimate};
 
 /// Labels with numbers in the order of their first use.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Labels {
+struct Labels {
     numbers: BTreeMap<String, usize>,
 }
 
@@ -40,18 +42,9 @@ impl Labels {
         places
     }
 
-    pub(super) fn sorted(&self) -> Vec<&str> {
+    fn sorted(&self) -> Vec<&str> {
         self.numbers.keys().map(String::as_str).collect()
     }
-}
-
-/// One reading, its labels as numbers.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Reading {
-    pub(super) part: usize,
-    pub(super) operator: usize,
-    pub(super) trial: usize,
-    pub(super) value: f64,
 }
 
 /// Readings of a gauge study, in any order.
@@ -147,11 +140,11 @@ impl GaugeStudy {
     pub fn range_with(
         &self,
         settings: &GaugeSettings,
-        constants: &super::RangeConstants,
-    ) -> Result<super::RangeEstimate, GaugeError> {
+        constants: &RangeConstants,
+    ) -> Result<RangeEstimate, GaugeError> {
         settings.check()?;
         let balanced = self.balanced(settings)?;
-        Ok(super::range::estimate(&balanced, constants))
+        Ok(estimate(&balanced, constants))
     }
 
     fn balanced(&self, settings: &GaugeSettings) -> Result<Balanced, GaugeError> {
@@ -168,7 +161,7 @@ impl GaugeStudy {
             })
             .collect();
         readings.sort_by_key(|reading| (reading.part, reading.operator, reading.trial));
-        let labels = super::balanced::Names {
+        let labels = Names {
             parts: &self.parts.sorted(),
             operators: &self.operators.sorted(),
             trials: &self.trials.sorted(),

@@ -2,7 +2,8 @@
 
 use taceva_metrics::distributions::normal;
 use taceva_metrology::conformity::{
-    ConformityError, Decision, DecisionRule, Limits, Measured, Process, RuleSettings, Word, decide,
+    ConformityError, Decision, DecisionRule, Limits, Measurement, Process, RuleSettings, Word,
+    decide,
 };
 
 use crate::support::{case, close, number};
@@ -15,8 +16,8 @@ fn both(least: f64, most: f64) -> Limits {
     Limits::between(least, most).expect("in order")
 }
 
-fn normal_value(value: f64, u: f64) -> Measured {
-    Measured::new(value, u, f64::INFINITY).expect("valid")
+fn normal_value(value: f64, u: f64) -> Measurement {
+    Measurement::new(value, u, f64::INFINITY).expect("valid")
 }
 
 const GUARDED: DecisionRule = DecisionRule::Guarded {
@@ -24,7 +25,7 @@ const GUARDED: DecisionRule = DecisionRule::Guarded {
     coverage: 0.95,
 };
 
-fn decided(measured: &Measured, limits: &Limits, rule: &DecisionRule) -> Decision {
+fn decided(measured: &Measurement, limits: &Limits, rule: &DecisionRule) -> Decision {
     decide(measured, limits, rule).expect("a decision")
 }
 
@@ -47,7 +48,7 @@ fn probabilities_of_conformity_are_those_of_the_reference() {
     let case = case("JCGM 106");
     let one = normal_value(0.045, 0.004).conformance_probability(&at_most(0.05));
     let two = normal_value(0.012, 0.006).conformance_probability(&both(-0.02, 0.02));
-    let student = Measured::new(0.045, 0.004, 9.0).expect("valid");
+    let student = Measurement::new(0.045, 0.004, 9.0).expect("valid");
     let student = student.conformance_probability(&at_most(0.05));
     for (found, key) in [
         (one, "/specific/one-sided hi=0.050 y=0.045 u=0.004"),
@@ -186,10 +187,10 @@ fn acceptance_by_probability_lies_where_the_probability_is_reached() {
         both(0.5, 1.0),
         Limits::at_least(0.5).expect("finite"),
     ] {
-        let measured = Measured::new(0.7, 0.1, 12.0).expect("valid");
+        let measured = Measurement::new(0.7, 0.1, 12.0).expect("valid");
         let inner = decided(&measured, &limits, &rule).acceptance.expect("room");
         for end in [inner.least(), inner.most()].into_iter().flatten() {
-            let at = Measured::new(end, 0.1, 12.0).expect("valid");
+            let at = Measurement::new(end, 0.1, 12.0).expect("valid");
             let p = at.conformance_probability(&limits).expect("p");
             close(p, 0.95, 1e-13, "p");
         }
@@ -204,7 +205,7 @@ fn acceptance_by_probability_lies_where_the_probability_is_reached() {
 
 #[test]
 fn the_simple_rule_looks_at_the_value_alone() {
-    let unknown = Measured::without_uncertainty(0.05).expect("finite");
+    let unknown = Measurement::without_uncertainty(0.05).expect("finite");
     let decision = decided(&unknown, &at_most(0.05), &DecisionRule::Simple);
     assert_eq!(
         (decision.word, decision.conformance_probability),
@@ -240,7 +241,7 @@ fn shared_risk_needs_an_uncertainty_no_greater_than_agreed() {
 
 #[test]
 fn a_score_without_interval_is_undecided() {
-    let unknown = Measured::without_uncertainty(0.01).expect("finite");
+    let unknown = Measurement::without_uncertainty(0.01).expect("finite");
     for rule in [GUARDED, DecisionRule::Probability { p_conformity: 0.9 }] {
         let decision = decided(&unknown, &at_most(0.05), &rule);
         assert_eq!(
@@ -252,7 +253,7 @@ fn a_score_without_interval_is_undecided() {
 
 #[test]
 fn an_error_is_decided_on_a_logarithmic_scale() {
-    let measured = Measured::new(0.08, 0.008, f64::INFINITY).expect("valid");
+    let measured = Measurement::new(0.08, 0.008, f64::INFINITY).expect("valid");
     let measured = measured.logarithmic().expect("above 0");
     let p = measured.conformance_probability(&at_most(0.1)).expect("p");
     close(p, normal::below(1.25_f64.ln() / 0.1), 1e-14, "p");
@@ -260,7 +261,7 @@ fn an_error_is_decided_on_a_logarithmic_scale() {
     let expected = 0.1 * (-0.195_996_398_454_005_4_f64).exp();
     let most = decision.acceptance.and_then(|limits| limits.most());
     close(most.expect("a limit"), expected, 1e-14, "A − w");
-    let refused = Measured::without_uncertainty(0.0).and_then(Measured::logarithmic);
+    let refused = Measurement::without_uncertainty(0.0).and_then(Measurement::logarithmic);
     assert!(refused.is_err());
 }
 
@@ -321,10 +322,10 @@ fn settings_of_two_rules_are_refused() {
 
 #[test]
 fn numbers_outside_their_range_are_refused() {
-    assert!(Measured::new(f64::NAN, 0.1, 9.0).is_err());
-    assert!(Measured::new(1.0, -0.1, 9.0).is_err());
-    assert!(Measured::new(1.0, f64::INFINITY, 9.0).is_err());
-    assert!(Measured::new(1.0, 0.1, 0.0).is_err());
+    assert!(Measurement::new(f64::NAN, 0.1, 9.0).is_err());
+    assert!(Measurement::new(1.0, -0.1, 9.0).is_err());
+    assert!(Measurement::new(1.0, f64::INFINITY, 9.0).is_err());
+    assert!(Measurement::new(1.0, 0.1, 0.0).is_err());
     assert!(Limits::at_most(f64::NAN).is_err() && Limits::between(1.0, 1.0).is_err());
     assert!(Process::new(0.0, 0.0, 0.1).is_err());
 }

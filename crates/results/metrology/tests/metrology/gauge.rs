@@ -1,10 +1,12 @@
 //! Gauge studies: the worked example of AIAG, its nested reading, intervals and refusals.
 
+mod coverage;
 mod exactness;
 mod example;
 mod nested;
 mod range;
 mod refusals;
+mod text;
 
 use serde_json::Value;
 use taceva_metrology::gauge::{Band, ComponentName, Flag, GaugeReport, Source};
