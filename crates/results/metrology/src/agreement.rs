@@ -165,9 +165,9 @@ impl Agreement {
 
     /// Agreement of pairs in clusters, whose differences depend on each other within a cluster.
     ///
-    /// The standard deviation holds both components of variance, with degrees of freedom by Satterthwaite, so the
-    /// ends are approximate. `None` below two clusters, without
-    /// two pairs in one of them, with a value that is not finite, or without any variation.
+    /// The standard deviation holds both components of variance, with degrees of freedom by Satterthwaite. The ends of intervals are
+    /// therefore approximate. `None` below two clusters, without two pairs in one of them, with a value that is not finite, or without any
+    /// variation.
     ///
     /// ```
     /// use taceva_metrology::agreement::{Agreement, Pair};
