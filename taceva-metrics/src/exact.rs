@@ -32,7 +32,7 @@ pub use canonical::{Canonical, CanonicalError};
 pub(crate) use columns::{ColumnAdder, ColumnSums};
 pub(crate) use fixed_sum::FixedSum;
 pub(crate) use machine::Machine;
-pub(crate) use rational::Dyadic;
+pub use rational::Dyadic;
 pub use record::Record;
 pub use streams::{Stream, Streams};
 pub use sum::ExactSum;

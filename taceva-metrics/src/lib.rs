@@ -4,6 +4,8 @@
 pub mod bench;
 pub mod catalogue;
 mod count;
+pub mod distributions;
+pub mod elementary;
 mod error;
 mod evaluate;
 mod exact;
@@ -18,7 +20,7 @@ pub use error::MetricError;
 pub use evaluate::{
     Evaluation, Evaluator, Metric, MetricPlan, Number, Rows, ScoreUnit, Settings, State,
 };
-pub use exact::{Canonical, CanonicalError, ExactSum, Record, Stream, Streams};
+pub use exact::{Canonical, CanonicalError, Dyadic, ExactSum, Record, Stream, Streams};
 pub use families::accuracy::pair_sums::{PairSpec, PairSums};
 pub use families::accuracy::plane::{PLANES, plane_axes, plane_of};
 pub use families::intrinsic::times::STREAM_S;

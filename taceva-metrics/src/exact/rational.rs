@@ -9,8 +9,19 @@ use super::rounding::round;
 use super::sum::ExactSum;
 
 /// An integer times a power of two, exactly.
+///
+/// Sums, differences and products are exact. [`over`](Dyadic::over) and [`root_over`](Dyadic::root_over) round once.
+///
+/// ```
+/// use taceva_metrics::Dyadic;
+/// let tenth = Dyadic::from_f64(0.1);
+/// let square = &tenth * &tenth;
+/// assert_eq!((&square - &square).to_f64(), 0.0);
+/// assert_eq!(square.root_over(&Dyadic::from(1)), 0.1);
+/// assert_eq!(Dyadic::from(2).over(&Dyadic::from(3)), 2.0 / 3.0);
+/// ```
 #[derive(Clone, Debug)]
-pub(crate) struct Dyadic {
+pub struct Dyadic {
     negative: bool,
     magnitude: Natural,
     exponent: i32,
@@ -30,20 +41,25 @@ impl Dyadic {
     }
 
     /// A finite binary64, exactly.
-    pub(crate) fn from_f64(value: f64) -> Dyadic {
+    ///
+    /// # Panics
+    /// If `value` is NaN or infinite.
+    pub fn from_f64(value: f64) -> Dyadic {
         std::iter::once(value).collect::<ExactSum>().to_dyadic()
     }
 
-    pub(crate) fn is_negative(&self) -> bool {
+    /// True below zero.
+    pub fn is_negative(&self) -> bool {
         self.negative && !self.is_zero()
     }
 
-    pub(crate) fn is_zero(&self) -> bool {
+    /// True at zero.
+    pub fn is_zero(&self) -> bool {
         self.magnitude.is_zero()
     }
 
     /// The nearest binary64, ties to even.
-    pub(crate) fn to_f64(&self) -> f64 {
+    pub fn to_f64(&self) -> f64 {
         self.over(&Dyadic::from(1))
     }
 
@@ -51,7 +67,7 @@ impl Dyadic {
     ///
     /// # Panics
     /// If `divisor` is zero.
-    pub(crate) fn over(&self, divisor: &Dyadic) -> f64 {
+    pub fn over(&self, divisor: &Dyadic) -> f64 {
         assert!(!divisor.is_zero(), "a quotient needs a divisor");
         if self.is_zero() {
             return 0.0;
@@ -73,7 +89,7 @@ impl Dyadic {
     ///
     /// # Panics
     /// If `divisor` is zero.
-    pub(crate) fn root_over(&self, divisor: &Dyadic) -> f64 {
+    pub fn root_over(&self, divisor: &Dyadic) -> f64 {
         assert!(!divisor.is_zero(), "a quotient needs a divisor");
         if self.is_zero() || self.negative != divisor.negative {
             return 0.0;

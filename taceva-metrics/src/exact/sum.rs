@@ -118,7 +118,14 @@ impl ExactSum {
         sum
     }
 
-    pub(crate) fn to_dyadic(&self) -> Dyadic {
+    /// The sum itself, for products and quotients of sums.
+    ///
+    /// ```
+    /// use taceva_metrics::{Dyadic, ExactSum};
+    /// let sum: ExactSum = [0.5, 1.0].into_iter().collect();
+    /// assert_eq!(sum.to_dyadic().over(&Dyadic::from(2)), 0.75);
+    /// ```
+    pub fn to_dyadic(&self) -> Dyadic {
         Dyadic::from_canonical(&self.to_canonical())
     }
 

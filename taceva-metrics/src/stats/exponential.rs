@@ -4,7 +4,8 @@
 pub(super) const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
 /// e^x, to a few roundings; 0 or infinity beyond the range of binary64.
-pub(super) fn exponential(x: f64) -> f64 {
+#[must_use]
+pub fn exponential(x: f64) -> f64 {
     /// e^710 is above the greatest number, e^−750 below half of the least.
     const BEYOND: [f64; 2] = [-750.0, 710.0];
     if x.is_nan() {

@@ -3,7 +3,8 @@
 use super::exponential::LN_2;
 
 /// ln x, to a few roundings; minus infinity at 0, and NaN below.
-pub(super) fn logarithm(x: f64) -> f64 {
+#[must_use]
+pub fn logarithm(x: f64) -> f64 {
     /// Factor that raises subnormal numbers to a full mantissa of 53 bits.
     const RAISED: f64 = 18_014_398_509_481_984.0;
     const RAISED_BY: f64 = 54.0;

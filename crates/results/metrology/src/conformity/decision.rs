@@ -1,0 +1,208 @@
+//! Decisions on one measured value.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::{ConformityError, DecisionRule, Limits, Measurement};
+
+/// Word of a decision, as ILAC-G8 has it.
+///
+/// ```
+/// use taceva_metrology::conformity::Word;
+/// assert_eq!(Word::ConditionalPass.to_string(), "conditional pass");
+/// assert!(Word::Pass.is_pass() && !Word::ConditionalPass.is_pass());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum Word {
+    /// Accepted by the rule.
+    #[serde(rename = "pass")]
+    Pass,
+    /// Within the limit, not accepted by the rule.
+    #[serde(rename = "conditional pass")]
+    ConditionalPass,
+    /// Beyond the limit, not refused by the rule.
+    #[serde(rename = "conditional fail")]
+    ConditionalFail,
+    /// Refused by the rule.
+    #[serde(rename = "fail")]
+    Fail,
+    /// Without an uncertainty, or with one greater than agreed.
+    #[serde(rename = "undecided")]
+    Undecided,
+}
+
+impl Word {
+    /// True for a pass without condition.
+    #[must_use]
+    pub fn is_pass(self) -> bool {
+        self == Word::Pass
+    }
+}
+
+impl fmt::Display for Word {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Word::Pass => "pass",
+            Word::ConditionalPass => "conditional pass",
+            Word::ConditionalFail => "conditional fail",
+            Word::Fail => "fail",
+            Word::Undecided => "undecided",
+        })
+    }
+}
+
+/// Decision on one measured value, with all that it rests on.
+///
+/// ```
+/// use taceva_metrology::conformity::{DecisionRule, Limits, Measurement, decide};
+/// let measured = Measurement::new(0.045, 0.004, f64::INFINITY)?;
+/// let rule = DecisionRule::Probability { p_conformity: 0.95 };
+/// let decision = decide(&measured, &Limits::at_most(0.05)?, &rule)?;
+/// let acceptance = decision.acceptance.and_then(|limits| limits.most()).ok_or("a limit")?;
+/// // 1.645 standard uncertainties inside.
+/// assert!((acceptance - (0.05 - 1.644_853_626_951_472_7 * 0.004)).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Decision {
+    /// Measurement value.
+    pub value: f64,
+    /// Standard uncertainty, in the unit of the value.
+    pub standard_uncertainty: Option<f64>,
+    /// Degrees of freedom; none if infinite or unknown.
+    pub freedom: Option<f64>,
+    /// Limits of the tolerance.
+    pub limits: Limits,
+    /// The rule.
+    pub rule: DecisionRule,
+    /// Limits of acceptance; none where no value would be accepted, or without an uncertainty.
+    pub acceptance: Option<Limits>,
+    /// Probability of conformity.
+    pub conformance_probability: Option<f64>,
+    /// The decision in a word.
+    pub word: Word,
+}
+
+/// Decision on `measured` by `rule`.
+///
+/// ```
+/// use taceva_metrology::conformity::{DecisionRule, Limits, Measurement, Word, decide};
+/// let unknown = Measurement::without_uncertainty(0.01)?;
+/// let rule = DecisionRule::Guarded { r: 1.0, coverage: 0.95 };
+/// let decision = decide(&unknown, &Limits::at_most(0.05)?, &rule)?;
+/// assert_eq!(decision.word, Word::Undecided);
+/// # Ok::<(), taceva_metrology::conformity::ConformityError>(())
+/// ```
+///
+/// # Errors
+/// [`ConformityError::Number`] for a rule whose settings are outside their range.
+pub fn decide(
+    measured: &Measurement,
+    limits: &Limits,
+    rule: &DecisionRule,
+) -> Result<Decision, ConformityError> {
+    rule.check()?;
+    let probability = measured.conformance_probability(limits);
+    let is_within = limits.contain(measured.value());
+    let (acceptance, word) = match (rule, probability) {
+        (DecisionRule::Simple, _) => (
+            Some(*limits),
+            if is_within { Word::Pass } else { Word::Fail },
+        ),
+        (_, None) => (None, Word::Undecided),
+        (
+            DecisionRule::Shared {
+                most_uncertainty,
+                coverage,
+            },
+            Some(_),
+        ) => {
+            // Agreed in the unit of the value, on a logarithmic scale too.
+            let ratio = measured.expanded(*coverage).unwrap_or(f64::INFINITY);
+            let expanded = measured.in_unit(ratio);
+            match (expanded <= *most_uncertainty, is_within) {
+                (true, true) => (Some(*limits), Word::Pass),
+                (true, false) => (Some(*limits), Word::Fail),
+                (false, _) => (None, Word::Undecided),
+            }
+        }
+        (DecisionRule::Guarded { r, coverage }, Some(_)) => {
+            let guard = r * measured.expanded(*coverage).unwrap_or(f64::INFINITY);
+            let inner = moved(measured, limits, guard);
+            let outer = moved(measured, limits, -guard);
+            let is_in = |limits: &Option<Limits>| {
+                limits.is_some_and(|limits| limits.contain(measured.value()))
+            };
+            (inner, word(is_in(&inner), is_within, !is_in(&outer)))
+        }
+        (DecisionRule::Probability { p_conformity }, Some(p)) => {
+            let least = *p_conformity;
+            let inner = acceptance_of(measured, limits, least);
+            (inner, word(p >= least, is_within, 1.0 - p >= least))
+        }
+    };
+    Ok(Decision {
+        value: measured.value(),
+        standard_uncertainty: measured.standard_uncertainty(),
+        freedom: measured.freedom().filter(|freedom| freedom.is_finite()),
+        limits: *limits,
+        rule: *rule,
+        acceptance,
+        conformance_probability: probability,
+        word,
+    })
+}
+
+fn word(is_accepted: bool, is_within: bool, is_refused: bool) -> Word {
+    match (is_accepted, is_within, is_refused) {
+        (true, _, _) => Word::Pass,
+        (_, true, _) => Word::ConditionalPass,
+        (_, _, false) => Word::ConditionalFail,
+        (_, _, true) => Word::Fail,
+    }
+}
+
+/// Limits moved inwards by `guard` on the scale of the distribution; `None` if they leave no room.
+fn moved(measured: &Measurement, limits: &Limits, guard: f64) -> Option<Limits> {
+    limits.map(
+        |least| measured.moved(least, guard),
+        |most| measured.moved(most, -guard),
+    )
+}
+
+/// Values that have at least this probability of conformity; `None` if there is none.
+fn acceptance_of(measured: &Measurement, limits: &Limits, least: f64) -> Option<Limits> {
+    let u = measured.expanded(0.5)?;
+    if u <= 0.0 {
+        return Some(*limits);
+    }
+    let is_enough = |guard: f64| {
+        let inner = moved(measured, limits, guard)?;
+        let end = inner.most().or(inner.least())?;
+        let p = measured.at(end).conformance_probability(limits)?;
+        Some(p >= least)
+    };
+    // The probability grows with the guard, up to the middle of two limits.
+    let mut high = u;
+    while is_enough(high) == Some(false) {
+        high *= 2.0;
+    }
+    let mut low = 0.0;
+    loop {
+        let middle = f64::midpoint(low, high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        match is_enough(middle) {
+            Some(false) => low = middle,
+            Some(true) | None => high = middle,
+        }
+    }
+    match is_enough(high) {
+        Some(true) => moved(measured, limits, high),
+        _ => None,
+    }
+}

@@ -1,0 +1,76 @@
+//! Reasons that nothing can be decided.
+
+use thiserror::Error;
+
+/// Reason that nothing can be decided.
+///
+/// ```
+/// use taceva_metrology::conformity::{ConformityError, Limits};
+/// let refused = Limits::between(0.5, 0.2);
+/// assert!(matches!(refused, Err(ConformityError::Limits { .. })));
+/// ```
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum ConformityError {
+    /// A number outside its range.
+    #[error("{name} is {value}, expected {expected}")]
+    Number {
+        /// Name of the number.
+        name: &'static str,
+        /// Value found.
+        value: f64,
+        /// Accepted values.
+        expected: &'static str,
+    },
+    /// Limits that leave no room.
+    #[error("the limits are {least} and {most}, expected a lower one below an upper one")]
+    Limits {
+        /// Lower limit.
+        least: f64,
+        /// Upper limit.
+        most: f64,
+    },
+    /// A setting of another rule.
+    #[error(
+        "`{setting}` with rule = \"{rule}\": expected it with rule = \"{expected}\" alone; remove one of both"
+    )]
+    BothRules {
+        /// Name of the setting.
+        setting: &'static str,
+        /// Rule found.
+        rule: String,
+        /// Rule that has this setting.
+        expected: &'static str,
+    },
+    /// A rule without its setting.
+    #[error("rule = \"{rule}\" needs `{setting}`")]
+    MissingSetting {
+        /// Rule found.
+        rule: &'static str,
+        /// Name of the setting.
+        setting: &'static str,
+    },
+    /// An unknown rule.
+    #[error("rule = \"{rule}\": expected simple, guarded, probability or shared")]
+    UnknownRule {
+        /// Name found.
+        rule: String,
+    },
+}
+
+/// Refuses `value` unless `is_right`.
+pub(super) fn check(
+    name: &'static str,
+    value: f64,
+    is_right: bool,
+    expected: &'static str,
+) -> Result<(), ConformityError> {
+    match is_right {
+        true => Ok(()),
+        false => Err(ConformityError::Number {
+            name,
+            value,
+            expected,
+        }),
+    }
+}

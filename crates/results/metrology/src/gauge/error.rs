@@ -1,0 +1,105 @@
+//! Reasons that a gauge study has no result.
+
+use thiserror::Error;
+
+/// Reason that a gauge study has no result.
+///
+/// ```
+/// use taceva_metrology::gauge::{GaugeError, GaugeSettings, GaugeStudy};
+/// let mut study = GaugeStudy::default();
+/// let refused = study.add("p1", "A", "1", f64::NAN);
+/// assert!(matches!(refused, Err(GaugeError::NotFinite { .. })));
+/// ```
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum GaugeError {
+    /// A setting outside its range.
+    #[error("{name} is {value}, expected {expected}")]
+    Setting {
+        /// Name of the setting.
+        name: &'static str,
+        /// Value found.
+        value: f64,
+        /// Accepted values.
+        expected: &'static str,
+    },
+    /// A reading that is NaN or infinite.
+    #[error(
+        "part {part}, operator {operator}, trial {trial}: the reading is {value}, expected a finite number"
+    )]
+    NotFinite {
+        /// Label of the part.
+        part: String,
+        /// Label of the operator.
+        operator: String,
+        /// Label of the trial.
+        trial: String,
+        /// Value found.
+        value: f64,
+    },
+    /// Two readings of one part, operator and trial.
+    #[error(
+        "part {part}, operator {operator}, trial {trial}: two readings, expected one; give each repeat its own trial"
+    )]
+    RepeatedTrial {
+        /// Label of the part.
+        part: String,
+        /// Label of the operator.
+        operator: String,
+        /// Label of the trial.
+        trial: String,
+    },
+    /// A cell with another number of readings than most.
+    #[error(
+        "part {part}, operator {operator}: {have} readings where most cells have {expected}; `--drop-incomplete` leaves such parts out"
+    )]
+    Incomplete {
+        /// Label of the part.
+        part: String,
+        /// Label of the operator.
+        operator: String,
+        /// Readings found.
+        have: usize,
+        /// Readings of most cells.
+        expected: usize,
+    },
+    /// A nested study in which operators have different numbers of parts.
+    #[error(
+        "operator {operator}: {have} parts where most operators have {expected}; leave parts out until all have as many"
+    )]
+    UnequalParts {
+        /// Label of the operator.
+        operator: String,
+        /// Parts found.
+        have: usize,
+        /// Parts of most operators.
+        expected: usize,
+    },
+    /// Fewer than two operators.
+    #[error(
+        "{have} operators, expected at least 2: reproducibility is a difference between operators"
+    )]
+    TooFewOperators {
+        /// Operators found.
+        have: usize,
+    },
+    /// Fewer than two parts.
+    #[error("{have} complete parts, expected at least 2: parts span the range of the study")]
+    TooFewParts {
+        /// Parts found.
+        have: usize,
+    },
+    /// Fewer than two trials.
+    #[error(
+        "{have} readings of each part by each operator, expected at least 2: repeatability is a difference between repeats"
+    )]
+    TooFewTrials {
+        /// Trials found.
+        have: usize,
+    },
+    /// The range method of a nested study.
+    #[error(
+        "the range method needs parts that every operator measures; use `--method anova` for a nested study"
+    )]
+    RangeOfNested,
+}

@@ -1,0 +1,125 @@
+//! One-way random model: groups that differ, and readings that scatter within them.
+
+use taceva_metrics::{Dyadic, ExactSum};
+
+use super::anova::{count, real};
+use crate::fraction::Fraction;
+
+/// Components of variance of groups of unequal size, in the unit of the readings.
+///
+/// ```
+/// use taceva_metrology::gauge::OneWay;
+/// let found = OneWay::of([[1.0, 2.0].as_slice(), &[4.0, 5.0]]).ok_or("two groups")?;
+/// assert_eq!((found.readings, found.groups, found.mean), (4, 2, 3.0));
+/// assert_eq!(found.within, 0.5_f64.sqrt());
+/// // Mean squares 9 and 0.5, two readings in each group.
+/// assert_eq!(found.between, 4.25_f64.sqrt());
+/// # Ok::<(), &str>(())
+/// ```
+///
+/// # Reference
+/// Searle, Casella and McCulloch, Variance Components (1992), chapter 3; Satterthwaite, Biometrics Bulletin 2 (1946).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct OneWay {
+    /// Number of readings.
+    pub readings: u64,
+    /// Number of groups.
+    pub groups: u64,
+    /// Mean of all readings.
+    pub mean: f64,
+    /// Standard uncertainty of the mean, with groups − 1 degrees of freedom.
+    pub mean_uncertainty: f64,
+    /// Mean square between groups.
+    pub mean_square_between: f64,
+    /// Mean square within groups.
+    pub mean_square_within: f64,
+    /// Readings of a group as they enter the component between groups.
+    pub group_size: f64,
+    /// Standard deviation within groups.
+    pub within: f64,
+    /// Degrees of freedom of `within`: readings − groups.
+    pub within_freedom: f64,
+    /// Standard deviation between groups; 0 for a negative component.
+    pub between: f64,
+    /// Degrees of freedom of `between`; none for a component that is not above 0.
+    pub between_freedom: Option<f64>,
+    /// The component between groups as a variance, before a negative one is replaced by 0.
+    pub between_variance_raw: f64,
+    /// Standard deviation of a single reading, from both components.
+    pub total: f64,
+    /// Degrees of freedom of `total`; none without variation.
+    pub total_freedom: Option<f64>,
+}
+
+impl OneWay {
+    /// Components of finite readings by group; `None` below two groups, or without two readings in one of them.
+    ///
+    /// # Panics
+    /// If a reading is NaN or infinite.
+    pub fn of<'a>(groups: impl IntoIterator<Item = &'a [f64]>) -> Option<OneWay> {
+        let (mut n, mut k, mut squared_sizes) = (0, 0, 0_u64);
+        let (mut sum, mut squares) = (ExactSum::default(), ExactSum::default());
+        let mut of_groups = Fraction::zero();
+        for group in groups.into_iter().filter(|group| !group.is_empty()) {
+            let size = count(group.len());
+            let of_group: ExactSum = group.iter().copied().collect();
+            group
+                .iter()
+                .for_each(|&value| squares.add_product(value, value));
+            sum.merge(&of_group);
+            let of_group = of_group.to_dyadic();
+            of_groups = of_groups.plus(&Fraction::of(&of_group * &of_group, size));
+            n += size;
+            k += 1;
+            squared_sizes += size * size;
+        }
+        if k < 2 || n <= k {
+            return None;
+        }
+        let sum = sum.to_dyadic();
+        let all = Fraction::of(&sum * &sum, n);
+        let within = Fraction::of(squares.to_dyadic(), 1)
+            .minus(&of_groups)
+            .divided(n - k);
+        let between = of_groups.minus(&all).divided(k - 1);
+        // n0 = (n − Σ n² / n) / (k − 1).
+        let above = &(&Dyadic::from(n) * &Dyadic::from(n)) - &Dyadic::from(squared_sizes);
+        let size = Fraction::of(above, n).divided(k - 1);
+        let raw = between.minus(&within);
+        let excess = raw.at_least_zero();
+        let freedoms = [real(k - 1), real(n - k)];
+        let size_f64 = size.to_f64();
+        let (ms_b, ms_w) = (between.to_f64(), within.to_f64());
+        // Variance of one reading: MS_b / n0 + (1 − 1 / n0) MS_w, or MS_w alone.
+        let share = if excess.is_zero() {
+            0.0
+        } else {
+            1.0 / size_f64
+        };
+        let total = share * ms_b + (1.0 - share) * ms_w;
+        let spread = |parts: [f64; 2]| {
+            let [b, w] = parts.map(|part| part * part);
+            b / freedoms[0] + w / freedoms[1]
+        };
+        let of_total = spread([share * ms_b, (1.0 - share) * ms_w]);
+        let difference = raw.to_f64();
+        Some(OneWay {
+            readings: n,
+            groups: k,
+            mean: Fraction::of(sum, n).to_f64(),
+            mean_uncertainty: between.divided(n).root(),
+            mean_square_between: ms_b,
+            mean_square_within: ms_w,
+            group_size: size_f64,
+            within: within.root(),
+            within_freedom: freedoms[1],
+            between: excess.root_over(&size).unwrap_or_default(),
+            between_freedom: (!excess.is_zero())
+                .then(|| difference * difference / spread([ms_b, ms_w])),
+            between_variance_raw: raw.over(&size).unwrap_or_default(),
+            total: total.sqrt(),
+            total_freedom: (of_total > 0.0).then(|| total * total / of_total),
+        })
+    }
+}

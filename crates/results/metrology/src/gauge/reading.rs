@@ -1,0 +1,10 @@
+//! One reading of a study.
+
+/// One reading, its labels as numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reading {
+    pub(super) part: usize,
+    pub(super) operator: usize,
+    pub(super) trial: usize,
+    pub(super) value: f64,
+}

@@ -1,0 +1,57 @@
+//! Table of an analysis of variance.
+
+use serde::{Deserialize, Serialize};
+
+/// Source of variation.
+///
+/// ```
+/// use taceva_metrology::gauge::Source;
+/// assert_ne!(Source::Part, Source::Operator);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum Source {
+    /// Between operators.
+    Operator,
+    /// Between parts; of one operator in a nested study.
+    Part,
+    /// Operators that differ from part to part.
+    Interaction,
+    /// Between trials.
+    Repeatability,
+    /// Interaction and repeatability together.
+    Pooled,
+    /// All readings about their mean.
+    Total,
+}
+
+/// Row of the table, in the square of the unit of the readings.
+///
+/// ```
+/// use taceva_metrology::gauge::{GaugeSettings, GaugeStudy, Source};
+/// let mut study = GaugeStudy::default();
+/// for (at, value) in [1.0, 1.1, 1.2, 1.4, 2.0, 2.2, 2.1, 2.3].into_iter().enumerate() {
+///     study.add(["p", "q"][at / 4], ["A", "B"][at / 2 % 2], ["1", "2"][at % 2], value)?;
+/// }
+/// let report = study.analyse(&GaugeSettings::default())?;
+/// let total = report.table.last().ok_or("a table")?;
+/// assert_eq!((total.source, total.df), (Source::Total, 7));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct TableRow {
+    /// Source of variation.
+    pub source: Source,
+    /// Degrees of freedom.
+    pub df: u64,
+    /// Sum of squares.
+    pub ss: f64,
+    /// Mean square; none for the total.
+    pub ms: Option<f64>,
+    /// Ratio of the mean square to that of the next lower source.
+    pub f: Option<f64>,
+    /// Probability of a greater ratio by chance.
+    pub p: Option<f64>,
+}
