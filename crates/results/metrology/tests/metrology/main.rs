@@ -1,1 +1,3 @@
 //! Values of published worked examples, recomputed.
+
+mod budget;

@@ -1,0 +1,146 @@
+//! Errors of a budget file: line, key, what was found and what is expected.
+
+use std::fmt;
+
+use super::expression::ExpressionError;
+
+/// A rejected budget.
+///
+/// ```
+/// use taceva_metrology::budget::BudgetText;
+/// let error = BudgetText::parse("budget_version = 2\nmeasurand = \"Fz\"").unwrap_err();
+/// assert_eq!(error.to_string(), "line 1, `budget_version`: version 2 is not supported, expected 1");
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct BudgetError {
+    /// Line, from 1, if a single line is at fault.
+    pub line: Option<usize>,
+    /// Key at fault, or the table.
+    pub key: Option<String>,
+    /// Problem.
+    pub problem: Box<BudgetProblem>,
+}
+
+impl BudgetError {
+    pub(super) fn new(
+        line: impl Into<Option<usize>>,
+        key: &str,
+        problem: BudgetProblem,
+    ) -> BudgetError {
+        BudgetError {
+            line: line.into(),
+            key: (!key.is_empty()).then(|| key.to_owned()),
+            problem: Box::new(problem),
+        }
+    }
+}
+
+impl fmt::Display for BudgetError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(line) = self.line {
+            write!(f, "line {line}")?;
+        }
+        if let Some(key) = &self.key {
+            let separator = if self.line.is_some() { ", " } else { "" };
+            write!(f, "{separator}`{}`", taceva_core::shown(key))?;
+        }
+        let separator = if self.line.is_some() || self.key.is_some() {
+            ": "
+        } else {
+            ""
+        };
+        write!(f, "{separator}{}", self.problem)
+    }
+}
+
+impl std::error::Error for BudgetError {}
+
+/// Problems of a budget.
+///
+/// ```
+/// use taceva_metrology::budget::BudgetProblem;
+/// assert_eq!(BudgetProblem::Version(3).to_string(), "version 3 is not supported, expected 1");
+/// ```
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BudgetProblem {
+    /// Invalid TOML, an unknown key, or a value of the wrong type.
+    #[error("{0}")]
+    Syntax(String),
+    /// A version of another program.
+    #[error("version {0} is not supported, expected 1")]
+    Version(u32),
+    /// A number out of its range, or an amount that cannot be read.
+    #[error("`{found}` is found, expected {expected}")]
+    Value {
+        /// Text as found.
+        found: String,
+        /// Accepted values.
+        expected: String,
+    },
+    /// A key that needs another one, or excludes it.
+    #[error("{0}")]
+    Keys(String),
+    /// An unknown name.
+    #[error("`{name}` is no {kind}; {suggestion}")]
+    UnknownName {
+        /// Name as written.
+        name: String,
+        /// Kind of the name.
+        kind: &'static str,
+        /// The nearest name, or all of them.
+        suggestion: String,
+    },
+    /// Two sources of one name, or two that use one figure.
+    #[error("`{name}` is used twice, here and in line {other}")]
+    Twice {
+        /// Name.
+        name: String,
+        /// Line of the first.
+        other: usize,
+    },
+    /// A source that another one holds already.
+    #[error("`{inner}` is inside `{outer}` (line {line}); remove one of them")]
+    Inside {
+        /// Figure that is held.
+        inner: String,
+        /// Figure that holds it.
+        outer: String,
+        /// Line of `outer`.
+        line: usize,
+    },
+    /// Correlations that no variables can have.
+    #[error(
+        "the correlations contradict each other: the least eigenvalue of their matrix is {eigenvalue:.3e}, expected 0 or more"
+    )]
+    NotPositive {
+        /// Least eigenvalue.
+        eigenvalue: f64,
+    },
+    /// An expression that cannot be read or has no value.
+    #[error("{0}")]
+    Expression(ExpressionError),
+    /// A value outside the calibrated range.
+    #[error("{at} {unit} is outside the certificate's range, {low} to {high} {unit}")]
+    OutsideRange {
+        /// Value.
+        at: f64,
+        /// Least calibrated value.
+        low: f64,
+        /// Greatest calibrated value.
+        high: f64,
+        /// Unit of the three.
+        unit: String,
+    },
+    /// A certificate of another instrument.
+    #[error(
+        "the certificate is of serial `{certificate}`, the instrument has serial `{instrument}`"
+    )]
+    OtherSerial {
+        /// Serial in the certificate.
+        certificate: String,
+        /// Serial that the instrument has.
+        instrument: String,
+    },
+}
