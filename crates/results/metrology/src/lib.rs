@@ -2,5 +2,6 @@
 #![doc = include_str!("../README.md")]
 
 pub mod budget;
+pub mod curve;
 pub mod gauge;
 mod numerics;

@@ -1,3 +1,4 @@
 //! Values of published worked examples, recomputed.
 
 mod budget;
+mod curve;
