@@ -130,8 +130,8 @@ fn bell(freedom: Freedom, draws: Draws, counter: u64) -> f64 {
     let first = open_unit(draws.bits(2 * counter));
     match freedom {
         Freedom::Finite(number) => {
-            let square = number * (-2.0 / number * first.ln()).exp_m1();
-            square.sqrt() * (TAU * draws.unit(2 * counter + 1)).cos()
+            let square = number * (first.powf(-2.0 / number) - 1.0);
+            square.max(0.0).sqrt() * (TAU * draws.unit(2 * counter + 1)).cos()
         }
         _ => normal_quantile(first),
     }

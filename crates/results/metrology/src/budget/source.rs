@@ -1,8 +1,8 @@
 //! Sources: from their table in the file, and measured figures, to inputs of the model.
 
 mod keys;
-mod measured;
-mod stated;
+mod measurement;
+mod table;
 
 use taceva_core::{shown, suggestion};
 use taceva_metrics::ExactSum;
