@@ -120,12 +120,7 @@ impl BudgetText {
                 .certificate()
                 .and_then(|certificate| certificate.expiry()),
         );
-        let notes = inputs.iter().filter_map(|input| {
-            input
-                .note
-                .as_ref()
-                .map(|note| format!("{}: {note}", input.name))
-        });
+        let notes = inputs.iter().filter_map(Input::note);
         budget.warnings.extend(notes);
         let drawn = draws
             .filter(|_| combined.u > 0.0)
@@ -212,9 +207,9 @@ fn sources(inputs: &[Input], expansion: &Expansion, u: f64) -> Vec<Source> {
             contribution: c * input.u,
             share: (u > 0.0).then(|| (c * input.u / u).powi(2)),
             from: input.from.clone(),
-            n: input.n,
-            clusters: input.clusters,
-            digest: input.digest.clone(),
+            n: input.n(),
+            clusters: input.figure.as_ref().and_then(|of| of.clusters),
+            digest: input.figure.as_ref().and_then(|of| of.digest.clone()),
         })
         .collect()
 }

@@ -35,22 +35,34 @@ impl Scalar for f64 {
     }
 }
 
-/// A value with its gradient and its Hessian, row by row.
+/// Value of an expression with its derivatives, in units of the expression over those of the inputs.
+///
+/// It gets no further field: derivatives of third order are not computed.
+///
+/// ```
+/// use taceva_metrology::budget::Expression;
+/// let square = Expression::parse("x^2", &["x"])?.expand(&[3.0])?;
+/// assert_eq!((square.gradient[0], square.hessian[0]), (6.0, 2.0));
+/// # Ok::<(), taceva_metrology::budget::ExpressionError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Dual {
-    pub(super) value: f64,
-    pub(super) gradient: Vec<f64>,
-    pub(super) hessian: Vec<f64>,
+pub struct Expansion {
+    /// Value.
+    pub value: f64,
+    /// First derivative by each input.
+    pub gradient: Vec<f64>,
+    /// Second derivatives, row by row.
+    pub hessian: Vec<f64>,
 }
 
-impl Dual {
+impl Expansion {
     /// Input `index` of `count`.
-    pub(super) fn input(value: f64, index: usize, count: usize) -> Dual {
+    pub(super) fn input(value: f64, index: usize, count: usize) -> Expansion {
         let mut gradient = vec![0.0; count];
         if let Some(own) = gradient.get_mut(index) {
             *own = 1.0;
         }
-        Dual {
+        Expansion {
             value,
             gradient,
             hessian: vec![0.0; count * count],
@@ -58,9 +70,9 @@ impl Dual {
     }
 }
 
-impl Scalar for Dual {
-    fn constant(value: f64, like: &Dual) -> Dual {
-        Dual {
+impl Scalar for Expansion {
+    fn constant(value: f64, like: &Expansion) -> Expansion {
+        Expansion {
             value,
             gradient: vec![0.0; like.gradient.len()],
             hessian: vec![0.0; like.hessian.len()],
@@ -71,7 +83,7 @@ impl Scalar for Dual {
         self.value
     }
 
-    fn plus(mut self, other: &Dual) -> Dual {
+    fn plus(mut self, other: &Expansion) -> Expansion {
         self.value += other.value;
         let pairs = self.gradient.iter_mut().zip(&other.gradient);
         pairs
@@ -80,7 +92,7 @@ impl Scalar for Dual {
         self
     }
 
-    fn times(mut self, other: &Dual) -> Dual {
+    fn times(mut self, other: &Expansion) -> Expansion {
         let count = self.gradient.len();
         for row in 0..count {
             for column in 0..count {
@@ -97,7 +109,7 @@ impl Scalar for Dual {
         self
     }
 
-    fn chained(mut self, [value, first, second]: [f64; 3]) -> Dual {
+    fn chained(mut self, [value, first, second]: [f64; 3]) -> Expansion {
         let count = self.gradient.len();
         for row in 0..count {
             for column in 0..count {

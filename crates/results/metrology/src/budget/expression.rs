@@ -4,7 +4,8 @@ mod reader;
 
 use std::fmt;
 
-use super::dual::{Dual, Scalar};
+pub use super::dual::Expansion;
+use super::dual::Scalar;
 
 /// A formula of `+ - * / ^`, `sqrt sin cos tan exp ln`, numbers and names. Angles are in radians.
 ///
@@ -19,26 +20,6 @@ use super::dual::{Dual, Scalar};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
     steps: Vec<Placed>,
-}
-
-/// Value of an expression with its derivatives, in units of the expression over those of the inputs.
-///
-/// It gets no further field: derivatives of third order are not computed.
-///
-/// ```
-/// use taceva_metrology::budget::Expression;
-/// let square = Expression::parse("x^2", &["x"])?.expand(&[3.0])?;
-/// assert_eq!((square.gradient[0], square.hessian[0]), (6.0, 2.0));
-/// # Ok::<(), taceva_metrology::budget::ExpressionError>(())
-/// ```
-#[derive(Clone, Debug, PartialEq)]
-pub struct Expansion {
-    /// Value.
-    pub value: f64,
-    /// First derivative by each input.
-    pub gradient: Vec<f64>,
-    /// Second derivatives, row by row.
-    pub hessian: Vec<f64>,
 }
 
 /// An expression that cannot be read, or has no value at the estimates.
@@ -125,17 +106,12 @@ impl Expression {
     /// # Errors
     /// [`ExpressionError`] with the column of a division by 0, of a root or logarithm without a value or derivative, or of an overflow.
     pub fn expand(&self, inputs: &[f64]) -> Result<Expansion, ExpressionError> {
+        let count = inputs.len();
         let duals = (0..)
             .zip(inputs)
-            .map(|(at, value)| Dual::input(*value, at, inputs.len()));
-        let duals: Vec<Dual> = duals.collect();
-        let zero = Dual::constant(0.0, &Dual::input(0.0, inputs.len(), inputs.len()));
-        let found = self.evaluate(&duals, &zero, &mut Vec::new())?;
-        Ok(Expansion {
-            value: found.value,
-            gradient: found.gradient,
-            hessian: found.hessian,
-        })
+            .map(|(at, value)| Expansion::input(*value, at, count));
+        let zero = Expansion::input(0.0, count, count);
+        self.evaluate(&duals.collect::<Vec<_>>(), &zero, &mut Vec::new())
     }
 
     /// Value at `inputs`; `None` if there is none. `stack` is kept between calls.

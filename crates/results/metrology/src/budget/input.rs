@@ -1,5 +1,6 @@
 //! A source with its numbers: estimate, shape, standard uncertainty and degrees of freedom.
 
+use super::evidence::Figure;
 use super::freedom::Freedom;
 use super::shape::Shape;
 
@@ -21,10 +22,22 @@ pub(super) struct Input {
     pub(super) set: Option<String>,
     pub(super) rows: Vec<f64>,
     pub(super) covers: Option<String>,
-    pub(super) n: Option<u64>,
-    pub(super) clusters: Option<u64>,
-    pub(super) digest: Option<String>,
-    pub(super) note: Option<String>,
+    /// The measured figure that it names.
+    pub(super) figure: Option<Figure>,
+}
+
+impl Input {
+    /// Number of rows behind it.
+    pub(super) fn n(&self) -> Option<u64> {
+        let rows = (!self.rows.is_empty()).then_some(self.rows.len() as u64);
+        rows.or(self.figure.as_ref().and_then(|figure| figure.n))
+    }
+
+    /// Reservation of its figure.
+    pub(super) fn note(&self) -> Option<String> {
+        let note = self.figure.as_ref()?.note.as_ref()?;
+        Some(format!("{}: {note}", self.name))
+    }
 }
 
 /// The way a source enters the model without an expression.

@@ -99,20 +99,11 @@ impl Reader<'_> {
             u: numbers.shape.standard_uncertainty(),
             freedom: numbers.freedom,
             enters,
-            from: of.from.as_ref().map(|from| from.get_ref().clone()),
-            set: of.set.as_ref().map(|set| set.get_ref().clone()),
-            rows: of
-                .rows
-                .as_ref()
-                .map(|rows| rows.get_ref().clone())
-                .unwrap_or_default(),
-            covers: of.covers.as_ref().map(|covers| covers.get_ref().clone()),
-            n: figure
-                .and_then(|figure| figure.n)
-                .or_else(|| of.rows.as_ref().map(|rows| rows.get_ref().len() as u64)),
-            clusters: figure.and_then(|figure| figure.clusters),
-            digest: figure.and_then(|figure| figure.digest.clone()),
-            note: figure.and_then(|figure| figure.note.clone()),
+            from: owned(of.from.as_ref()),
+            set: owned(of.set.as_ref()),
+            rows: owned(of.rows.as_ref()).unwrap_or_default(),
+            covers: owned(of.covers.as_ref()),
+            figure: figure.cloned(),
         })
     }
 
@@ -178,6 +169,10 @@ impl Reader<'_> {
             None => Ok(Freedom::Infinite),
         }
     }
+}
+
+fn owned<T: Clone>(of: Option<&Spanned<T>>) -> Option<T> {
+    of.map(|of| of.get_ref().clone())
 }
 
 /// q − q̄ of each row, rounded twice.

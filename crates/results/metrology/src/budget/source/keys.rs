@@ -18,9 +18,8 @@ impl Reader<'_> {
             of.half_width.is_some(),
         ];
         let error = |problem: String| {
-            Err(self
-                .text
-                .error(&of.name, "source", BudgetProblem::Keys(problem)))
+            let problem = BudgetProblem::Keys(problem);
+            Err(self.text.error(&of.name, "source", problem))
         };
         if origins.into_iter().filter(|is_there| *is_there).count() != 1 {
             return error(format!(
@@ -29,21 +28,19 @@ impl Reader<'_> {
             ));
         }
         let is_from = |name: &str| of.from.as_ref().is_some_and(|from| from.get_ref() == name);
-        let is_shape = |name: &str| {
-            of.shape
-                .as_ref()
-                .is_some_and(|shape| shape.get_ref() == name)
-        };
-        let own_numbers = of.from.is_none() && of.rows.is_none();
+        let is_shape = |name: &str| of.shape.as_ref().is_some_and(|of| of.get_ref() == name);
+        let (own, expanded) = (
+            of.from.is_none() && of.rows.is_none(),
+            of.expanded.is_some(),
+        );
+        let many = of.s.is_some() || of.from.is_some();
+        let bent = is_shape("curvilinear_trapezoid");
+        let numbers = "u`, `U`, `s` or `half_width";
+        // Key, whether it is there and may be, and its owner.
         let keys = [
-            ("k", of.k.is_some(), of.expanded.is_some(), "U"),
-            ("p", of.p.is_some(), of.expanded.is_some(), "U"),
-            (
-                "readings",
-                of.readings.is_some(),
-                of.s.is_some() || of.from.is_some(),
-                "s` or `from",
-            ),
+            ("k", of.k.is_some(), expanded, "U"),
+            ("p", of.p.is_some(), expanded, "U"),
+            ("readings", of.readings.is_some(), many, "s` or `from"),
             (
                 "hours",
                 of.hours.is_some(),
@@ -65,38 +62,21 @@ impl Reader<'_> {
             (
                 "limits",
                 of.limits.is_some(),
-                is_shape("curvilinear_trapezoid"),
+                bent,
                 "shape = \"curvilinear_trapezoid\"",
             ),
-            (
-                "dof",
-                of.dof.is_some(),
-                own_numbers,
-                "u`, `U`, `s` or `half_width",
-            ),
-            (
-                "reliability",
-                of.reliability.is_some(),
-                own_numbers,
-                "u`, `U`, `s` or `half_width",
-            ),
-            (
-                "value",
-                of.value.is_some(),
-                own_numbers,
-                "u`, `U`, `s` or `half_width",
-            ),
+            ("dof", of.dof.is_some(), own, numbers),
+            ("reliability", of.reliability.is_some(), own, numbers),
+            ("value", of.value.is_some(), own, numbers),
+            ("enters", of.enters.is_some(), own, numbers),
         ];
-        let stray = keys
-            .into_iter()
-            .find(|(_, is_there, is_right, _)| *is_there && !is_right);
+        let stray = keys.into_iter().find(|key| key.1 && !key.2);
         if let Some((key, _, _, owner)) = stray {
             return error(format!("the key `{key}` belongs to `{owner}`"));
         }
         if of.expanded.is_some() && of.k.is_some() == of.p.is_some() {
-            return error(
-                "`U` needs its coverage factor `k`, or its probability `p` with `dof`".to_owned(),
-            );
+            let needs = "`U` needs its coverage factor `k`, or its probability `p` with `dof`";
+            return error(needs.to_owned());
         }
         if of.dof.is_some() && of.reliability.is_some() {
             return error("`dof` and `reliability` state the same; remove one of them".to_owned());

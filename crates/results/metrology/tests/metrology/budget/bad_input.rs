@@ -308,6 +308,8 @@ fn unknown_keys_and_missing_ones_are_said_with_their_line() {
         source("u = \"1 mN\"\nbeta = 0.5")
             .contains("the key `beta` belongs to `shape = \"trapezoid\"`")
     );
+    let said = "the key `enters` belongs to `u`, `U`, `s` or `half_width`";
+    assert!(source("from = \"error.within\"\nenters = \"relative\"").contains(said));
     assert!(source("half_width = \"1 mN\"\nshape = \"square\"").contains("`square` is no shape"));
     let said = refusal(
         "budget_version = 1\nmeasurand = \"Fy\"\n",
