@@ -121,26 +121,7 @@ pub enum BudgetProblem {
     /// An expression that cannot be read or has no value.
     #[error("{0}")]
     Expression(ExpressionError),
-    /// A value outside the calibrated range.
-    #[error("{at} {unit} is outside the certificate's range, {low} to {high} {unit}")]
-    OutsideRange {
-        /// Value.
-        at: f64,
-        /// Least calibrated value.
-        low: f64,
-        /// Greatest calibrated value.
-        high: f64,
-        /// Unit of the three.
-        unit: String,
-    },
-    /// A certificate of another instrument.
-    #[error(
-        "the certificate is of serial `{certificate}`, the instrument has serial `{instrument}`"
-    )]
-    OtherSerial {
-        /// Serial in the certificate.
-        certificate: String,
-        /// Serial that the instrument has.
-        instrument: String,
-    },
+    /// A certificate that does not hold for the instrument or the value.
+    #[error("{0}")]
+    Certificate(String),
 }

@@ -93,21 +93,20 @@ impl Reader<'_> {
                 "the recording has no certificate; state it in the rig file, or `U` and `k` here";
             return Err(error(BudgetProblem::Keys(problem.to_owned())));
         };
+        let own = shown(&certificate.serial);
         let other = certificate.instrument_serial.as_ref();
-        if let Some(instrument) = other.filter(|serial| **serial != certificate.serial) {
-            return Err(error(BudgetProblem::OtherSerial {
-                certificate: shown(&certificate.serial).to_string(),
-                instrument: shown(instrument).to_string(),
-            }));
+        if let Some(serial) = other.filter(|serial| **serial != certificate.serial) {
+            return Err(error(BudgetProblem::Certificate(format!(
+                "the certificate is of serial `{own}`, the instrument has serial `{}`",
+                shown(serial)
+            ))));
         }
-        let outside = |range: &[f64; 2]| !(range[0] <= self.at && self.at <= range[1]);
+        let (at, unit) = (self.at, &self.text.unit);
+        let outside = |[low, high]: &[f64; 2]| !(*low <= at && at <= *high);
         if let Some([low, high]) = certificate.range.filter(outside) {
-            return Err(error(BudgetProblem::OutsideRange {
-                at: self.at,
-                low,
-                high,
-                unit: self.text.unit.clone(),
-            }));
+            return Err(error(BudgetProblem::Certificate(format!(
+                "{at} {unit} is outside the certificate's range, {low} to {high} {unit}"
+            ))));
         }
         let u = certificate.standard_uncertainty(self.at);
         let u = u.filter(|u| {
