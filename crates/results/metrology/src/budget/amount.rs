@@ -25,6 +25,8 @@ pub(super) enum Wanted {
     Angle,
     /// Anything: a number as it is, an angle in radians, other units as they are kept.
     Any,
+    /// A number, a share or an angle in radians: the unit of the measurand is none that TacEva converts.
+    Plain,
 }
 
 impl<'de> Deserialize<'de> for Amount {
@@ -89,17 +91,24 @@ impl Amount {
             return Err(wrong("a finite number"));
         }
         match (wanted, unit) {
-            (Wanted::Any | Wanted::Share, None) => Ok(number),
-            (Wanted::Any | Wanted::Angle, Some(unit)) if unit.unit() == Unit::Degree => {
+            (Wanted::Any | Wanted::Plain | Wanted::Share, None) => Ok(number),
+            (Wanted::Any | Wanted::Plain | Wanted::Angle, Some(unit))
+                if unit.unit() == Unit::Degree =>
+            {
                 Ok(unit.convert(number).to_radians())
             }
             (Wanted::Any, Some(unit)) => Ok(unit.convert(number)),
             (Wanted::In(Unit::One), None) => Ok(number),
             (Wanted::In(kept), Some(unit)) if unit.unit() == kept => Ok(unit.convert(number)),
-            (Wanted::Share, Some(unit)) if unit.unit() == Unit::One => Ok(unit.convert(number)),
+            (Wanted::Share | Wanted::Plain, Some(unit)) if unit.unit() == Unit::One => {
+                Ok(unit.convert(number))
+            }
             (Wanted::In(kept), _) => Err(wrong(&format!(
                 "an amount in {kept} or a unit of the same quantity"
             ))),
+            (Wanted::Plain, _) => Err(wrong(
+                "a number in units of the expression: only a `unit` such as mm, N or deg is converted",
+            )),
             (Wanted::Share, _) => Err(wrong("a share of the reading, such as \"1 %\"")),
             (Wanted::Angle, _) => Err(wrong("an angle, such as \"1 deg\"")),
         }

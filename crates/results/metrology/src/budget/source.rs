@@ -74,12 +74,10 @@ impl Reader<'_> {
     fn input(&self, of: &WrittenSource) -> Result<Input, BudgetError> {
         self.check_keys(of)?;
         let enters = self.enters(of)?;
-        let wanted = match (enters, self.text.kept_unit) {
-            _ if self.text.written.expression.is_some() => Wanted::Any,
-            (Enters::Relative, _) => Wanted::Share,
-            (Enters::Cosine, _) => Wanted::Angle,
-            (Enters::Absolute, Some(unit)) => Wanted::In(unit),
-            (Enters::Absolute, None) => Wanted::Any,
+        let wanted = match enters {
+            Enters::Absolute => self.text.wanted(),
+            Enters::Relative => Wanted::Share,
+            Enters::Cosine => Wanted::Angle,
         };
         let stated = self.freedom(of)?;
         let figure = self.figure(of)?;

@@ -2,7 +2,7 @@
 
 use taceva_core::{Channel, Unit, nearest, shown, suggestion};
 
-use super::amount::Wanted;
+use super::amount::{Amount, Wanted};
 use super::error::{BudgetError, BudgetProblem};
 use super::schema::WrittenBudget;
 
@@ -84,71 +84,70 @@ impl BudgetText {
             }
         }
         let name = self.written.measurand.get_ref();
-        let channel = Channel::SIX
-            .into_iter()
-            .find(|channel| channel.name() == name);
-        match (&channel, &self.written.unit) {
-            (Some(channel), None) => self.kept_unit = Some(channel.unit()),
-            (None, None) => {
-                let names = Channel::SIX.map(|channel| channel.name().to_owned());
-                let names: Vec<&str> = names.iter().map(String::as_str).collect();
-                let hint = suggestion(name, &names);
-                let problem = BudgetProblem::Keys(format!(
-                    "`{}` is no channel, so the key `unit` is needed; {hint}",
-                    shown(name)
-                ));
-                return Err(self.error(&self.written.measurand, "measurand", problem));
-            }
-            (_, Some(unit)) => {
-                self.kept_unit = Unit::from_symbol(unit.get_ref());
-                if let Some(channel) =
-                    channel.filter(|channel| Some(channel.unit()) != self.kept_unit)
-                {
-                    let problem = BudgetProblem::Value {
-                        found: shown(unit.get_ref()).to_string(),
-                        expected: format!("{}, the unit of {name}", channel.unit()),
-                    };
-                    return Err(self.error(unit, "unit", problem));
-                }
-            }
-        }
-        let written = self
-            .written
-            .unit
-            .as_ref()
-            .map(|unit| unit.get_ref().clone());
-        self.unit = written
-            .or_else(|| self.kept_unit.map(|unit| unit.to_string()))
-            .unwrap_or_default();
-        if self.written.expression.is_none() && self.kept_unit.is_none() {
-            let units = Unit::ALL.map(|unit| unit.symbol()).join(", ");
-            let problem = BudgetProblem::Keys(format!(
-                "the unit `{}` needs an `expression`; without one the unit is one of {units}",
-                shown(&self.unit)
-            ));
-            return Err(self.error(&self.written.measurand, "unit", problem));
-        }
-        let wanted = match (self.kept_unit, &self.written.expression) {
-            (Some(unit), None) => Wanted::In(unit),
-            _ => Wanted::Any,
+        let channel = Channel::SIX.into_iter().find(|of| of.name() == name);
+        let own = channel.map(|channel| channel.unit());
+        let keys = |problem: String| {
+            let problem = BudgetProblem::Keys(problem);
+            Err(self.error(&self.written.measurand, "unit", problem))
         };
-        let at: Result<Vec<f64>, BudgetError> = self
+        let unit = match (&self.written.unit, own) {
+            (Some(unit), _) => unit.get_ref().clone(),
+            (None, Some(own)) => own.to_string(),
+            (None, None) => {
+                let hint = suggestion(name, &["Px", "Py", "Pz", "Fx", "Fy", "Fz"]);
+                let name = shown(name);
+                return keys(format!(
+                    "`{name}` is no channel, so the key `unit` is needed; {hint}"
+                ));
+            }
+        };
+        let kept = Unit::from_symbol(&unit);
+        let label = shown(&unit);
+        if let Some(own) = own.filter(|own| kept != Some(*own)) {
+            return keys(format!(
+                "`{label}` is found, expected {own}, the unit of {name}"
+            ));
+        }
+        match (kept, &self.written.expression) {
+            (None, None) => {
+                let units = Unit::ALL.map(|unit| unit.symbol()).join(", ");
+                return keys(format!(
+                    "the unit `{label}` needs an `expression`; without one the unit is one of {units}"
+                ));
+            }
+            (Some(Unit::Degree), Some(_)) => {
+                let needs = "angles of an `expression` are in radians; state `unit = \"rad\"`";
+                return keys(needs.to_owned());
+            }
+            _ => {}
+        }
+        (self.kept_unit, self.unit) = (kept, unit);
+        let wanted = self.wanted();
+        let resolved = |at: &toml::Spanned<Amount>| {
+            let found = at.get_ref().resolve(wanted);
+            found.map_err(|problem| self.error(at, "at", problem))
+        };
+        self.at = self
             .written
             .at
             .iter()
-            .map(|at| {
-                at.get_ref()
-                    .resolve(wanted)
-                    .map_err(|problem| self.error(at, "at", problem))
-            })
-            .collect();
-        self.at = at?;
+            .map(resolved)
+            .collect::<Result<_, _>>()?;
         if self.at.is_empty() && self.written.expression.is_none() {
             let problem =
                 BudgetProblem::Keys("the key `at` is missing, such as `at = [\"1 N\"]`".to_owned());
             return Err(self.error(&self.written.measurand, "at", problem));
         }
         Ok(())
+    }
+
+    /// The quantity of the measurand, and of what is added to it.
+    pub(super) fn wanted(&self) -> Wanted {
+        match (self.kept_unit, &self.written.expression) {
+            (Some(unit), None) => Wanted::In(unit),
+            (Some(_), Some(_)) => Wanted::Any,
+            (None, _) => Wanted::Plain,
+        }
     }
 
     /// Line of a value.

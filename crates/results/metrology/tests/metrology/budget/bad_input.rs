@@ -42,6 +42,46 @@ fn a_unit_of_another_quantity_is_refused() {
 }
 
 #[test]
+fn an_amount_that_would_be_converted_to_another_unit_than_the_results_is_refused() {
+    let text = |unit: &str| {
+        format!(
+            "budget_version = 1\nmeasurand = \"l\"\nunit = \"{unit}\"\nexpression = \"2 * x\"\n[[source]]\nname = \"x\"\nvalue = \"25 nm\"\nu = \"5 nm\"\n"
+        )
+    };
+    let said = refusal(&text("nm"), &Evidence::default());
+    assert!(
+        said.starts_with("line 8, `u`: `5 nm` is found, expected a number in units"),
+        "{said}"
+    );
+    let said = refusal(&text("deg"), &Evidence::default());
+    assert_eq!(
+        said,
+        "line 2, `unit`: angles of an `expression` are in radians; state `unit = \"rad\"`"
+    );
+    let budget = budgets(&text("mm")).remove(0);
+    assert_eq!((budget.value, budget.unit.as_str()), (5e-5, "mm"));
+}
+
+#[test]
+fn a_unit_that_is_not_the_channels_is_refused() {
+    let text = |measurand: &str, unit: &str| {
+        format!(
+            "budget_version = 1\nmeasurand = \"{measurand}\"\nunit = \"{unit}\"\nat = [\"1 N\"]\n"
+        )
+    };
+    let said = refusal(&text("Fz", "mN"), &Evidence::default());
+    assert_eq!(
+        said,
+        "line 2, `unit`: `mN` is found, expected N, the unit of Fz"
+    );
+    let said = refusal(&text("force", "mN"), &Evidence::default());
+    assert!(
+        said.starts_with("line 2, `unit`: the unit `mN` needs an `expression`"),
+        "{said}"
+    );
+}
+
+#[test]
 fn negative_and_infinite_uncertainties_are_refused() {
     assert_eq!(
         source("u = \"-2 mN\""),
