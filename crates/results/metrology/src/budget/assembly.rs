@@ -31,12 +31,10 @@ impl BudgetText {
         draws: impl Into<Option<MonteCarlo>>,
     ) -> Result<Vec<Budget>, BudgetError> {
         let draws = draws.into();
+        let budget = |at: Option<f64>| self.budget(evidence, at, draws);
         match self.at.as_slice() {
-            [] => Ok(vec![self.budget(evidence, None, draws)?]),
-            all => all
-                .iter()
-                .map(|at| self.budget(evidence, Some(*at), draws))
-                .collect(),
+            [] => Ok(vec![budget(None)?]),
+            all => all.iter().map(|at| budget(Some(*at))).collect(),
         }
     }
 
@@ -55,20 +53,14 @@ impl BudgetText {
         overlap::check(&inputs)?;
         let expression = self.model(&inputs, at)?;
         let constants: Vec<f64> = at.into_iter().collect();
-        let estimates: Vec<f64> = inputs
-            .iter()
-            .map(|input| input.value)
-            .chain(constants.clone())
-            .collect();
-        let expansion = expression
-            .expand(&estimates)
-            .map_err(|error| self.of_expression(error))?;
+        let own = inputs.iter().map(|input| input.value);
+        let estimates: Vec<f64> = own.chain(constants.clone()).collect();
+        let expansion = expression.expand(&estimates);
+        let expansion = expansion.map_err(|error| self.of_expression(error))?;
         let correlations = Correlations::of(self, &inputs, &contributions(&inputs, &expansion))?;
         let combined = combine(&inputs, &expansion, &correlations);
-        let k = combined
-            .freedom
-            .number()
-            .map(|number| student_quantile(self.coverage, number.floor().max(1.0)));
+        let factor = |number: f64| student_quantile(self.coverage, number.floor().max(1.0));
+        let k = combined.freedom.number().map(factor);
         let expanded = match combined.freedom {
             Freedom::Undefined(Undefined::NoUncertainty) => Some(0.0),
             _ => k.map(|k| k * combined.u),
@@ -92,8 +84,7 @@ impl BudgetText {
             k,
             p: self.coverage,
             expanded,
-            interval: expanded
-                .map(|expanded| [expansion.value - expanded, expansion.value + expanded]),
+            interval: expanded.map(|half| [expansion.value - half, expansion.value + half]),
             method: Method::FirstOrder,
             sources: sources(&inputs, &expansion, combined.u),
             correlations: stated(&inputs, &correlations),
@@ -110,16 +101,11 @@ impl BudgetText {
         if self.written.expression.is_none() {
             budget.missing = overlap::missing(&inputs, evidence);
             if evidence.certificate().is_none() {
-                budget.warnings.push(
-                    "not traceable: the recording has no certificate of its reference".to_owned(),
-                );
+                budget.warn("not traceable: the recording has no certificate of its reference");
             }
         }
-        budget.warnings.extend(
-            evidence
-                .certificate()
-                .and_then(|certificate| certificate.expiry()),
-        );
+        let expiry = evidence.certificate().and_then(|of| of.expiry());
+        budget.warnings.extend(expiry);
         let notes = inputs.iter().filter_map(Input::note);
         budget.warnings.extend(notes);
         let drawn = draws
@@ -127,22 +113,18 @@ impl BudgetText {
             .map(|request| sampler.run(request, expansion.value));
         match drawn {
             Some(Some(result)) => budget.take_draws(result, &inputs, &combined, &correlations),
-            Some(None) => budget.warnings.push(
-                "no Monte Carlo result: a draw leaves the domain of the expression, so sources are too wide for it".to_owned(),
+            Some(None) => budget.warn(
+                "no Monte Carlo result: a draw leaves the domain of the expression, so sources are too wide for it",
             ),
             None => {}
         }
         if let Freedom::Undefined(reason) = budget.nu_eff {
             let remedy = match (reason, budget.method) {
-                (Undefined::CorrelatedFreedom, Method::FirstOrder) => "; ask for Monte Carlo draws",
-                (Undefined::CorrelatedFreedom, Method::MonteCarlo) => {
-                    "; the interval is of the draws"
-                }
-                (Undefined::NoUncertainty, _) => "; U is 0",
+                (Undefined::NoUncertainty, _) => "U is 0",
+                (_, Method::FirstOrder) => "ask for Monte Carlo draws",
+                (_, Method::MonteCarlo) => "the interval is of the draws",
             };
-            budget
-                .warnings
-                .push(format!("nu_eff is undefined: {reason}{remedy}"));
+            budget.warn(format!("nu_eff is undefined: {reason}; {remedy}"));
         }
         Ok(budget)
     }
@@ -157,38 +139,21 @@ impl BudgetText {
         }
         let mut steps = vec![Step::Input(inputs.len())];
         for order in [Enters::Cosine, Enters::Relative, Enters::Absolute] {
-            for (place, _) in inputs
-                .iter()
-                .enumerate()
-                .filter(|(_, input)| input.enters == order)
-            {
-                match order {
-                    Enters::Cosine => steps.extend([
-                        Step::Input(place),
-                        Step::Call(Function::Cos),
-                        Step::Multiply,
-                    ]),
-                    Enters::Relative => {
-                        steps.extend([
-                            Step::Number(1.0),
-                            Step::Input(place),
-                            Step::Add,
-                            Step::Multiply,
-                        ]);
-                    }
-                    Enters::Absolute => steps.extend([Step::Input(place), Step::Add]),
-                }
+            for at in (0..inputs.len()).filter(|at| inputs[*at].enters == order) {
+                let input = Step::Input(at);
+                steps.extend(match order {
+                    Enters::Cosine => vec![input, Step::Call(Function::Cos), Step::Multiply],
+                    Enters::Relative => vec![Step::Number(1.0), input, Step::Add, Step::Multiply],
+                    Enters::Absolute => vec![input, Step::Add],
+                });
             }
         }
         Ok(Expression::of_steps(steps))
     }
 
     fn of_expression(&self, error: ExpressionError) -> BudgetError {
-        let place = self
-            .written
-            .expression
-            .as_ref()
-            .map(|written| self.line(written));
+        let written = self.written.expression.as_ref();
+        let place = written.map(|written| self.line(written));
         BudgetError::new(place, "expression", BudgetProblem::Expression(error))
     }
 }
@@ -224,6 +189,10 @@ fn stated(inputs: &[Input], correlations: &Correlations) -> Vec<Correlation> {
 }
 
 impl Budget {
+    fn warn(&mut self, warning: impl Into<String>) {
+        self.warnings.push(warning.into());
+    }
+
     /// Adds the result of the draws. They give the interval if that of first order is not confirmed.
     fn take_draws(
         &mut self,
@@ -235,16 +204,14 @@ impl Budget {
         let tolerance = drawn.tolerance;
         drawn.validated = self.interval.is_some_and(|own| {
             let ends = own.into_iter().zip(drawn.symmetric);
-            ends.fold(true, |all, (own, end)| {
-                all && (own - end).abs() <= tolerance
-            })
+            ends.map(|(own, end)| (own - end).abs()).fold(0.0, f64::max) <= tolerance
         });
         let heavy = inputs.iter().find(|input| {
             let is_heavy = matches!(input.freedom, Freedom::Finite(number) if number <= 2.0);
             is_heavy && input.u > 0.0 && (input.shape.is_bell() || input.set.is_some())
         });
         if let Some(input) = heavy {
-            self.warnings.push(format!(
+            self.warn(format!(
                 "the standard deviation of the draws has no limit: `{}` has {} degrees of freedom",
                 input.name, input.freedom
             ));
@@ -252,7 +219,7 @@ impl Budget {
         let bent =
             (0..inputs.len()).find(|at| r.is_correlated(*at) && !inputs[*at].shape.is_bell());
         if let Some(at) = bent {
-            self.warnings.push(format!(
+            self.warn(format!(
                 "`{}` is correlated, so its draws are normal and not {}",
                 inputs[at].name,
                 inputs[at].shape.name()
@@ -262,7 +229,7 @@ impl Budget {
             self.interval = Some(drawn.symmetric);
             self.method = Method::MonteCarlo;
             if self.k.is_some() {
-                self.warnings.push(format!(
+                self.warn(format!(
                     "the interval is of the draws: {}",
                     reason(&drawn, inputs, combined)
                 ));

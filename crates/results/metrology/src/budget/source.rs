@@ -136,38 +136,49 @@ impl Reader<'_> {
         (found >= 0.0).then_some(found).ok_or_else(problem)
     }
 
-    /// A number for which `is_right`.
-    fn number(
-        &self,
-        of: &Spanned<f64>,
-        key: &str,
-        is_right: fn(f64) -> bool,
-        expected: &str,
-    ) -> Result<f64, BudgetError> {
+    /// A number of a range.
+    fn number(&self, of: &Spanned<f64>, key: &str, range: &Range) -> Result<f64, BudgetError> {
         let found = *of.get_ref();
-        let problem = || self.text.error(of, key, value(found, expected));
-        is_right(found).then_some(found).ok_or_else(problem)
+        let problem = || self.text.error(of, key, value(found, range.words));
+        (range.holds)(found).then_some(found).ok_or_else(problem)
     }
 
     fn freedom(&self, of: &WrittenSource) -> Result<Freedom, BudgetError> {
         if let Some(dof) = &of.dof {
-            let number = self.number(dof, "dof", |dof| dof > 0.0, "a number above 0, or inf")?;
-            return Ok(if number.is_infinite() {
-                Freedom::Infinite
-            } else {
-                Freedom::Finite(number)
+            let number = self.number(dof, "dof", &DOF)?;
+            return Ok(match number.is_infinite() {
+                true => Freedom::Infinite,
+                false => Freedom::Finite(number),
             });
         }
         match &of.reliability {
-            Some(reliability) => Ok(Freedom::of_reliability(self.width(
-                reliability,
-                "reliability",
-                Wanted::Share,
-            )?)),
+            Some(of) => {
+                let share = self.width(of, "reliability", Wanted::Share)?;
+                Ok(Freedom::of_reliability(share))
+            }
             None => Ok(Freedom::Infinite),
         }
     }
 }
+
+/// Accepted numbers of a key.
+struct Range {
+    holds: fn(f64) -> bool,
+    words: &'static str,
+}
+
+impl Range {
+    const fn new(words: &'static str, holds: fn(f64) -> bool) -> Range {
+        Range { holds, words }
+    }
+}
+
+const DOF: Range = Range::new("a number above 0, or inf", |dof| dof > 0.0);
+const FACTOR: Range = Range::new("a number above 0", |k| k > 0.0 && k.is_finite());
+const PROBABILITY: Range = Range::new("a number between 0 and 1", |p| p > 0.0 && p < 1.0);
+const SHARE: Range = Range::new("a number from 0 to 1", |beta| (0.0..=1.0).contains(&beta));
+const HOURS: Range = Range::new("0 or more", |hours| hours >= 0.0 && hours.is_finite());
+const READINGS: Range = Range::new("1 or more", |n| n >= 1.0 && n.is_finite());
 
 fn owned<T: Clone>(of: Option<&Spanned<T>>) -> Option<T> {
     of.map(|of| of.get_ref().clone())

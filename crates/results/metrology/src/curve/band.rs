@@ -1,6 +1,6 @@
 //! Bands about a curve.
 
-use super::fit::CurveFit;
+use super::fit::{Clustered, CurveFit};
 use super::squares::{Square, form};
 use super::undefined::{CurveUndefined, probability};
 use crate::numerics::{f_quantile, student_quantile};
@@ -66,25 +66,28 @@ pub(super) struct Spread {
 }
 
 impl CurveFit {
-    /// Covariances that are defined.
-    pub(super) fn spreads(&self) -> impl Iterator<Item = Spread> {
+    /// Covariance of independent rows.
+    pub(super) fn of_rows(&self) -> Spread {
         let square = self.residual_deviation().powi(2);
-        let rows = Spread {
-            covariance: self
-                .solution
-                .inverse
-                .map(|row| row.map(|cell| cell * square)),
+        let inverse = self.solution.inverse;
+        Spread {
+            covariance: inverse.map(|row| row.map(|cell| cell * square)),
             freedom: self.freedom(),
             of: CovarianceOf::Rows,
-        };
-        let points = self.clustered.iter().map(|of| Spread {
-            covariance: of.covariance,
-            freedom: (of.clusters - 1) as f64,
-            of: CovarianceOf::Points {
-                clusters: of.clusters,
-            },
-        });
-        std::iter::once(rows).chain(points)
+        }
+    }
+
+    /// Covariance between points, if it is defined.
+    pub(super) fn of_points(&self) -> Option<Spread> {
+        let Clustered {
+            covariance,
+            clusters,
+        } = *self.clustered.as_ref()?;
+        Some(Spread {
+            covariance,
+            freedom: (clusters - 1) as f64,
+            of: CovarianceOf::Points { clusters },
+        })
     }
 
     /// The widest of the bands factor(ν) √(extra + z₀ᵀ cov z₀).
@@ -103,20 +106,11 @@ impl CurveFit {
                 covariance: spread.of,
             }
         };
-        let mut bands = self.spreads().map(band);
-        let first = bands.next();
-        let widest = bands.fold(first, |best, next| match best {
-            Some(best) if best.high >= next.high => Some(best),
-            _ => Some(next),
-        });
-        widest.unwrap_or(Band {
-            value,
-            low: value,
-            high: value,
-            u: 0.0,
-            freedom: self.freedom(),
-            covariance: CovarianceOf::Rows,
-        })
+        let rows = band(self.of_rows());
+        match self.of_points().map(band) {
+            Some(points) if points.high > rows.high => points,
+            _ => rows,
+        }
     }
 
     /// Confidence band of the curve at one x: y ± t u(y).

@@ -51,7 +51,10 @@ impl CurveFit {
         let (p, extra) = (probability(p)?, self.reading_variance(readings)?);
         let [a, b, ..] = self.solution.coefficients;
         let mut widest: Option<InversePrediction> = None;
-        for spread in self.spreads() {
+        for spread in [Some(self.of_rows()), self.of_points()]
+            .into_iter()
+            .flatten()
+        {
             let t = student_quantile(p, spread.freedom);
             let [[v_aa, v_ab, ..], [_, v_bb, ..], ..] = spread.covariance;
             let g = t * t * v_bb / (b * b);

@@ -3,7 +3,7 @@
 use taceva_core::shown;
 use toml::Spanned;
 
-use super::{Numbers, Reader, unknown};
+use super::{HOURS, Numbers, READINGS, Reader, unknown};
 use crate::budget::error::{BudgetError, BudgetProblem};
 use crate::budget::evidence::Figure;
 use crate::budget::freedom::Freedom;
@@ -54,12 +54,7 @@ impl Reader<'_> {
                 );
                 return Err(self.text.error(from, "hours", problem));
             };
-            let hours = self.number(
-                hours,
-                "hours",
-                |hours| hours >= 0.0 && hours.is_finite(),
-                "0 or more",
-            )?;
+            let hours = self.number(hours, "hours", &HOURS)?;
             let half_width = figure.value.abs() * hours;
             return Ok(Numbers {
                 shape: Shape::Rectangular { half_width },
@@ -76,12 +71,7 @@ impl Reader<'_> {
 
     pub(super) fn readings(&self, of: &WrittenSource) -> Result<f64, BudgetError> {
         match &of.readings {
-            Some(readings) => self.number(
-                readings,
-                "readings",
-                |n| n >= 1.0 && n.is_finite(),
-                "1 or more",
-            ),
+            Some(readings) => self.number(readings, "readings", &READINGS),
             None => Ok(1.0),
         }
     }

@@ -4,7 +4,7 @@ use taceva_core::shown;
 use taceva_metrics::ExactSum;
 use toml::Spanned;
 
-use super::{Numbers, Reader, deviations, unknown};
+use super::{FACTOR, Numbers, PROBABILITY, Reader, SHARE, deviations, unknown};
 use crate::budget::amount::Wanted;
 use crate::budget::certificate::Coverage;
 use crate::budget::error::{BudgetError, BudgetProblem};
@@ -34,25 +34,16 @@ impl Reader<'_> {
         }
         if let Some(expanded) = &of.expanded {
             let coverage = match (&of.k, &of.p) {
-                (Some(k), _) => Coverage::Factor(self.number(
-                    k,
-                    "k",
-                    |k| k > 0.0 && k.is_finite(),
-                    "a number above 0",
-                )?),
+                (Some(k), _) => Coverage::Factor(self.number(k, "k", &FACTOR)?),
                 (None, p) => {
-                    let p = p.as_ref().map(|p| {
-                        self.number(p, "p", |p| p > 0.0 && p < 1.0, "a number between 0 and 1")
-                    });
+                    let p = p.as_ref().map(|p| self.number(p, "p", &PROBABILITY));
                     let p = p.transpose()?.unwrap_or_default();
                     Coverage::Probability { p, freedom }
                 }
             };
             let expanded = self.width(expanded, "U", wanted)?;
-            return Ok(Numbers::normal(
-                expanded / coverage.factor().unwrap_or(1.0),
-                freedom,
-            ));
+            let u = expanded / coverage.factor().unwrap_or(1.0);
+            return Ok(Numbers::normal(u, freedom));
         }
         if let Some(s) = &of.s {
             let u = self.width(s, "s", wanted)? / self.readings(of)?.sqrt();
@@ -107,12 +98,7 @@ impl Reader<'_> {
             "arcsine" => Ok(Shape::Arcsine { half_width }),
             "trapezoid" => {
                 let beta = of.beta.as_ref().ok_or_else(|| missing("beta"))?;
-                let beta = self.number(
-                    beta,
-                    "beta",
-                    |beta| (0.0..=1.0).contains(&beta),
-                    "a number from 0 to 1",
-                )?;
+                let beta = self.number(beta, "beta", &SHARE)?;
                 Ok(Shape::Trapezoid { half_width, beta })
             }
             "curvilinear_trapezoid" => {
