@@ -118,12 +118,7 @@ impl Sampler<'_> {
     pub(super) fn run(&self, request: MonteCarlo, estimate: f64) -> Option<MonteCarloResult> {
         // A block holds 100 values beyond its interval, JCGM 101, 7.9.4.
         let tails = (100.0 / (1.0 - self.coverage)).ceil().min(1e7);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "from 1 to 10⁷"
-        )]
-        let block = BLOCK.max(tails as u64);
+        let block = BLOCK.max(whole(tails) as u64);
         let blocks = request.draws.div_ceil(block).max(2);
         let mut all: Vec<f64> = Vec::new();
         let mut stable = Stability::default();
@@ -157,9 +152,8 @@ impl Sampler<'_> {
 
     fn block(&self, seed: u64, counters: std::ops::Range<u64>) -> Option<Vec<f64>> {
         let draws = Draws::new(seed);
-        let of_inputs: Vec<Draws> = (0..self.inputs.len() as u64)
-            .map(|at| draws.of(at))
-            .collect();
+        let count = self.inputs.len() as u64;
+        let of_inputs: Vec<Draws> = (0..count).map(|at| draws.of(at)).collect();
         let joint = Joint::of(self, draws);
         let mut stack = Vec::new();
         let mut values: Vec<f64> = Vec::new();
@@ -174,11 +168,9 @@ impl Sampler<'_> {
                 false => input.shape.draw(input.freedom, *draws, counter),
             }));
             joint.draw(counter, &mut drawn);
-            let inputs = self.inputs.iter().zip(&drawn);
-            point
-                .iter_mut()
-                .zip(inputs)
-                .for_each(|(at, (input, off))| *at = input.value + off);
+            for ((at, input), off) in point.iter_mut().zip(self.inputs).zip(&drawn) {
+                *at = input.value + off;
+            }
             values.push(self.expression.value(&point, &mut stack)?);
         }
         Some(values)
@@ -201,29 +193,21 @@ impl<'a> Joint<'a> {
         let is_member =
             |at: &usize| sampler.correlations.is_correlated(*at) || inputs[*at].set.is_some();
         let members: Vec<usize> = (0..inputs.len()).filter(is_member).collect();
-        let first_of_set = |at: usize| {
-            (0..at)
-                .find(|first| inputs[*first].is_of_set_of(&inputs[at]))
-                .unwrap_or(at)
-        };
+        let first = |at: usize| (0..at).find(|first| inputs[*first].is_of_set_of(&inputs[at]));
+        let factor = |at: &usize| draws.of(FACTOR + first(*at).unwrap_or(*at) as u64);
+        let normal = |at: usize| draws.of(JOINT + at as u64);
         Joint {
             inputs,
             lower: sampler.correlations.factor(),
-            normals: (0..inputs.len() as u64)
-                .map(|at| draws.of(JOINT + at))
-                .collect(),
-            factors: members
-                .iter()
-                .map(|at| draws.of(FACTOR + first_of_set(*at) as u64))
-                .collect(),
+            normals: (0..inputs.len()).map(normal).collect(),
+            factors: members.iter().map(factor).collect(),
             members,
         }
     }
 
     fn is_of_it(&self, input: &Input) -> bool {
-        self.members
-            .iter()
-            .any(|at| std::ptr::eq(&raw const self.inputs[*at], input))
+        let mut members = self.members.iter();
+        members.any(|at| std::ptr::eq(&raw const self.inputs[*at], input))
     }
 
     fn draw(&self, counter: u64, drawn: &mut [f64]) {
@@ -296,13 +280,17 @@ impl Summary {
 
 /// Number of values of an interval, JCGM 101, 7.7.2.
 fn width(count: usize, coverage: f64) -> usize {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a share of the count"
-    )]
-    let width = (coverage * count as f64 + 0.5).floor() as usize;
-    width.min(count.saturating_sub(1))
+    whole(coverage * count as f64 + 0.5).min(count.saturating_sub(1))
+}
+
+/// A count from 0 to 2³², cut to a whole number.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a count of draws"
+)]
+fn whole(count: f64) -> usize {
+    count as usize
 }
 
 fn shortest(sorted: &[f64], coverage: f64) -> [f64; 2] {

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
+use taceva_core::shown;
 
 use super::digits::{beside, two_digits};
 use super::freedom::Freedom;
@@ -208,10 +209,11 @@ impl Budget {
             let stated = self.correlations.iter().find(pair).map(|of| of.r);
             stated.unwrap_or(if one == two { 1.0 } else { 0.0 })
         };
+        let others = || other.sources.iter();
         let pairs = self
             .sources
             .iter()
-            .flat_map(|one| other.sources.iter().map(move |two| (one, two)));
+            .flat_map(|one| others().map(move |two| (one, two)));
         let covariance: f64 = pairs
             .map(|(one, two)| one.contribution * two.contribution * r(&one.name, &two.name))
             .sum();
@@ -222,20 +224,13 @@ impl Budget {
 
 impl fmt::Display for Budget {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let unit = &self.unit;
+        let (unit, name) = (shown(&self.unit), shown(&self.measurand));
+        let wide = self.expanded.filter(|expanded| *expanded > 0.0);
+        let scale = wide.unwrap_or(self.u);
         for warning in &self.warnings {
             writeln!(f, "warning: {warning}")?;
         }
-        let scale = self
-            .expanded
-            .filter(|expanded| *expanded > 0.0)
-            .unwrap_or(self.u);
-        write!(
-            f,
-            "{} = {} {unit}, ",
-            self.measurand,
-            beside(self.value, scale)
-        )?;
+        write!(f, "{name} = {} {unit}, ", beside(self.value, scale))?;
         match (self.rounded(), self.k) {
             (Some(expanded), Some(k)) => {
                 write!(f, "U = {} {unit} (k = {k:.3}", beside(expanded, expanded))?
@@ -245,38 +240,24 @@ impl fmt::Display for Budget {
         }
         writeln!(f, ", p = {} %, nu_eff {})", self.p * 100.0, self.nu_eff)?;
         if let Some([low, high]) = self.interval {
-            writeln!(
-                f,
-                "interval {} to {} {unit}, {}",
-                beside(low, scale),
-                beside(high, scale),
-                self.method
-            )?;
+            let (low, high) = (beside(low, scale), beside(high, scale));
+            writeln!(f, "interval {low} to {high} {unit}, {}", self.method)?;
         }
         for source in &self.sources {
-            let share = source
-                .share
-                .map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", share * 100.0));
-            let Source {
-                name,
-                kind,
-                shape,
-                contribution,
-                nu,
-                ..
-            } = source;
-            let name = taceva_core::shown(name);
-            writeln!(
-                f,
-                "  {kind} {name}: {} {unit}, {share}, {shape}, nu {nu}",
-                beside(*contribution, self.u)
-            )?;
+            let (kind, name, shape, nu) =
+                (source.kind, shown(&source.name), &source.shape, source.nu);
+            let contribution = beside(source.contribution, self.u);
+            write!(f, "  {kind} {name}: {contribution} {unit}, ")?;
+            match source.share {
+                Some(share) => writeln!(f, "{:.1} %, {shape}, nu {nu}", share * 100.0)?,
+                None => writeln!(f, "-, {shape}, nu {nu}")?,
+            }
         }
         if !self.correlations.is_empty() {
             writeln!(f, "  shares do not add up to 100 %: sources are correlated")?;
         }
         for Missing { source, reason } in &self.missing {
-            writeln!(f, "  missing: {source} ({reason})")?;
+            writeln!(f, "  missing: {} ({reason})", shown(source))?;
         }
         Ok(())
     }

@@ -128,11 +128,8 @@ impl CurveFit {
     /// y(x).
     pub fn value(&self, x: f64) -> f64 {
         let powers = self.axis.powers(x);
-        powers
-            .iter()
-            .zip(&self.solution.coefficients)
-            .map(|(power, of)| power * of)
-            .sum()
+        let terms = powers.iter().zip(&self.solution.coefficients);
+        terms.map(|(power, of)| power * of).sum()
     }
 
     /// Coefficients of x⁰, x¹, ….
@@ -149,9 +146,8 @@ impl CurveFit {
         let all = self.powers_of_x();
         let square = self.residual_deviation().powi(2);
         let cell = |i: usize, j: usize| square * form(&all[i], &self.solution.inverse, &all[j]);
-        (0..self.count)
-            .map(|i| (0..self.count).map(|j| cell(i, j)).collect())
-            .collect()
+        let row = |i: usize| (0..self.count).map(|j| cell(i, j)).collect();
+        (0..self.count).map(row).collect()
     }
 
     /// Row i: share of each coefficient of z in that of xⁱ, by the binomial theorem.
@@ -178,10 +174,8 @@ impl CurveFit {
 pub(super) fn levels(rows: &[CurveRow]) -> Vec<Vec<CurveRow>> {
     let mut sorted = rows.to_vec();
     sorted.sort_by(|one, other| one.x.total_cmp(&other.x));
-    sorted
-        .chunk_by(|one, other| one.x >= other.x)
-        .map(<[CurveRow]>::to_vec)
-        .collect()
+    let levels = sorted.chunk_by(|one, other| one.x >= other.x);
+    levels.map(<[CurveRow]>::to_vec).collect()
 }
 
 /// (G − 1)/G Σ (β₋ₚ − β̄)(β₋ₚ − β̄)ᵀ over fits without one point; `None` if no point has two rows, or a fit without one is undetermined.

@@ -1,7 +1,7 @@
 //! Relative errors of indicated forces, like those of ISO 7500-1.
 
 use super::limits::{Figure, Standing, Table};
-use super::undefined::{CurveUndefined, positive};
+use super::undefined::{CurveUndefined, all_positive, positive, range};
 
 /// Ends of q, b, v, f_0 and a in %, as a laboratory's workbook has them. The standard's text was not at hand.
 const LIMITS: Table = Table {
@@ -120,49 +120,29 @@ impl IndicationLevel {
     /// Definitions like those of ISO 7500-1:2018, 6.5.
     pub fn figures(&self, full_scale: f64) -> Result<IndicationFigures, CurveUndefined> {
         let full_scale = positive("full scale", full_scale)?;
-        self.resolution
-            .map(|resolution| positive("resolution", resolution))
-            .transpose()?;
-        let q: Vec<f64> = self
-            .up
-            .iter()
-            .filter_map(Indication::error_percent)
-            .collect();
+        all_positive("resolution", &self.resolution)?;
+        let up = self.up.iter();
+        let q: Vec<f64> = up.clone().filter_map(Indication::error_percent).collect();
         if q.is_empty() {
             return Err(CurveUndefined::MissingSeries("of upward repeats"));
         }
         let n = q.len() as f64;
         let q_mean = q.iter().sum::<f64>() / n;
         let squares: f64 = q.iter().map(|of| (of - q_mean).powi(2)).sum();
-        let range =
-            q.iter().copied().fold(f64::MIN, f64::max) - q.iter().copied().fold(f64::MAX, f64::min);
-        let ratios: Vec<f64> = self.up.iter().filter_map(Indication::ratio).collect();
+        let ratios: Vec<f64> = up.clone().filter_map(Indication::ratio).collect();
         let mean_ratio = ratios.iter().sum::<f64>() / ratios.len().max(1) as f64;
         let reversed = ratios.last().zip(self.down.and_then(|down| down.ratio()));
-        let zeros = self
-            .zeros
-            .iter()
-            .copied()
-            .filter(|zero| zero.is_finite())
-            .map(f64::abs);
-        let truths: Vec<f64> = self
-            .up
-            .iter()
-            .filter(|of| of.error_percent().is_some())
-            .map(|of| of.truth)
-            .collect();
-        let mean_truth = truths.iter().sum::<f64>() / n;
+        let zeros = self.zeros.iter().filter(|zero| zero.is_finite());
+        let greatest = zeros.map(|zero| zero.abs()).reduce(f64::max);
+        let valid = up.filter(|of| of.error_percent().is_some());
+        let mean_truth = valid.map(|of| of.truth).sum::<f64>() / n;
         Ok(IndicationFigures {
             q_mean,
             q_mean_u: (q.len() > 1).then(|| (squares / (n * (n - 1.0))).sqrt()),
-            b: (q.len() >= LEAST_REPEATS).then_some(range),
+            b: (q.len() >= LEAST_REPEATS).then(|| range(&q)),
             v: reversed.map(|(up, down)| 100.0 * (up - down) / mean_ratio),
-            f_0: zeros
-                .reduce(f64::max)
-                .map(|greatest| 100.0 * greatest / full_scale),
-            a: self
-                .resolution
-                .map(|resolution| 100.0 * resolution / mean_truth),
+            f_0: greatest.map(|greatest| 100.0 * greatest / full_scale),
+            a: self.resolution.map(|of| 100.0 * of / mean_truth),
             q,
         })
     }

@@ -2,7 +2,7 @@
 
 use super::fit::{CurveFit, CurveRow};
 use super::limits::{Figure, Standing, Table};
-use super::undefined::{CurveUndefined, positive};
+use super::undefined::{CurveUndefined, all_positive, range};
 
 /// Ends of b, b', f_c, f_0, v and c in %. The standard's text was not at hand.
 const LIMITS: Table = Table {
@@ -133,9 +133,9 @@ impl ProvingSeries {
             ("X4'", &self.x4, false),
             ("X6'", &self.x6, false),
         ];
-        self.forces
-            .iter()
-            .try_for_each(|force| positive("force", *force).map(|_| ()))?;
+        all_positive("force", &self.forces)?;
+        all_positive("resolution", &self.resolution)?;
+        all_positive("full scale", &self.full_scale)?;
         for (series, values, is_needed) in all {
             let expected = self.forces.len();
             match values.len() {
@@ -148,44 +148,25 @@ impl ProvingSeries {
                         expected,
                     });
                 }
-                _ => values
-                    .iter()
-                    .try_for_each(|value| positive("reading", *value).map(|_| ()))?,
+                _ => all_positive("reading", values)?,
             }
         }
-        self.resolution
-            .map(|resolution| positive("resolution", resolution))
-            .transpose()?;
-        self.full_scale
-            .map(|full| positive("full scale", full))
-            .transpose()?;
-        let means: Vec<f64> = (0..self.forces.len())
-            .map(|at| (self.x1[at] + self.x3[at] + self.x5[at]) / 3.0)
-            .collect();
-        let points = self
-            .forces
-            .iter()
-            .zip(&means)
-            .map(|(force, mean)| CurveRow::new(*force, *mean));
-        let rows: Vec<CurveRow> = std::iter::once(CurveRow::new(0.0, 0.0))
-            .chain(points)
-            .collect();
+        let mean = |at: usize| (self.x1[at] + self.x3[at] + self.x5[at]) / 3.0;
+        let means: Vec<f64> = (0..self.forces.len()).map(mean).collect();
+        let mut rows = vec![CurveRow::new(0.0, 0.0)];
+        let points = self.forces.iter().zip(&means);
+        rows.extend(points.map(|(force, mean)| CurveRow::new(*force, *mean)));
         let cubic = CurveFit::of(&rows, 3)?;
         let levels =
             (0..means.len()).map(|at| self.level(at, means[at], cubic.value(self.forces[at])));
-        let greatest =
-            (0..means.len()).max_by(|one, other| self.forces[*one].total_cmp(&self.forces[*other]));
-        let full = self
-            .full_scale
-            .unwrap_or(greatest.map_or(1.0, |at| means[at]));
+        let points = self.forces.iter().zip(&means);
+        let greatest = points.max_by(|one, other| one.0.total_cmp(other.0));
+        let full = self.full_scale.or(greatest.map(|of| *of.1)).unwrap_or(1.0);
+        let percent = |[before, after]: [f64; 2]| 100.0 * (after - before) / full;
         Ok(ProvingFigures {
             levels: levels.collect(),
-            f_0: self
-                .zeros
-                .map(|[before, after]| 100.0 * (after - before) / full),
-            c: self
-                .creep
-                .map(|[early, late]| 100.0 * (late - early) / full),
+            f_0: self.zeros.map(percent),
+            c: self.creep.map(percent),
             resolution: self.resolution,
         })
     }
@@ -193,17 +174,14 @@ impl ProvingSeries {
     fn level(&self, at: usize, mean: f64, cubic: f64) -> ProvingLevel {
         let of = |series: &[f64]| series.get(at).copied();
         let three = [self.x1[at], self.x3[at], self.x5[at]];
-        let range =
-            three.into_iter().fold(f64::MIN, f64::max) - three.into_iter().fold(f64::MAX, f64::min);
         let squares: f64 = three.iter().map(|x| (x - mean).powi(2)).sum();
         let reversed = |down: &[f64], up: f64| of(down).map(|down| (down - up).abs() / up);
         let both = reversed(&self.x4, three[1]).zip(reversed(&self.x6, three[2]));
         ProvingLevel {
             force: self.forces[at],
             mean,
-            b: 100.0 * range / mean,
-            b_prime: of(&self.x2)
-                .map(|x2| 100.0 * (x2 - three[0]).abs() / f64::midpoint(x2, three[0])),
+            b: 100.0 * range(&three) / mean,
+            b_prime: of(&self.x2).map(|x2| 200.0 * (x2 - three[0]).abs() / (x2 + three[0])),
             f_c: 100.0 * (mean - cubic) / cubic,
             v: both.map(|(one, other)| 50.0 * (one + other)),
             w_rotation: (squares / 6.0).sqrt() / mean,
@@ -227,12 +205,9 @@ impl ProvingFigures {
             self.c.map(f64::abs).ok_or("creep readings"),
         ];
         let may_have = |row: &str| {
-            let least = LEAST_FORCES
-                .iter()
-                .find(|(name, _)| *name == row)
-                .map_or(0.0, |(_, least)| *least);
-            self.resolution
-                .is_none_or(|resolution| of.force >= least * resolution)
+            let least = LEAST_FORCES.iter().find(|(name, _)| *name == row);
+            let pair = least.zip(self.resolution);
+            pair.is_none_or(|((_, least), resolution)| of.force >= least * resolution)
         };
         LIMITS.standing(&figures, may_have)
     }

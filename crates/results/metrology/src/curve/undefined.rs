@@ -79,6 +79,21 @@ pub(super) fn probability(p: f64) -> Result<f64, CurveUndefined> {
         .ok_or(CurveUndefined::Probability(p))
 }
 
+/// All of `values` are above 0 and finite.
+pub(super) fn all_positive<'a>(
+    what: &'static str,
+    values: impl IntoIterator<Item = &'a f64>,
+) -> Result<(), CurveUndefined> {
+    let mut values = values.into_iter();
+    values.try_for_each(|value| positive(what, *value).map(|_| ()))
+}
+
+/// Greatest less least of `values`.
+pub(super) fn range(values: &[f64]) -> f64 {
+    let greatest = values.iter().copied().fold(f64::MIN, f64::max);
+    greatest - values.iter().copied().fold(f64::MAX, f64::min)
+}
+
 /// `value` if it is above 0 and finite.
 pub(super) fn positive(what: &'static str, value: f64) -> Result<f64, CurveUndefined> {
     let is_right = value > 0.0 && value.is_finite();
