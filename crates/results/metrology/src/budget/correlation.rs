@@ -44,10 +44,10 @@ impl Correlations {
                     .ok_or_else(|| text.error(pair, "between", unknown(name, "source", &names)))?;
             }
             place.sort_unstable();
-            let joined = || format!("{} and {}", names[place[0]], names[place[1]]);
             if let Some((_, other)) = stated.iter().find(|(known, _)| *known == place) {
+                let name = place.map(|at| names[at]).join(" and ");
                 let problem = BudgetProblem::Twice {
-                    name: joined(),
+                    name,
                     other: *other,
                 };
                 return Err(text.error(pair, "between", problem));
@@ -80,11 +80,8 @@ impl Correlations {
         let least = found.least_eigenvalue();
         if least < ROUNDING {
             let place = stated.first().map(|(_, line)| *line);
-            return Err(BudgetError::new(
-                place,
-                "correlation",
-                BudgetProblem::NotPositive { eigenvalue: least },
-            ));
+            let problem = BudgetProblem::NotPositive { eigenvalue: least };
+            return Err(BudgetError::new(place, "correlation", problem));
         }
         Ok(found)
     }
@@ -99,11 +96,14 @@ impl Correlations {
                 }
                 let written = &text.written.source[second].get_ref().name;
                 let differs = |what: &str| {
-                    let problem = format!(
-                        "`{}` and `{}` are of one set, but differ in their {what}",
-                        one.name, other.name
-                    );
-                    text.error(written, "set", BudgetProblem::Keys(problem))
+                    let [one, other] = [&one.name, &other.name].map(taceva_core::shown);
+                    text.error(
+                        written,
+                        "set",
+                        BudgetProblem::Keys(format!(
+                            "`{one}` and `{other}` are of one set, but differ in their {what}"
+                        )),
+                    )
                 };
                 if one.is_read_with(other) {
                     if one.rows.len() != other.rows.len() {
@@ -113,12 +113,9 @@ impl Correlations {
                     let sum =
                         |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
                     let scale = (sum(&left, &left) * sum(&right, &right)).sqrt();
-                    let r = if scale > 0.0 {
-                        (sum(&left, &right) / scale).clamp(-1.0, 1.0)
-                    } else {
-                        0.0
-                    };
-                    self.set([first, second], r);
+                    // Equal rows have no correlation.
+                    let r = sum(&left, &right) / scale.max(f64::MIN_POSITIVE);
+                    self.set([first, second], r.clamp(-1.0, 1.0));
                 }
                 if one.freedom != other.freedom {
                     return Err(differs("degrees of freedom"));

@@ -19,7 +19,8 @@ use super::dual::Scalar;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
-    steps: Vec<Placed>,
+    /// Steps, each with its column in the text.
+    steps: Vec<(Step, usize)>,
 }
 
 /// An expression that cannot be read, or has no value at the estimates.
@@ -71,13 +72,6 @@ pub(super) enum Function {
     Ln,
 }
 
-/// A step with the column of its text.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Placed {
-    step: Step,
-    column: usize,
-}
-
 impl Expression {
     /// Reads `text`; `names` are the inputs, in their order. A name with blanks stands in `'…'`.
     ///
@@ -85,20 +79,13 @@ impl Expression {
     /// [`ExpressionError`] with the column, and for an unknown name the nearest one.
     pub fn parse(text: &str, names: &[&str]) -> Result<Expression, ExpressionError> {
         let steps = reader::read(text, names)?;
-        Ok(Expression {
-            steps: steps
-                .into_iter()
-                .map(|(step, column)| Placed { step, column })
-                .collect(),
-        })
+        Ok(Expression { steps })
     }
 
     /// The expression of these steps, which no text has.
     pub(super) fn of_steps(steps: Vec<Step>) -> Expression {
-        let place = |step| Placed { step, column: 0 };
-        Expression {
-            steps: steps.into_iter().map(place).collect(),
-        }
+        let steps = steps.into_iter().map(|step| (step, 0)).collect();
+        Expression { steps }
     }
 
     /// Value and derivatives at `inputs`, in the order of the names.
@@ -126,7 +113,7 @@ impl Expression {
         stack: &mut Vec<T>,
     ) -> Result<T, ExpressionError> {
         stack.clear();
-        for Placed { step, column } in &self.steps {
+        for (step, column) in &self.steps {
             let mut pop = || stack.pop().unwrap_or_else(|| zero.clone());
             let result = match *step {
                 Step::Number(value) => T::constant(value, zero),

@@ -85,11 +85,17 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn sum(&mut self) -> Result<(), ExpressionError> {
+    /// Counts a bracket, a sign or a power that another one is in.
+    fn deepen(&mut self) -> Result<(), ExpressionError> {
         self.depth += 1;
-        if self.depth > DEEPEST {
-            return Err(self.error(format!("brackets are nested deeper than {DEEPEST}")));
+        match self.depth > DEEPEST {
+            true => Err(self.error(format!("nested deeper than {DEEPEST}"))),
+            false => Ok(()),
         }
+    }
+
+    fn sum(&mut self) -> Result<(), ExpressionError> {
+        self.deepen()?;
         self.chain([('+', Step::Add), ('-', Step::Subtract)], Self::product)?;
         self.depth -= 1;
         Ok(())
@@ -101,10 +107,7 @@ impl Reader<'_> {
 
     /// A sign binds less than a power: -x^2 is -(x^2).
     fn signed(&mut self) -> Result<(), ExpressionError> {
-        self.depth += 1;
-        if self.depth > DEEPEST {
-            return Err(self.error(format!("signs and powers are nested deeper than {DEEPEST}")));
-        }
+        self.deepen()?;
         match self.peek() {
             Some(sign @ ('-' | '+')) => {
                 let column = self.at + 1;
@@ -138,12 +141,12 @@ impl Reader<'_> {
             Some('\'') => self.quoted(start),
             Some(letter) if letter.is_ascii_digit() || letter == '.' => self.number(start),
             Some(letter) if letter.is_alphabetic() || letter == '_' => self.word(start),
-            Some(letter) => Err(self.error(format!(
-                "`{}` is found, expected a number, a name or `(`",
-                shown(&letter.to_string())
-            ))),
-            None => {
-                Err(self.error("the end is found, expected a number, a name or `(`".to_owned()))
+            other => {
+                let quoted = |letter: char| format!("`{}`", shown(&letter.to_string()));
+                let found = other.map_or("the end".to_owned(), quoted);
+                Err(self.error(format!(
+                    "{found} is found, expected a number, a name or `(`"
+                )))
             }
         }
     }
@@ -197,10 +200,8 @@ impl Reader<'_> {
 
     fn word(&mut self, start: usize) -> Result<(), ExpressionError> {
         let is_part = |letter: &char| letter.is_alphanumeric() || *letter == '_';
-        let name: String = self.letters[start..]
-            .iter()
-            .take_while(|letter| is_part(letter))
-            .collect();
+        let rest = self.letters[start..].iter();
+        let name: String = rest.take_while(|letter| is_part(letter)).collect();
         self.at += name.chars().count();
         let function = FUNCTIONS.into_iter().find(|(known, _)| *known == name);
         match function {
@@ -215,14 +216,9 @@ impl Reader<'_> {
 
     fn name(&mut self, name: &str, start: usize) -> Result<(), ExpressionError> {
         let Some(index) = self.names.iter().position(|known| *known == name) else {
-            return Err(ExpressionError {
-                column: start + 1,
-                problem: format!(
-                    "`{}` is no source; {}",
-                    shown(name),
-                    suggestion(name, self.names)
-                ),
-            });
+            self.at = start;
+            let (name, hint) = (shown(name), suggestion(name, self.names));
+            return Err(self.error(format!("`{name}` is no source; {hint}")));
         };
         self.push(Step::Input(index), start + 1);
         Ok(())
