@@ -58,13 +58,10 @@ pub struct Expansion {
 impl Expansion {
     /// Input `index` of `count`.
     pub(super) fn input(value: f64, index: usize, count: usize) -> Expansion {
-        let mut gradient = vec![0.0; count];
-        if let Some(own) = gradient.get_mut(index) {
-            *own = 1.0;
-        }
+        let slope = |at: usize| if at == index { 1.0 } else { 0.0 };
         Expansion {
             value,
-            gradient,
+            gradient: (0..count).map(slope).collect(),
             hessian: vec![0.0; count * count],
         }
     }

@@ -9,7 +9,7 @@ use super::expression::ExpressionError;
 /// ```
 /// use taceva_metrology::budget::BudgetText;
 /// let error = BudgetText::parse("budget_version = 2\nmeasurand = \"Fz\"").unwrap_err();
-/// assert_eq!(error.to_string(), "line 1, `budget_version`: version 2 is not supported, expected 1");
+/// assert_eq!(error.to_string(), "line 1, `budget_version`: `2` is found, expected 1");
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -60,7 +60,8 @@ impl std::error::Error for BudgetError {}
 ///
 /// ```
 /// use taceva_metrology::budget::BudgetProblem;
-/// assert_eq!(BudgetProblem::Version(3).to_string(), "version 3 is not supported, expected 1");
+/// let problem = BudgetProblem::Keys("the key `at` is missing".to_owned());
+/// assert_eq!(problem.to_string(), "the key `at` is missing");
 /// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -68,9 +69,6 @@ pub enum BudgetProblem {
     /// Invalid TOML, an unknown key, or a value of the wrong type.
     #[error("{0}")]
     Syntax(String),
-    /// A version of another program.
-    #[error("version {0} is not supported, expected 1")]
-    Version(u32),
     /// A number out of its range, or an amount that cannot be read.
     #[error("`{found}` is found, expected {expected}")]
     Value {

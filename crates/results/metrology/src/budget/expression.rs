@@ -94,11 +94,10 @@ impl Expression {
     /// [`ExpressionError`] with the column of a division by 0, of a root or logarithm without a value or derivative, or of an overflow.
     pub fn expand(&self, inputs: &[f64]) -> Result<Expansion, ExpressionError> {
         let count = inputs.len();
-        let duals = (0..)
-            .zip(inputs)
-            .map(|(at, value)| Expansion::input(*value, at, count));
+        let dual = |at: usize| Expansion::input(inputs[at], at, count);
+        let duals: Vec<Expansion> = (0..count).map(dual).collect();
         let zero = Expansion::input(0.0, count, count);
-        self.evaluate(&duals.collect::<Vec<_>>(), &zero, &mut Vec::new())
+        self.evaluate(&duals, &zero, &mut Vec::new())
     }
 
     /// Value at `inputs`; `None` if there is none. `stack` is kept between calls.
@@ -114,22 +113,16 @@ impl Expression {
     ) -> Result<T, ExpressionError> {
         stack.clear();
         for (step, column) in &self.steps {
+            let place = |problem| error(*column, problem);
             let mut pop = || stack.pop().unwrap_or_else(|| zero.clone());
             let result = match *step {
                 Step::Number(value) => T::constant(value, zero),
                 Step::Input(at) => inputs[at].clone(),
-                Step::Call(function) => {
-                    applied(function, pop()).map_err(|problem| error(*column, problem))?
-                }
-                Step::Negate => {
-                    let value = pop();
-                    let derivatives = [-value.value(), -1.0, 0.0];
-                    value.chained(derivatives)
-                }
+                Step::Call(function) => applied(function, pop()).map_err(place)?,
+                Step::Negate => negated(pop()),
                 binary => {
                     let right = pop();
-                    let left = pop();
-                    combined(binary, left, right).map_err(|problem| error(*column, problem))?
+                    combined(binary, pop(), right).map_err(place)?
                 }
             };
             if !result.value().is_finite() {
@@ -148,13 +141,15 @@ fn error(column: usize, problem: &str) -> ExpressionError {
     }
 }
 
+fn negated<T: Scalar>(number: T) -> T {
+    let derivatives = [-number.value(), -1.0, 0.0];
+    number.chained(derivatives)
+}
+
 fn combined<T: Scalar>(step: Step, left: T, right: T) -> Result<T, &'static str> {
     Ok(match step {
         Step::Add => left.plus(&right),
-        Step::Subtract => {
-            let derivatives = [-right.value(), -1.0, 0.0];
-            left.plus(&right.chained(derivatives))
-        }
+        Step::Subtract => left.plus(&negated(right)),
         Step::Multiply => left.times(&right),
         Step::Divide => {
             let x = right.value();

@@ -32,31 +32,23 @@ const UNEXERCISED: [(&str, &str); 4] = [
 /// Refuses two sources of one figure, and a source inside another one.
 pub(super) fn check(inputs: &[Input]) -> Result<(), BudgetError> {
     let of = |input: &Input| input.from.clone().unwrap_or_default();
-    for (at, input) in inputs
-        .iter()
-        .enumerate()
-        .filter(|(_, input)| input.from.is_some())
-    {
-        let from = of(input);
+    for (at, input) in inputs.iter().enumerate() {
+        let Some(from) = input.from.clone() else {
+            continue;
+        };
+        let error = |problem| Err(BudgetError::new(input.line, "from", problem));
         if let Some(first) = inputs[..at].iter().find(|first| of(first) == from) {
             let other = first.line;
-            return Err(BudgetError::new(
-                input.line,
-                "from",
-                BudgetProblem::Twice { name: from, other },
-            ));
+            return error(BudgetProblem::Twice { name: from, other });
         }
         let holder = inputs.iter().find(|outer| {
             let held = INSIDE.iter().find(|(name, _)| *name == of(outer));
             held.is_some_and(|(_, inner)| inner.contains(&from.as_str()))
         });
         if let Some(outer) = holder {
-            let problem = BudgetProblem::Inside {
-                inner: from,
-                outer: of(outer),
-                line: outer.line,
-            };
-            return Err(BudgetError::new(input.line, "from", problem));
+            let (inner, line) = (from, outer.line);
+            let outer = of(outer);
+            return error(BudgetProblem::Inside { inner, outer, line });
         }
     }
     Ok(())

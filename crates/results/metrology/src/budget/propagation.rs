@@ -25,32 +25,21 @@ pub(super) fn combine(inputs: &[Input], expansion: &Expansion, r: &Correlations)
     let contributions = contributions(inputs, expansion);
     let covariance = |i: usize, j: usize| contributions[i] * contributions[j] * r.get(i, j);
     let count = inputs.len();
-    let mut total = 0.0;
-    let mut fourth = 0.0;
-    let mut is_correlated = false;
-    for i in 0..count {
-        let is_first = !(0..i).any(|j| inputs[i].is_of_set_of(&inputs[j]));
-        let mut component = 0.0;
-        for j in 0..count {
+    let (mut total, mut fourth, mut is_correlated) = (0.0, 0.0, false);
+    for (i, input) in inputs.iter().enumerate() {
+        let is_same = |j: &usize| *j == i || input.is_of_set_of(&inputs[*j]);
+        for (j, other) in inputs.iter().enumerate() {
             total += covariance(i, j);
-            let finite = inputs[i].is_of_finite_freedom() || inputs[j].is_of_finite_freedom();
-            if i != j
-                && !inputs[i].is_of_set_of(&inputs[j])
-                && covariance(i, j).abs() > 0.0
-                && finite
-            {
-                is_correlated = true;
-            }
-            if is_first && (i == j || inputs[i].is_of_set_of(&inputs[j])) {
-                for k in 0..count {
-                    if k == i || inputs[i].is_of_set_of(&inputs[k]) {
-                        component += covariance(j, k);
-                    }
-                }
-            }
+            let is_finite = input.is_of_finite_freedom() || other.is_of_finite_freedom();
+            is_correlated |= !is_same(&j) && is_finite && covariance(i, j).abs() > 0.0;
         }
-        if let Freedom::Finite(number) = inputs[i].freedom {
-            fourth += component * component / number;
+        // One component, counted at its first input.
+        let members: Vec<usize> = (0..count).filter(is_same).collect();
+        if let (Some(true), Freedom::Finite(number)) =
+            (members.first().map(|at| *at == i), input.freedom)
+        {
+            let row = |j: &usize| members.iter().map(|k| covariance(*j, *k)).sum::<f64>();
+            fourth += members.iter().map(row).sum::<f64>().powi(2) / number;
         }
     }
     let variance = total.max(0.0);
@@ -74,12 +63,8 @@ pub(super) fn combine(inputs: &[Input], expansion: &Expansion, r: &Correlations)
 
 /// cᵢuᵢ of each input.
 pub(super) fn contributions(inputs: &[Input], expansion: &Expansion) -> Vec<f64> {
-    let slopes = expansion.gradient.iter();
-    inputs
-        .iter()
-        .zip(slopes)
-        .map(|(input, slope)| slope * input.u)
-        .collect()
+    let slopes = inputs.iter().zip(&expansion.gradient);
+    slopes.map(|(input, slope)| slope * input.u).collect()
 }
 
 /// ½ Σ (HΣ)ᵢⱼ (HΣ)ⱼᵢ, and the places of the greatest |Hᵢⱼ| uᵢuⱼ.

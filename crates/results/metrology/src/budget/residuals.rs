@@ -159,11 +159,10 @@ impl Residuals {
         ];
         let n0 = (n - sizes / n) / freedoms[0];
         let difference = mean_squares[0] - mean_squares[1];
-        let terms = mean_squares
-            .iter()
-            .zip(freedoms)
-            .map(|(square, freedom)| square * square / freedom);
-        let scale: f64 = terms.sum();
+        let terms = mean_squares.iter().zip(freedoms);
+        let scale: f64 = terms
+            .map(|(square, freedom)| square * square / freedom)
+            .sum();
         let of_between = match difference > 0.0 {
             true => Freedom::Finite(difference * difference / scale),
             false => Freedom::Finite(freedoms[0]),

@@ -57,11 +57,8 @@ impl BudgetText {
         let version = *written.budget_version.get_ref();
         if version != 1 {
             let place = line(written.budget_version.span().start);
-            return Err(BudgetError::new(
-                place,
-                "budget_version",
-                BudgetProblem::Version(version),
-            ));
+            let problem = value(f64::from(version), "1");
+            return Err(BudgetError::new(place, "budget_version", problem));
         }
         let mut budget = BudgetText {
             written,

@@ -67,21 +67,15 @@ pub(super) fn solve(rows: &[(Coefficients, f64)], count: usize) -> Option<Soluti
             parts.for_each(|(part, row)| row[other] -= dot * part);
             r[column][other] = a[column][other];
         }
-        let dot = scale
-            * v.iter()
-                .zip(y.iter().skip(column))
-                .map(|(part, y)| part * y)
-                .sum::<f64>();
-        v.iter()
-            .zip(y.iter_mut().skip(column))
-            .for_each(|(part, y)| *y -= dot * part);
+        let pairs = v.iter().zip(y.iter().skip(column));
+        let dot = scale * pairs.map(|(part, y)| part * y).sum::<f64>();
+        let parts = v.iter().zip(y.iter_mut().skip(column));
+        parts.for_each(|(part, y)| *y -= dot * part);
     }
     let mut coefficients = Coefficients::default();
     for row in (0..count).rev() {
-        let known: f64 = (row + 1..count)
-            .map(|other| r[row][other] * coefficients[other])
-            .sum();
-        coefficients[row] = (y[row] - known) / r[row][row];
+        let known = (row + 1..count).map(|other| r[row][other] * coefficients[other]);
+        coefficients[row] = (y[row] - known.sum::<f64>()) / r[row][row];
     }
     Some(Solution {
         coefficients,
