@@ -95,12 +95,10 @@ impl TryFrom<Record> for Freedom {
             Record::Number(number) => return Ok(Freedom::Finite(number)),
             Record::Words(words) => words,
         };
-        let reasons =
-            [Undefined::CorrelatedFreedom, Undefined::NoUncertainty].map(Freedom::Undefined);
-        [Freedom::Infinite]
-            .into_iter()
-            .chain(reasons)
-            .find(|known| known.to_string() == words)
-            .ok_or_else(|| format!("`{words}` is no number of degrees of freedom"))
+        let reasons = [Undefined::CorrelatedFreedom, Undefined::NoUncertainty];
+        let [one, other] = reasons.map(Freedom::Undefined);
+        let mut known = [Freedom::Infinite, one, other].into_iter();
+        let found = known.find(|known| known.to_string() == words);
+        found.ok_or_else(|| format!("`{words}` is no number of degrees of freedom"))
     }
 }

@@ -45,10 +45,8 @@ impl BudgetText {
     /// # Errors
     /// [`BudgetError`] with line, key and expectation.
     pub fn parse(text: &str) -> Result<BudgetText, BudgetError> {
-        let line_ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
-        let starts: Vec<usize> = std::iter::once(0)
-            .chain(line_ends.map(|(at, _)| at + 1))
-            .collect();
+        let mut starts = vec![0];
+        starts.extend(text.match_indices('\n').map(|(at, _)| at + 1));
         let line = |offset: usize| starts.partition_point(|start| *start <= offset);
         let written: WrittenBudget = toml::from_str(text).map_err(|error| {
             let place = error.span().map(|span| line(span.start));

@@ -1,6 +1,6 @@
 //! Fit of a calibration curve.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use super::squares::{Axis, Coefficients, MOST, Solution, Square, form, solve};
 use super::undefined::CurveUndefined;
@@ -85,17 +85,15 @@ impl CurveFit {
         if let Some(row) = rows.iter().position(is_wrong) {
             return Err(CurveUndefined::NotFinite { row: row + 1 });
         }
-        if rows.len() <= count {
-            return Err(CurveUndefined::TooFewRows {
-                have: rows.len(),
-                least: count + 1,
-            });
+        let (have, least) = (rows.len(), count + 1);
+        if have < least {
+            return Err(CurveUndefined::TooFewRows { have, least });
         }
         let x: Vec<f64> = rows.iter().map(|row| row.x).collect();
         let axis = Axis::of(&x).ok_or(CurveUndefined::EqualX)?;
-        let have = levels(rows).len();
-        let too_few = CurveUndefined::TooFewX { have, least: count };
-        if have < count {
+        let (have, least) = (levels(rows).len(), count);
+        let too_few = CurveUndefined::TooFewX { have, least };
+        if have < least {
             return Err(too_few);
         }
         let all: Vec<(Coefficients, f64)> =
@@ -183,26 +181,21 @@ pub(super) fn levels(rows: &[CurveRow]) -> Vec<Vec<CurveRow>> {
 /// # Reference
 /// Efron and Tibshirani, An Introduction to the Bootstrap (1993), chapter 11.
 fn jackknife(rows: &[CurveRow], all: &[(Coefficients, f64)], count: usize) -> Option<Clustered> {
-    let mut points: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
-    for (at, row) in rows.iter().enumerate() {
-        points.entry(row.point?).or_default().push(at);
-    }
+    let points: BTreeSet<u64> = rows.iter().map(|row| row.point).collect::<Option<_>>()?;
     let clusters = points.len();
     if clusters == rows.len() || clusters < LEAST_CLUSTERS {
         return None;
     }
     let without = |point: &u64| {
-        let kept = rows
-            .iter()
-            .zip(all)
-            .filter(|(row, _)| row.point != Some(*point));
+        let both = rows.iter().zip(all);
+        let kept = both.filter(|(row, _)| row.point != Some(*point));
         let kept: Vec<(Coefficients, f64)> = kept.map(|(_, row)| *row).collect();
         (kept.len() > count)
             .then(|| solve(&kept, count))
             .flatten()
             .map(|solution| solution.coefficients)
     };
-    let fits: Vec<Coefficients> = points.keys().map(without).collect::<Option<_>>()?;
+    let fits: Vec<Coefficients> = points.iter().map(without).collect::<Option<_>>()?;
     let g = clusters as f64;
     let mean = |at: usize| fits.iter().map(|fit| fit[at]).sum::<f64>() / g;
     let means: [f64; MOST] = std::array::from_fn(mean);

@@ -100,24 +100,17 @@ impl fmt::Display for Standing {
 impl Table {
     /// Place of `figures`, in the order of the table; `may_have` leaves out rows that other conditions exclude.
     pub(super) fn standing(&self, figures: &[Figure], may_have: impl Fn(&str) -> bool) -> Standing {
-        let known = || {
-            figures
-                .iter()
-                .enumerate()
-                .filter_map(|(at, figure)| figure.ok().map(|value| (at, value)))
-        };
+        let places = || figures.iter().enumerate();
+        let known = || places().filter_map(|(at, figure)| Some((at, figure.ok()?)));
         let is_within =
             |ends: &[f64], times: f64| known().all(|(at, value)| value <= ends[at] * times);
         let Some((last, ends)) = self.rows.last() else {
-            return Standing::Unknown {
-                missing: Vec::new(),
-            };
+            let missing = Vec::new();
+            return Standing::Unknown { missing };
         };
-        let excess = |at: usize, value: f64| value / ends[at];
-        let worst = known().filter(|(at, value)| *value > ends[*at]);
-        let worst =
-            worst.max_by(|one, other| excess(one.0, one.1).total_cmp(&excess(other.0, other.1)));
-        if let Some((at, value)) = worst {
+        let beyond = known().map(|(at, value)| (at, value, value / ends[at]));
+        let beyond = beyond.filter(|(at, value, _)| *value > ends[*at]);
+        if let Some((at, value, _)) = beyond.max_by(|one, other| one.2.total_cmp(&other.2)) {
             let first = self.rows.iter().find(|(name, _)| *name == "1");
             let holds =
                 |times: &u32| first.is_some_and(|(_, ends)| is_within(ends, f64::from(*times)));
