@@ -230,7 +230,7 @@ impl Predicted {
                 match found.iter_mut().find(is_same) {
                     Some(own) => own.count += 1,
                     None => found.push(AtBound {
-                        channel: channel.clone(),
+                        channel: *channel,
                         bound,
                         count: 1,
                     }),
