@@ -96,7 +96,7 @@ pub enum ImportWarning {
         /// Number of these rows at whose time the joined table has a row.
         equal: u64,
     },
-    /// Most rows of the main table have no match by time.
+    /// Most rows of both tables have no match by time.
     JoinFew {
         /// Name of the join.
         join: String,

@@ -159,8 +159,14 @@ impl Timing {
         ))
     }
 
-    /// Warnings about the lag, the tolerance and the matches of `join`, of which `matched` rows have one.
-    pub(super) fn warnings(&self, join: &str, matched: u64) -> Vec<ImportWarning> {
+    /// Warnings about the lag, the tolerance and the matches of `join`, of which `matched` rows have one. Single presses match few rows of a
+    /// stream: few matches are a fault only if `most_unused`, that is if most joined rows serve none.
+    pub(super) fn warnings(
+        &self,
+        join: &str,
+        matched: u64,
+        most_unused: bool,
+    ) -> Vec<ImportWarning> {
         let mut warnings = Vec::new();
         let join_name = || join.to_owned();
         if self.far > 0 {
@@ -180,7 +186,7 @@ impl Timing {
                 equal: self.lagged.without_lag,
             });
         }
-        if self.rows >= LEAST && 2 * matched < self.rows {
+        if self.rows >= LEAST && 2 * matched < self.rows && most_unused {
             warnings.extend(self.spans(join).map(|spans| ImportWarning::JoinFew {
                 join: join_name(),
                 rows: self.rows,
