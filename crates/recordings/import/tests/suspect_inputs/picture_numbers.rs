@@ -61,6 +61,47 @@ fn as_many_pictures_as_rows_are_drafted_in_the_order_of_the_rows() {
 }
 
 #[test]
+fn a_column_whose_last_number_is_of_no_picture_does_not_number_them() {
+    // More rows than a draft reads: numbers from 1 beside pictures from 0.
+    let rows = (1..=205).map(|row| format!("{row},{}.5\n", row % 7));
+    let table = format!("n,Fz_N\n{}", rows.collect::<String>());
+    for (digits, expected) in [
+        (0, "pattern = \"cam/{row}.png\""),
+        (5, "pattern = \"cam/{row:05}.png\""),
+    ] {
+        let names: Vec<String> = (0..205)
+            .map(|number| format!("cam/{number:0digits$}.png"))
+            .collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let folder = with_pictures(&[("log.csv", &table)], &names);
+        let text = draft(folder.path());
+        assert!(line(&text, "pattern = ").starts_with(expected), "{text}");
+    }
+}
+
+#[test]
+fn the_matrix_of_a_camera_in_a_text_is_no_table_of_forces() {
+    let rows = [
+        ["600.5", "0.0", "320.5"],
+        ["0.0", "600.5", "240.5"],
+        ["0.0", "0.0", "1.0"],
+    ];
+    let names = ["touch_1.png", "touch_2.png", "touch_3.png", "touch_4.png"];
+    for between in [",", " "] {
+        let rows = rows.iter().map(|row| row.join(between) + "\n");
+        let matrix: String = rows.collect();
+        let folder = with_pictures(&[("camera.txt", &matrix)], &names);
+        let text = draft(folder.path());
+        assert!(
+            text.contains("table = { files = \"touch_*.png\" }"),
+            "{text}"
+        );
+        assert!(!text.contains("Fx = "), "{text}");
+        assert!(text.contains("camera.txt (3 rows) does not"), "{text}");
+    }
+}
+
+#[test]
 fn numbered_pictures_of_two_sides_are_drafted_as_views() {
     let names = ["left/1.png", "left/2.png", "right/1.png", "right/2.png"];
     let folder = with_pictures(&[("log.csv", "n,Fz_N\n1.0,1.5\n2.0,0.5\n")], &names);

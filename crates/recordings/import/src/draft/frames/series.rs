@@ -148,7 +148,10 @@ impl<'g> Series<'g> {
         let numbers: Option<Vec<u64>> = filled(column).map(whole_number).collect();
         let numbers = numbers.unwrap_or_default();
         let different: HashSet<u64> = numbers.iter().copied().collect();
+        // A draft reads the first rows and the last one: numbers from 1 are not those of pictures from 0.
+        let last = whole_number(&column.last);
         may_name(column)
+            && last.is_none_or(|last| self.numbers.contains(&last))
             && numbers.len() > 1
             && different.len() == numbers.len()
             && different.iter().all(|number| self.numbers.contains(number))

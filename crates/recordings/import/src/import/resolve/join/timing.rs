@@ -48,7 +48,7 @@ pub(super) struct Timing {
     pub(super) greatest_gap_s: Option<f64>,
     /// Rows with a match across a pause of the joined table.
     far: u64,
-    /// Usual step of the joined table, s.
+    /// Greatest usual step of the joined tables of these rows, s.
     usual_s: f64,
     lagged: Lagged,
     /// The two rows before the next one.
@@ -101,8 +101,8 @@ impl Timing {
             let is_far = |gap_s: f64| gap_s > (FAR * usual_s).max(FAR_S);
             if row.pick != Pick::Before && row.gap_s.is_some_and(is_far) {
                 self.far += 1;
+                self.usual_s = self.usual_s.max(usual_s);
             }
-            self.usual_s = self.usual_s.max(usual_s);
             self.lagged.add(&row, candidates, usual_s);
         }
         if let [Some(before), Some(last)] = &self.recent
