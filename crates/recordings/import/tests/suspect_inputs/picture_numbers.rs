@@ -58,6 +58,10 @@ fn as_many_pictures_as_rows_are_drafted_in_the_order_of_the_rows() {
     let apart = ["cam/1.png", "cam/2.png", "cam/4.png"];
     let folder = with_pictures(&[("log.csv", "Fz_N\n1.5\n0.5\n2.5\n")], &apart);
     assert!(!draft(folder.path()).contains("pattern = "));
+    // Rows that were sorted by their forces are not in the order of the pictures.
+    let table = "t_s,Fz_N\n20.5,0.5\n10.5,1.5\n30.5,2.5\n";
+    let folder = with_pictures(&[("log.csv", table)], &CAMERA);
+    assert!(!draft(folder.path()).contains("pattern = "));
 }
 
 #[test]

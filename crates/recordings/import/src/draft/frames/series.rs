@@ -201,6 +201,16 @@ fn column_of<'t>(series: &Series<'_>, main: &'t SeenTable<'_>) -> Option<&'t See
     counting.into_iter().chain(others).next()
 }
 
+/// True unless the times of the rows show that they were sorted after the recording.
+fn is_in_order(main: &SeenTable<'_>) -> bool {
+    main.time().is_none_or(|time| {
+        let times = time.column.cells.iter();
+        times
+            .filter_map(|cell| cell.parse::<f64>().ok())
+            .is_sorted()
+    })
+}
+
 /// True if a column of `main` numbers pictures.
 pub(super) fn has_column(groups: &[FileGroup], main: &SeenTable<'_>) -> bool {
     main.group.paths.len() == 1
@@ -225,7 +235,7 @@ pub(super) fn of(
         Some((series, series.of_column(main, column)))
     });
     let mut found: Vec<(&Series<'_>, Vec<String>)> = numbered.collect();
-    if found.is_empty() {
+    if found.is_empty() && is_in_order(main) {
         let counted = all.iter().filter(|series| series.counts(main.rows));
         found.extend(counted.map(|series| (series, series.of_rows(main))));
     }
