@@ -199,8 +199,8 @@ impl fmt::Display for ImportWarning {
             ),
             ImportWarning::NoPictures { pictures, first } => write!(
                 f,
-                "the map has no [frame], so no row has a picture; the folder has {pictures} pictures, such as {}: if they show these rows, name them by \
-                 `column` or `pattern` of [frame] and import again",
+                "the map has no [frame], so no row has a picture; the folder has {pictures} pictures, such as {}: if they show these rows, \
+                 name them by `column` or `pattern` of [frame] and import again",
                 taceva_core::shown(first)
             ),
             ImportWarning::JoinPause {
