@@ -122,6 +122,21 @@ fn numbered_pictures_of_two_sides_are_drafted_as_views() {
 }
 
 #[test]
+fn two_series_that_are_no_views_leave_the_pattern_open() {
+    let names = ["depth_1.png", "depth_2.png", "rgb_1.png", "rgb_2.png"];
+    let folder = with_pictures(&[("log.csv", "Fz_N\n1.5\n0.5\n")], &names);
+    let text = draft(folder.path());
+    assert!(
+        line(&text, "pattern = ").starts_with("pattern = \"?\""),
+        "{text}"
+    );
+    for name in ["depth", "rgb"] {
+        let other = format!("# or: pattern = \"{name}_{{row+1}}.png\"");
+        assert!(text.contains(&other), "{text}");
+    }
+}
+
+#[test]
 fn pictures_that_no_line_joins_are_named_in_the_draft_and_in_a_warning_of_the_import() {
     let folder = with_pictures(&[("log.csv", "Fz_N\n1.5\n0.5\n")], &CAMERA);
     let text = draft(folder.path());

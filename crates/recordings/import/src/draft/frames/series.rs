@@ -260,9 +260,17 @@ pub(super) fn of(
         .flat_map(|lines| lines.first())
         .map(|line| format!("# or: {line}"))
         .collect();
+    if !others.is_empty() {
+        let named = std::mem::replace(&mut first.lines[0], SEVERAL.to_owned());
+        first.lines.insert(1, format!("# or: {named}"));
+    }
     first.lines.extend(others);
     vec![first]
 }
+
+/// Open line for several series that are no views, such as colour and depth.
+const SEVERAL: &str =
+    "pattern = \"?\"   # several series belong to the rows: name that of the sensor";
 
 /// Comment for a table without pictures, with the pictures of the folder that no line joins.
 pub(in crate::draft) fn none_found(groups: &[FileGroup], main: &SeenTable<'_>) -> String {
