@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use taceva_acquire::{Overrides, PlannedScene, SceneText};
-use taceva_core::{Field, SkipReason, counted, shown};
+use taceva_core::{Field, SkipReason, by_count, counted, shown};
 use taceva_drivers::Drivers;
 use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::{SplitInput, SplitSpec};
@@ -87,6 +87,9 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             study.plan.contact.speed_mm_s.value,
             limits.overshoot.healthy_mm,
         ));
+        if let Some(line) = shifted(&study.plan) {
+            context.say(format_args!("rig: {line}"));
+        }
         if study.is_untaught(drivers) {
             context.say(format_args!(
                 "rig: `origin_mm` and `axes` are those of a new file: a run is refused until taceva rig teach {}",
@@ -101,6 +104,21 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             "rig: taceva is no safety function; the emergency stop and the guards of the site must hold without it (docs/rig.md)"
         ));
     }
+}
+
+/// Presses of `plan` with a motion sideways in contact; `None` without such a press.
+fn shifted(plan: &Plan) -> Option<String> {
+    let shears = plan.presses.iter();
+    let shears = shears.map(|planned| planned.press.greatest_shear_mm());
+    let shears: Vec<f64> = shears.filter(|shear_mm| *shear_mm > 0.0).collect();
+    let greatest_mm = shears.iter().copied().fold(0.0, f64::max);
+    (!shears.is_empty()).then(|| {
+        format!(
+            "after a sample straight down, {} {} sideways in contact, by up to {greatest_mm:.2} mm, for a second sample; `shear_mm` of the phase sets this, 0 for none",
+            counted(shears.len(), "press"),
+            by_count(shears.len(), "moves", "move")
+        )
+    })
 }
 
 /// Refuses a scene that would measure nothing, because no study keeps a metric.

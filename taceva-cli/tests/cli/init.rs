@@ -202,7 +202,7 @@ fn a_scene_of_defaults_is_planned_and_of_two_sensors_has_a_study_each() {
 #[test]
 fn a_rig_asks_for_devices_their_addresses_and_limits() {
     let bench = Bench::new();
-    let answers = "ufactory/xarm\n192.168.1.200\nindenter\nati/netft\n192.168.1.1\ncamera/v4l2\n/dev/video0\n-1\n1.5\n2\n\n";
+    let answers = "ufactory/xarm\n192.168.1.200\nindenter\nati/netft\n192.168.1.1\ncamera/v4l2\n/dev/video0\n-1\n1.5\n2\n0.5\n\n";
     let ran = bench.answered("init rig --out lab.toml", answers);
     assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
     let rig = read(&bench, "lab.toml");
@@ -211,6 +211,8 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
         "driver = \"ati/netft:host=192.168.1.1\"",
         "driver = \"camera/v4l2:device=/dev/video0\"",
         "Pz_max_mm = 1.5",
+        "Fz_max_N = 2.0",
+        "Fxy_max_N = 0.5",
         "speed_max_mm_s = 20.0",
     ] {
         assert!(rig.contains(line), "no `{line}` in\n{rig}");

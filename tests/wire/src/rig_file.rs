@@ -46,6 +46,8 @@ impl RigFile<'_> {
             "speed_max_mm_s = 20.0".to_owned(),
             format!("Pz_max_mm = {depth_max_mm:?}"),
             format!("Fz_max_N = {force_max_n:?}"),
+            // As on the bench simulated in the program, so that both make the same presses.
+            format!("Fxy_max_N = {:?}", self.bench.force_range_n()),
         ];
         for (name, lines) in [
             ("robot", &robot[..]),
