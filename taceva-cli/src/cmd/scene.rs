@@ -8,7 +8,9 @@ use taceva_core::{Field, SkipReason, by_count, counted, shown};
 use taceva_drivers::Drivers;
 use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::{SplitInput, SplitSpec};
-use taceva_protocol::{BuiltinScene, PhaseKind, Plan, PlanReason, Subject};
+use taceva_protocol::{
+    BuiltinScene, PhaseKind, Plan, PlanReason, RigLimits, Subject, calm_threshold_n,
+};
 
 use super::{Context, Usage};
 use crate::args::{Run, SceneArgs};
@@ -87,6 +89,7 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             study.plan.contact.speed_mm_s.value,
             limits.overshoot.healthy_mm,
         ));
+        context.say(format_args!("rig: {}", threshold(&study.plan, limits)));
         if let Some(line) = shifted(&study.plan) {
             context.say(format_args!("rig: {line}"));
         }
@@ -103,6 +106,20 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
         context.say(format_args!(
             "rig: taceva is no safety function; the emergency stop and the guards of the site must hold without it (docs/rig.md)"
         ));
+    }
+}
+
+/// Force in the air that halts the robot, compared with the stated noise of the transducer.
+fn threshold(plan: &Plan, limits: &RigLimits) -> String {
+    let threshold_n = plan.contact.threshold_n.value;
+    let noise_n = limits.signals.force_noise_n;
+    match calm_threshold_n(noise_n, threshold_n) {
+        Some(calm_n) => format!(
+            "5 times the stated noise of the transducer, {noise_n} N, exceeds `threshold_N` = {threshold_n}: write threshold_N = {calm_n} under [protocol.contact] of the scene"
+        ),
+        None => format!(
+            "a force above `threshold_N` = {threshold_n} under [protocol.contact] halts the robot in the air; 5 times the noise that taceva rig check prints must be below it"
+        ),
     }
 }
 

@@ -250,12 +250,19 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
     assert!(planned.out.contains("24 presses"), "{}", planned.out);
     let few = "the test part has 2 contact points, and intervals need 5";
     assert!(planned.err.contains(few), "{}", planned.err);
+    for line in [
+        "2 N normal and 0.5 N shear",
+        "`threshold_N` = 0.02 under [protocol.contact]",
+        "24 presses move sideways in contact, by up to ",
+    ] {
+        assert!(planned.err.contains(line), "no `{line}` in {}", planned.err);
+    }
     let untaught = "a run is refused until taceva rig teach lab.toml";
     assert!(planned.err.contains(untaught), "{}", planned.err);
     bench.refused(
         "init rig --yes --out other.toml",
         2,
-        "no default for: driver of the robot (",
+        "no default for: driver of the robot, alone or with arguments such as",
     );
 }
 

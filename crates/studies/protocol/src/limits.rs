@@ -2,7 +2,7 @@
 
 mod signals;
 
-pub use signals::{STALE_S, Signals};
+pub use signals::{STALE_S, Signals, calm_threshold_n};
 
 use taceva_core::{DriverSource, Millimetre, Newton, RobotFacts, Wrench};
 

@@ -110,7 +110,10 @@ fn device(
         false => Err(format!("expected one of {}", keys.join(", "))),
     };
     let answer = interview.ask(
-        &format!("driver of the {what} ({})", keys.join(", ")),
+        &format!(
+            "driver of the {what}, alone or with arguments such as KEY:host=…;port=… ({})",
+            keys.join(", ")
+        ),
         present.first().copied(),
         check,
     )?;

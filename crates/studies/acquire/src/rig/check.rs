@@ -43,7 +43,7 @@ const NOISE_PART: f64 = 0.5;
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RigCheck {
-    /// True if the devices are emulated, as the rig file states.
+    /// True if the devices are emulated, as the rig file states or the robot reports.
     pub simulated: bool,
     /// Force transducer at rest; noise in N.
     pub force: Option<Stream>,
@@ -128,6 +128,7 @@ pub fn check_rig(
         });
         return Ok(check);
     };
+    check.simulated |= robot.is_emulated();
     let heard = listen_to_robot(&mut *robot).map_err(without_answer);
     if let Some(heard) = check.of("robot", heard) {
         let facts = descriptor.robot();
