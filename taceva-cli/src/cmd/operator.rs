@@ -46,12 +46,21 @@ fn keys(question: &Question) -> String {
 
 impl<I: Read + Waits> Operator for Terminal<I> {
     fn call_to_hold(&mut self, patience_s: f64) {
-        (self.say)(&format!(
-            "hold the enabling switch: nothing moves until it is held, for {patience_s} s at most"
-        ));
+        progress::without_bar(|| {
+            (self.say)(&format!(
+                "hold the enabling switch: nothing moves until it is held, for {patience_s} s at most"
+            ));
+        });
     }
 
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer {
+        progress::without_bar(|| self.answered(question, cancel))
+    }
+}
+
+impl<I: Read + Waits> Terminal<I> {
+    /// Prints `question` and waits for its answer, as [`Operator::ask`].
+    fn answered(&mut self, question: &Question, cancel: &Cancel) -> Answer {
         let keys = keys(question);
         (self.say)(&format!("{question} ({keys})"));
         let asked = self.page.as_ref().map(|page| page.ask(question));
