@@ -36,7 +36,7 @@ pub(in crate::cmd) fn terminal(page: Option<Live>) -> Option<AtTerminal> {
 /// The keys for each answer.
 fn keys(question: &Question) -> String {
     match question {
-        Question::Enable(robot) => {
+        Question::Enable { robot, .. } => {
             format!("type {} to let it move; q or Esc: stop", shown(robot))
         }
         Question::Resume(_) | Question::GoOn => "Enter: continue; q or Esc: stop".to_owned(),
@@ -97,7 +97,7 @@ fn answer(question: &Question, line: &str) -> Option<Answer> {
     match (question, typed) {
         (_, stop) if stop.contains('\u{1b}') => Some(Answer::Stop),
         (_, "q" | "Q") => Some(Answer::Stop),
-        (Question::Enable(robot), typed) => (typed == robot).then_some(Answer::Done),
+        (Question::Enable { robot, .. }, typed) => (typed == robot).then_some(Answer::Done),
         (_, "") => Some(Answer::Done),
         (Question::Resume(_) | Question::GoOn, _) => None,
         (_, "s" | "S") => Some(Answer::Skip),
@@ -177,7 +177,10 @@ mod tests {
     #[test]
     fn a_robot_is_let_move_by_its_whole_name_and_by_nothing_else() {
         use Answer::{Done, Stop};
-        let enable = Question::Enable("ufactory/xarm".to_owned());
+        let enable = Question::Enable {
+            robot: "ufactory/xarm".to_owned(),
+            way: "5 mm up".to_owned(),
+        };
         // An Enter meant for another question, a part of the name, and no skip.
         let typed = "\ns\nyes\nxarm\n ufactory/xarm \n";
         assert_eq!(answers_to(&enable, typed, 1), [Done]);

@@ -165,7 +165,8 @@ fn without_answer(error: DriverError) -> String {
 }
 
 fn is_let_move(operator: &mut dyn Operator, robot: String) -> bool {
-    operator.ask(&Question::Enable(robot), &Cancel::new()) == Answer::Done
+    let way = format!("{WAY_MM} mm straight up at {WAY_MM_S} mm/s, halted on the way");
+    operator.ask(&Question::Enable { robot, way }, &Cancel::new()) == Answer::Done
 }
 
 impl RigCheck {

@@ -78,7 +78,12 @@ fn a_session_is_enabled_tried_and_written_down_and_the_next_one_goes_on_where_th
     };
     assert!(matches!(source.cause, StopCause::Cancelled), "{source}");
     let asked = person.lock().expect("whole").0.clone();
-    assert_eq!(asked[0], Question::Enable("wall/robot".to_owned()));
+    let enable = asked[0].to_string();
+    assert!(
+        enable.starts_with("`wall/robot` is about to move: up to ")
+            && enable.contains("a gentle touch, then 3 presses;"),
+        "{enable}"
+    );
     assert!(matches!(asked[1..], [Question::Mount(_)]), "{asked:?}");
     assert_eq!(rows(&run).len(), 1);
 
