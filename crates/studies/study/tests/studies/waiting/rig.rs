@@ -262,3 +262,17 @@ fn places_that_are_no_frame_are_refused_with_the_line_of_the_axes() {
         "{said}"
     );
 }
+
+#[test]
+fn a_jog_along_x_that_is_too_short_is_refused_before_the_jog_along_y() {
+    let world = World::new();
+    let middle = [300.0, 5.0, 251.25];
+    let mut jogs = Jogs {
+        world: world.clone(),
+        along: [middle, middle, [308.0, 5.0, 251.25]],
+    };
+    let refused = teach_rig(&rig(), &drivers(&world), &mut jogs).expect_err("no jog");
+    let said = refused.to_string();
+    assert!(said.contains("the jog along x is 0.00 mm long"), "{said}");
+    assert_eq!(world.state().motions, 2);
+}
