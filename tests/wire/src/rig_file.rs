@@ -89,6 +89,8 @@ mod tests {
         assert!(driver("sensor").ends_with("/\"x\""));
         assert_eq!(table["robot"]["axes"][1].as_str(), Some("-y"));
         assert_eq!(table["robot"]["origin_mm"][2].as_float(), Some(251.3));
+        let shear_n = table["limits"]["Fxy_max_N"].as_float();
+        assert_eq!(shear_n, Some(bench.force_range_n()));
         assert_eq!(table["limits"]["Pz_max_mm"].as_float(), Some(1.0));
     }
 }
