@@ -117,15 +117,15 @@ fn simulated(sensors: &[String], interview: &mut Interview) -> anyhow::Result<St
 
 /// The line of the scene that states the sensing area.
 fn footprint(interview: &mut Interview) -> anyhow::Result<String> {
-    let expected = || "expected `disc RADIUS` or `rect HALF_X HALF_Y` with lengths above 0";
+    let expected = "expected `disc RADIUS` or `rect HALF_X HALF_Y` with lengths above 0";
     let check = |answer: &str| match footprint_line(answer) {
         Some(_) => Ok(()),
-        None => Err(expected().to_owned()),
+        None => Err(expected.to_owned()),
     };
     let question =
         "sensing area in mm, which no driver of a camera knows (disc RADIUS or rect HALF_X HALF_Y)";
     let answer = interview.ask(question, None, check)?;
-    footprint_line(&answer).ok_or_else(|| Usage::error(expected()))
+    footprint_line(&answer).ok_or_else(|| Usage::error(expected))
 }
 
 /// The line for `disc RADIUS` or `rect HALF_X HALF_Y`.
