@@ -14,6 +14,8 @@ use crate::stderr;
 static STOPPED: AtomicBool = AtomicBool::new(false);
 /// Set by a second signal.
 static INSISTED: AtomicBool = AtomicBool::new(false);
+/// The bar on the terminal, if one is drawn.
+static BAR: Mutex<Option<ProgressBar>> = Mutex::new(None);
 /// Time to halt a robot before the program ends.
 const HALTING: Duration = Duration::from_millis(250);
 
@@ -59,7 +61,6 @@ pub(crate) fn is_stopped() -> bool {
 pub(crate) struct TerminalProgress {
     mode: Mode,
     is_verbose: bool,
-    bar: Mutex<Option<ProgressBar>>,
     pace: Mutex<Option<Pace>>,
 }
 
@@ -153,7 +154,6 @@ impl TerminalProgress {
         TerminalProgress {
             mode: Mode::of(quiet),
             is_verbose,
-            bar: Mutex::new(None),
             pace: Mutex::new(None),
         }
     }
@@ -164,11 +164,20 @@ impl TerminalProgress {
             act(&mut pace);
         }
     }
+}
 
-    fn with_bar(&self, act: impl FnOnce(&mut Option<ProgressBar>)) {
-        if let Ok(mut bar) = self.bar.lock() {
-            act(&mut bar);
-        }
+fn with_bar(act: impl FnOnce(&mut Option<ProgressBar>)) {
+    if let Ok(mut bar) = BAR.lock() {
+        act(&mut bar);
+    }
+}
+
+/// Result of `ask`, during which no bar is drawn, so that a question and its answer stay readable.
+pub(crate) fn without_bar<T>(ask: impl FnOnce() -> T) -> T {
+    let bar = BAR.lock().ok().and_then(|bar| bar.clone());
+    match bar {
+        Some(bar) => bar.suspend(ask),
+        None => ask(),
     }
 }
 
@@ -182,14 +191,14 @@ impl Progress for TerminalProgress {
                     stderr::say(format_args!("{line}"));
                 }
             }
-            Mode::Bar => self.with_bar(|bar| *bar = Some(draw(stage, steps))),
+            Mode::Bar => with_bar(|bar| *bar = Some(draw(stage, steps))),
         }
     }
 
     fn advance(&self, steps: u64) {
         match self.mode {
             Mode::Quiet => {}
-            Mode::Bar => self.with_bar(|bar| bar.iter().for_each(|bar| bar.inc(steps))),
+            Mode::Bar => with_bar(|bar| bar.iter().for_each(|bar| bar.inc(steps))),
             Mode::Lines => self.with_pace(|pace| {
                 let now = Instant::now();
                 if let Some(words) = pace.as_mut().and_then(|pace| pace.advance(steps, now)) {
@@ -201,7 +210,7 @@ impl Progress for TerminalProgress {
 
     fn end(&self) {
         if self.mode == Mode::Bar {
-            self.with_bar(|bar| bar.take().iter().for_each(ProgressBar::finish_and_clear));
+            with_bar(|bar| bar.take().iter().for_each(ProgressBar::finish_and_clear));
         }
     }
 
@@ -300,46 +309,4 @@ fn draw(stage: &str, steps: Option<u64>) -> ProgressBar {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_left_follows_from_what_was_measured_and_nothing_is_said_before() {
-        let minute = Duration::from_secs(60);
-        assert_eq!(left(0, 10, minute), None);
-        assert_eq!(left(5, 10, Duration::from_millis(10)), None);
-        assert_eq!(left(5, 10, minute), Some(minute));
-        assert_eq!(left(10, 10, minute), Some(Duration::ZERO));
-        assert_eq!(left(1, u64::MAX, Duration::MAX), None);
-        let said = [0, 89, 90, 5399, 5400].map(|seconds| spoken(Duration::from_secs(seconds)));
-        assert_eq!(said, ["0 s", "89 s", "2 min", "90 min", "1 h 30 min"]);
-    }
-
-    #[test]
-    fn a_stage_of_one_step_has_a_line_only_if_more_is_asked_for() {
-        let line = |steps, is_verbose| first_line("products of features", steps, is_verbose);
-        assert_eq!(line(Some(1), false), None);
-        assert_eq!(
-            line(Some(1), true).as_deref(),
-            Some("products of features (1)")
-        );
-        assert_eq!(
-            line(Some(2), false).as_deref(),
-            Some("products of features (2)")
-        );
-        assert_eq!(line(None, false).as_deref(), Some("products of features"));
-    }
-
-    #[test]
-    fn plain_lines_come_every_half_minute_and_say_how_long_the_rest_takes() {
-        let mut pace = Pace::new("press", Some(100));
-        let begun = pace.begun;
-        assert_eq!(pace.advance(10, begun + Duration::from_secs(10)), None);
-        let said = pace.advance(10, begun + Duration::from_secs(40));
-        assert_eq!(said.as_deref(), Some("press: 20 of 100, about 3 min left"));
-        assert_eq!(pace.advance(1, begun + Duration::from_secs(41)), None);
-        let mut open = Pace::new("train", None);
-        let said = open.advance(3, open.begun + EVERY);
-        assert_eq!(said.as_deref(), Some("train: 3"));
-    }
-}
+mod tests;

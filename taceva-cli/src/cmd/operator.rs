@@ -36,7 +36,7 @@ pub(in crate::cmd) fn terminal(page: Option<Live>) -> Option<AtTerminal> {
 /// The keys for each answer.
 fn keys(question: &Question) -> String {
     match question {
-        Question::Enable(robot) => {
+        Question::Enable { robot, .. } => {
             format!("type {} to let it move; q or Esc: stop", shown(robot))
         }
         Question::Resume(_) | Question::GoOn => "Enter: continue; q or Esc: stop".to_owned(),
@@ -46,12 +46,21 @@ fn keys(question: &Question) -> String {
 
 impl<I: Read + Waits> Operator for Terminal<I> {
     fn call_to_hold(&mut self, patience_s: f64) {
-        (self.say)(&format!(
-            "hold the enabling switch: nothing moves until it is held, for {patience_s} s at most"
-        ));
+        progress::without_bar(|| {
+            (self.say)(&format!(
+                "hold the enabling switch: nothing moves until it is held, for {patience_s} s at most"
+            ));
+        });
     }
 
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer {
+        progress::without_bar(|| self.answered(question, cancel))
+    }
+}
+
+impl<I: Read + Waits> Terminal<I> {
+    /// Prints `question` and waits for its answer, as [`Operator::ask`].
+    fn answered(&mut self, question: &Question, cancel: &Cancel) -> Answer {
         let keys = keys(question);
         (self.say)(&format!("{question} ({keys})"));
         let asked = self.page.as_ref().map(|page| page.ask(question));
@@ -88,7 +97,7 @@ fn answer(question: &Question, line: &str) -> Option<Answer> {
     match (question, typed) {
         (_, stop) if stop.contains('\u{1b}') => Some(Answer::Stop),
         (_, "q" | "Q") => Some(Answer::Stop),
-        (Question::Enable(robot), typed) => (typed == robot).then_some(Answer::Done),
+        (Question::Enable { robot, .. }, typed) => (typed == robot).then_some(Answer::Done),
         (_, "") => Some(Answer::Done),
         (Question::Resume(_) | Question::GoOn, _) => None,
         (_, "s" | "S") => Some(Answer::Skip),
@@ -168,7 +177,10 @@ mod tests {
     #[test]
     fn a_robot_is_let_move_by_its_whole_name_and_by_nothing_else() {
         use Answer::{Done, Stop};
-        let enable = Question::Enable("ufactory/xarm".to_owned());
+        let enable = Question::Enable {
+            robot: "ufactory/xarm".to_owned(),
+            way: "5 mm up".to_owned(),
+        };
         // An Enter meant for another question, a part of the name, and no skip.
         let typed = "\ns\nyes\nxarm\n ufactory/xarm \n";
         assert_eq!(answers_to(&enable, typed, 1), [Done]);

@@ -57,7 +57,13 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     scene::warn_of_few_points(&planned, context);
     let _held = planned.hold_rigs()?;
     let folder = RunFolder::open(&path, &planned, existing)?;
-    context.say(format_args!("run in {}", shown(&path)));
+    match (args.resume, &args.folder) {
+        (true, None) => context.say(format_args!(
+            "run in {}, the last one of this scene; --out FOLDER resumes another",
+            shown(&path)
+        )),
+        _ => context.say(format_args!("run in {}", shown(&path))),
+    }
     let cache = cache::of(&args.cache);
     let workshop = Workshop {
         drivers: &drivers,

@@ -4,11 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use taceva_acquire::{Overrides, PlannedScene, SceneText};
-use taceva_core::{Field, SkipReason, counted, shown};
+use taceva_core::{Field, SkipReason, by_count, counted, shown};
 use taceva_drivers::Drivers;
 use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::{SplitInput, SplitSpec};
-use taceva_protocol::{BuiltinScene, PhaseKind, Plan, PlanReason, Subject};
+use taceva_protocol::{
+    BuiltinScene, PhaseKind, Plan, PlanReason, RigLimits, Subject, calm_threshold_n,
+};
 
 use super::{Context, Usage};
 use crate::args::{Run, SceneArgs};
@@ -87,6 +89,10 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             study.plan.contact.speed_mm_s.value,
             limits.overshoot.healthy_mm,
         ));
+        context.say(format_args!("rig: {}", threshold(&study.plan, limits)));
+        if let Some(line) = shifted(&study.plan) {
+            context.say(format_args!("rig: {line}"));
+        }
         if study.is_untaught(drivers) {
             context.say(format_args!(
                 "rig: `origin_mm` and `axes` are those of a new file: a run is refused until taceva rig teach {}",
@@ -101,6 +107,35 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             "rig: taceva is no safety function; the emergency stop and the guards of the site must hold without it (docs/rig.md)"
         ));
     }
+}
+
+/// Force in the air that halts the robot, compared with the stated noise of the transducer.
+fn threshold(plan: &Plan, limits: &RigLimits) -> String {
+    let threshold_n = plan.contact.threshold_n.value;
+    let noise_n = limits.signals.force_noise_n;
+    match calm_threshold_n(noise_n, threshold_n) {
+        Some(calm_n) => format!(
+            "5 times the stated noise of the transducer, {noise_n} N, exceeds `threshold_N` = {threshold_n}: write threshold_N = {calm_n} under [protocol.contact] of the scene"
+        ),
+        None => format!(
+            "a force above `threshold_N` = {threshold_n} under [protocol.contact] halts the robot in the air; 5 times the noise that taceva rig check prints must be below it"
+        ),
+    }
+}
+
+/// Presses of `plan` with a motion sideways in contact; `None` without such a press.
+fn shifted(plan: &Plan) -> Option<String> {
+    let shears = plan.presses.iter();
+    let shears = shears.map(|planned| planned.press.greatest_shear_mm());
+    let shears: Vec<f64> = shears.filter(|shear_mm| *shear_mm > 0.0).collect();
+    let greatest_mm = shears.iter().copied().fold(0.0, f64::max);
+    (!shears.is_empty()).then(|| {
+        format!(
+            "after a sample straight down, {} {} sideways in contact, by up to {greatest_mm:.2} mm, for a second sample; `shear_mm` of the phase sets this, 0 for none",
+            counted(shears.len(), "press"),
+            by_count(shears.len(), "moves", "move")
+        )
+    })
 }
 
 /// Refuses a scene that would measure nothing, because no study keeps a metric.

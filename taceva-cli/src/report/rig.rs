@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 use taceva_acquire::{RigCheck, RigProblem, RigTap, Stream};
 use taceva_core::counted;
+use taceva_protocol::{Contact, calm_threshold_n};
 
 use crate::args::ListFormat;
 
@@ -27,6 +28,7 @@ struct WrittenTap<'a> {
 pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::Result<()> {
     let RigTap {
         taps,
+        dropped,
         before_ms,
         force,
         sensor,
@@ -41,8 +43,11 @@ pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::
     unmeasured(tap.simulated, out)?;
     writeln!(
         out,
-        "{taps} taps; with the present corrections of the stamps:"
+        "{taps} clear taps; with the present corrections of the stamps:"
     )?;
+    for why in dropped {
+        writeln!(out, "left out: {why}")?;
+    }
     for (device, latency) in [("force", force), ("sensor", sensor)] {
         writeln!(
             out,
@@ -133,11 +138,25 @@ fn text(check: &RigCheck, out: &mut dyn Write) -> io::Result<()> {
         (None, Some(why)) => writeln!(out, "halt    left out: {why}")?,
         (None, None) => {}
     }
+    let noise_n = check.force.as_ref().and_then(|force| force.noise);
+    if let Some(line) = noise_n.and_then(threshold) {
+        writeln!(out, "note    {line}")?;
+    }
     let measured = check.problems.iter();
     for problem in measured.filter(|problem| !problem.is_failure()) {
         writeln!(out, "problem {problem}")?;
     }
     Ok(())
+}
+
+/// Comparison of the noise of the force with the threshold of a scene that states none; `None` if 5 times the noise is below it.
+fn threshold(noise_n: f64) -> Option<String> {
+    let default_n = Contact::default().threshold_n.value;
+    let calm_n = calm_threshold_n(noise_n, default_n)?;
+    Some(format!(
+        "5 times the noise of the force, {:.3} N, exceeds the default `threshold_N` of {default_n} N, so noise would halt motions in the air: write threshold_N = {calm_n} under [protocol.contact] of the scene",
+        5.0 * noise_n
+    ))
 }
 
 /// The failure of `device`, if it gave no measurement.
@@ -168,4 +187,19 @@ fn measured(stream: &Stream, unit: &str, out: &mut dyn Write) -> io::Result<()> 
         write!(out, ", {lost} lost")?;
     }
     writeln!(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn noise_above_a_fifth_of_the_threshold_names_the_key_and_its_value() {
+        let said = threshold(0.0042).unwrap_or_default();
+        assert!(
+            said.contains("write threshold_N = 0.05 under [protocol.contact]"),
+            "{said}"
+        );
+        assert_eq!(threshold(0.001), None);
+    }
 }

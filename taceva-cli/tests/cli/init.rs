@@ -186,12 +186,12 @@ fn a_scene_of_defaults_is_planned_and_of_two_sensors_has_a_study_each() {
     let bench = Bench::new();
     bench.ok("init scene --yes --out one.toml");
     assert!(bench.ok("plan one.toml").contains("200 presses"));
-    let answers = "two gels\nsim/gelsight, sim/gelsight-wm\n20\n2\nridge\nall\n1\n";
+    let answers = "two gels\n\nsim/gelsight, sim/gelsight-wm\n20\n2\nridge\nall\n1\n";
     let ran = bench.answered("init scene --out two.toml", answers);
     assert_eq!(ran.code, 0, "{}", ran.err);
     assert_eq!(read(&bench, "two.toml").matches("[[study]]").count(), 2);
     bench.ok("plan two.toml");
-    let wrong = bench.answered("init scene --out three.toml", "x\nsim/none\n");
+    let wrong = bench.answered("init scene --out three.toml", "x\nsimulated\nsim/none\n");
     assert!(
         wrong.err.contains("`sim/none` is no simulated sensor"),
         "{}",
@@ -202,7 +202,7 @@ fn a_scene_of_defaults_is_planned_and_of_two_sensors_has_a_study_each() {
 #[test]
 fn a_rig_asks_for_devices_their_addresses_and_limits() {
     let bench = Bench::new();
-    let answers = "ufactory/xarm\n192.168.1.200\nindenter\nati/netft\n192.168.1.1\ncamera/v4l2\n/dev/video0\n-1\n1.5\n2\n\n";
+    let answers = "ufactory/xarm\n192.168.1.200\nindenter\nati/netft\n192.168.1.1\ncamera/v4l2\n/dev/video0\n-1\n1.5\n2\n0.5\n\n";
     let ran = bench.answered("init rig --out lab.toml", answers);
     assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
     let rig = read(&bench, "lab.toml");
@@ -211,6 +211,8 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
         "driver = \"ati/netft:host=192.168.1.1\"",
         "driver = \"camera/v4l2:device=/dev/video0\"",
         "Pz_max_mm = 1.5",
+        "Fz_max_N = 2.0",
+        "Fxy_max_N = 0.5",
         "speed_max_mm_s = 20.0",
     ] {
         assert!(rig.contains(line), "no `{line}` in\n{rig}");
@@ -228,11 +230,11 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
     let line = "write `footprint = { shape = \"disc\", radius_mm = … }`";
     assert!(planned.err.contains(line), "{}", planned.err);
     bench.refused("run scene.toml --rig lab.toml", 2, line);
-    let answers = "my gel\nsim/gelsight\nround\nrect 16 18\n24\n1\nridge\naccuracy\n7\n";
+    let answers = "my gel\nrig\nround\nrect 16 18\n24\n1\nridge\naccuracy\n7\n";
     let asked = bench.answered("init scene --out stated.toml", answers);
     assert_eq!(asked.code, 0, "{}", asked.err);
     assert!(
-        asked.err.contains("expected `driver`, `disc RADIUS`"),
+        asked.err.contains("expected `disc RADIUS` or"),
         "{}",
         asked.err
     );
@@ -248,12 +250,19 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
     assert!(planned.out.contains("24 presses"), "{}", planned.out);
     let few = "the test part has 2 contact points, and intervals need 5";
     assert!(planned.err.contains(few), "{}", planned.err);
+    for line in [
+        "2 N normal and 0.5 N shear",
+        "`threshold_N` = 0.02 under [protocol.contact]",
+        "24 presses move sideways in contact, by up to ",
+    ] {
+        assert!(planned.err.contains(line), "no `{line}` in {}", planned.err);
+    }
     let untaught = "a run is refused until taceva rig teach lab.toml";
     assert!(planned.err.contains(untaught), "{}", planned.err);
     bench.refused(
         "init rig --yes --out other.toml",
         2,
-        "no default for: driver of the robot (",
+        "no default for: driver of the robot, alone or with arguments such as",
     );
 }
 

@@ -105,6 +105,11 @@ pub trait Robot: Send {
         None
     }
 
+    /// True if the device reports that it is emulated, so that nothing recorded with it was measured.
+    fn is_emulated(&self) -> bool {
+        false
+    }
+
     /// Stops the robot. Legal in every state and idempotent.
     ///
     /// # Errors

@@ -8,6 +8,7 @@
 //! {"inject": {"fault": "emergency-stop"}}
 //! {"lag": {"device": "camera", "ms": 40}}
 //! {"watch": {"Fz_N": 0.8}}
+//! {"jog": {"by_mm": [8, 0, -10]}}
 //! "truth"
 //! ```
 //!
@@ -20,7 +21,7 @@ use std::time::Duration;
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use taceva_core::{GratingKind, Nanometre};
+use taceva_core::{GratingKind, Nanometre, Speed};
 use taceva_sim::Mounted;
 use taceva_sim::optics::AmbientLight;
 
@@ -38,6 +39,7 @@ enum Request {
     Inject(Injection),
     Lag(Lag),
     Watch(Limit),
+    Jog(Jog),
     Truth,
 }
 
@@ -73,6 +75,13 @@ struct Limit {
     fz_n: Option<f64>,
 }
 
+/// Motion of the tip by hand, along x, y and z of the sensor; z points into the gel.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+struct Jog {
+    by_mm: [f64; 3],
+}
+
 /// Control port of a bench; listens until drop.
 #[derive(Debug)]
 pub struct Control {
@@ -85,6 +94,11 @@ const LINE_MAX: u64 = 4096;
 const USUAL_SECONDS: f64 = 1.0;
 /// Maximum latency, ms.
 const LAG_MAX_MS: f64 = 1e3;
+/// Maximum way of a jog along each axis, mm, and its speed, mm/s.
+const JOG_MAX_MM: f64 = 100.0;
+const JOG_MM_S: f64 = 20.0;
+/// Interval between looks at the end of a jog.
+const LOOK: Duration = Duration::from_millis(5);
 /// Maximum duration of a fault, s.
 const SECONDS_MAX: f64 = 3600.0;
 
@@ -176,6 +190,7 @@ fn answer(line: &[u8], bench: &WallBench, arm: Option<&dyn Arm>) -> Result<Value
             bench.set_lag(device, Duration::from_secs_f64(ms / 1e3));
         }
         Request::Watch(Limit { fz_n }) => bench.watch(fz_n),
+        Request::Jog(Jog { by_mm }) => jog(by_mm, bench)?,
         Request::Truth => {
             let truth = bench.truth();
             let seconds = |time: Option<Duration>| time.map(|time| time.as_secs_f64());
@@ -195,6 +210,27 @@ fn answer(line: &[u8], bench: &WallBench, arm: Option<&dyn Arm>) -> Result<Value
         }
     }
     Ok(json!({}))
+}
+
+/// Moves the tip as a pendant would, and waits until it rests.
+fn jog(by_mm: [f64; 3], bench: &WallBench) -> Result<(), WireError> {
+    let refused = WireError::Request;
+    if let Some(mm) = by_mm.iter().find(|mm| mm.abs() > JOG_MAX_MM) {
+        return Err(refused(format!(
+            "{mm} mm: expected {} to {JOG_MAX_MM}",
+            -JOG_MAX_MM
+        )));
+    }
+    let speed = Speed::try_new(JOG_MM_S).map_err(|error| refused(error.to_string()))?;
+    let mut target = bench.pose();
+    target.position.x.0 += by_mm[0];
+    target.position.y.0 += by_mm[1];
+    target.position.z.0 += by_mm[2];
+    bench.set_out(target, speed);
+    while bench.is_moving() {
+        std::thread::sleep(LOOK);
+    }
+    Ok(())
 }
 
 fn mounted(specimen: &Specimen) -> Result<Mounted, WireError> {
@@ -277,6 +313,26 @@ fn named_device(name: &str) -> Result<Device, WireError> {
 mod tests {
     use super::*;
     use crate::options::BenchOptions;
+
+    #[test]
+    fn a_jog_moves_the_tip_along_the_axes_of_the_sensor_and_ends_at_rest() {
+        let bench = WallBench::start(&BenchOptions::quiet(1)).expect("a bench");
+        let tip_mm = || {
+            let truth = answer(b"\"truth\"", &bench, None).expect("the truth");
+            [0, 1, 2].map(|axis: usize| truth["tip_mm"][axis].as_f64().expect("a length"))
+        };
+        let before = tip_mm();
+        answer(br#"{"jog": {"by_mm": [2, -1, -0.5]}}"#, &bench, None).expect("it moved");
+        assert!(!bench.is_moving());
+        let after = tip_mm();
+        for (axis, by_mm) in [2.0, -1.0, -0.5].into_iter().enumerate() {
+            let moved_mm = after[axis] - before[axis];
+            assert!((moved_mm - by_mm).abs() < 0.05, "{axis}: {moved_mm} mm");
+        }
+        let far = answer(br#"{"jog": {"by_mm": [0, 0, 101]}}"#, &bench, None);
+        let said = far.expect_err("too far").to_string();
+        assert!(said.contains("101 mm: expected -100 to 100"), "{said}");
+    }
 
     #[test]
     fn requests_are_done_or_refused_by_what_would_be_accepted() {

@@ -46,6 +46,8 @@ impl RigFile<'_> {
             "speed_max_mm_s = 20.0".to_owned(),
             format!("Pz_max_mm = {depth_max_mm:?}"),
             format!("Fz_max_N = {force_max_n:?}"),
+            // As on the bench simulated in the program, so that both make the same presses.
+            format!("Fxy_max_N = {:?}", self.bench.force_range_n()),
         ];
         for (name, lines) in [
             ("robot", &robot[..]),
@@ -87,6 +89,8 @@ mod tests {
         assert!(driver("sensor").ends_with("/\"x\""));
         assert_eq!(table["robot"]["axes"][1].as_str(), Some("-y"));
         assert_eq!(table["robot"]["origin_mm"][2].as_float(), Some(251.3));
+        let shear_n = table["limits"]["Fxy_max_N"].as_float();
+        assert_eq!(shear_n, Some(bench.force_range_n()));
         assert_eq!(table["limits"]["Pz_max_mm"].as_float(), Some(1.0));
     }
 }

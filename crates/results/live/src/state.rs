@@ -155,14 +155,14 @@ impl Asked {
             number,
             text: question.to_string(),
             done: match question {
-                Question::Enable(robot) => format!("Let {robot} move"),
+                Question::Enable { robot, .. } => format!("Let {robot} move"),
                 Question::Resume(_) => "Continue anyway".to_owned(),
                 Question::GoOn => "Continue, hands out of reach".to_owned(),
                 _ => "Done, hands out of reach".to_owned(),
             },
             can_skip: !matches!(
                 question,
-                Question::Enable(_) | Question::Resume(_) | Question::GoOn
+                Question::Enable { .. } | Question::Resume(_) | Question::GoOn
             ),
             picture: crate::picture::of(question),
             answer: None,

@@ -6,7 +6,7 @@ use taceva_core::{DriverError, DriverKind, ErrorKind};
 use taceva_dataset::DatasetError;
 use taceva_drivers::OpenError;
 use taceva_models::{FeatureError, SettingError};
-use taceva_protocol::{RunError, SceneError, StopCause};
+use taceva_protocol::{RunError, SceneError, StopCause, TapError};
 
 /// Reasons why an acquisition fails or stops.
 #[derive(Debug, thiserror::Error)]
@@ -115,6 +115,17 @@ pub enum AcquireError {
         /// Selector of the device.
         device: String,
     },
+    /// Taps give no latency. The tip was raised again.
+    #[error(
+        "{}: {source}; nothing was written, and the tip stands above the gel at its clearance of 1 mm",
+        taceva_core::shown(rig)
+    )]
+    Taps {
+        /// Name of the rig file.
+        rig: String,
+        /// Reason.
+        source: TapError,
+    },
     /// The request names something that the dataset or the model does not have.
     #[error("{0}")]
     Request(String),
@@ -159,6 +170,7 @@ impl AcquireError {
                 StopCause::Log(_) => ErrorKind::Protocol,
                 _ => ErrorKind::DeviceFault,
             },
+            AcquireError::Taps { .. } => ErrorKind::DeviceFault,
             _ => ErrorKind::InvalidArgument,
         }
     }
@@ -171,7 +183,9 @@ impl AcquireError {
             | AcquireError::OpenLive(source) => {
                 matches!(**source, OpenError::Device(_))
             }
-            AcquireError::Device(_) | AcquireError::CaptureEnded { .. } => true,
+            AcquireError::Device(_)
+            | AcquireError::CaptureEnded { .. }
+            | AcquireError::Taps { .. } => true,
             AcquireError::Acquisition { source, .. } => {
                 let cause = &source.cause;
                 // An invalid rig file is an error of a file, not of a device.
@@ -193,5 +207,28 @@ impl AcquireError {
 impl From<SceneError> for AcquireError {
     fn from(error: SceneError) -> AcquireError {
         AcquireError::Scene(Box::new(error))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn taps_without_a_latency_are_a_failure_of_devices_and_name_the_place_of_the_tip() {
+        let error = AcquireError::Taps {
+            rig: "lab.toml".to_owned(),
+            source: TapError::OneSpeed { ratio: 1.0 },
+        };
+        assert!(error.is_of_device() && !error.is_usage());
+        let said = error.to_string();
+        assert!(
+            said.starts_with("lab.toml: the fast taps are 1.00 times"),
+            "{said}"
+        );
+        assert!(
+            said.ends_with("the tip stands above the gel at its clearance of 1 mm"),
+            "{said}"
+        );
     }
 }

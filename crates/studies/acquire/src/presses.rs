@@ -109,7 +109,11 @@ fn acquire(
         let log = match &mut log {
             Some(log) => log,
             None => {
-                let spec = recording_spec(study, &open, origin(study, rig, workshop.drivers));
+                let source = match open.robot.is_emulated() {
+                    true => Source::Simulated,
+                    false => origin(study, rig, workshop.drivers),
+                };
+                let spec = recording_spec(study, &open, source);
                 let reduction = reduction(study, &open)?;
                 let spec = match &reduction {
                     Some(reduction) => {
@@ -201,7 +205,7 @@ fn acquire_unit(
     done
 }
 
-/// Origin of the samples of `study`: simulated as soon as one device is simulated or emulated.
+/// Origin of the samples of `study`: simulated as soon as one device is simulated, or emulated by the rig file.
 fn origin(study: &PlannedStudy, rig: &RigSpec, drivers: &Drivers) -> Source {
     let file = study.study.rig.as_deref();
     let changers = file.map(|file| [&file.changers.specimen, &file.changers.unit]);

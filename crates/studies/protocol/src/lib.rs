@@ -19,7 +19,9 @@ mod text;
 pub use content_id::ContentId;
 pub use frame_size::FrameSize;
 pub use limit_spec::LimitSpec;
-pub use limits::{FROZEN_READINGS, Overshoot, RigLimits, SEGMENT_S, STALE_S, Signals};
+pub use limits::{
+    FROZEN_READINGS, Overshoot, RigLimits, SEGMENT_S, STALE_S, Signals, calm_threshold_n,
+};
 pub use phase_kind::PhaseKind;
 pub use plan::{Cost, Fit, Plan, PlannedMetric, PlannedPress, plan};
 pub use press::{Motion, Press, Waypoint};

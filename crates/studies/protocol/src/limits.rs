@@ -2,7 +2,7 @@
 
 mod signals;
 
-pub use signals::{STALE_S, Signals};
+pub use signals::{STALE_S, Signals, calm_threshold_n};
 
 use taceva_core::{DriverSource, Millimetre, Newton, RobotFacts, Wrench};
 
@@ -21,7 +21,7 @@ pub struct RigLimits {
     pub depth_max: Millimetre,
     /// Greatest normal force.
     pub normal_max: Newton,
-    /// Greatest shear force; by default the limit of the normal force.
+    /// Greatest shear force; by default the limit of the normal force, or the range of the transducer if that is smaller.
     pub shear_max: Newton,
     /// Greatest force that the transducer measures; `None` if it states none.
     pub saturation: Option<Newton>,
@@ -172,10 +172,20 @@ pub(crate) fn limits(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<RigL
         .iter()
         .filter_map(|device| device.as_ref())
         .all(|device| device.source() == DriverSource::Simulated);
+    let of_file = study.rig.as_ref().map(|rig| &rig.limits);
+    let is_shear_written =
+        shear_max_n.is_some() || of_file.is_some_and(|limits| limits.shear_max_n.is_some());
+    let shear_max_n = match shear_max {
+        // A simulated gel needs no protection, and its recordings stay the same.
+        Some(stated) if is_shear_written || simulated => stated.limit,
+        // A range of the transducer tightens this limit and never loosens it.
+        Some(stated) => stated.limit.min(normal_max.limit),
+        None => normal_max.limit,
+    };
     Ok(RigLimits {
         depth_max: Millimetre(depth_max.limit),
         normal_max: Newton(normal_max.limit),
-        shear_max: Newton(shear_max.map_or(normal_max.limit, |stated| stated.limit)),
+        shear_max: Newton(shear_max_n),
         saturation: of_force().map(|stated| Newton(stated.limit)),
         speed_max_mm_s: speed_max.map_or(travel_mm_s.value, |stated| {
             stated.limit.min(travel_mm_s.value)

@@ -30,11 +30,23 @@ pub(crate) struct PhaseInputs<'a> {
     /// False if the gel has no markers, so that shear leaves no visible trace.
     pub(crate) markers: bool,
     pub(crate) seed: u64,
+    /// True if waypoints stay inside the footprint: on every rig except simulated and emulated ones, whose presses stay as they were.
+    pub(crate) stays_inside: bool,
 }
 
 impl PhaseInputs<'_> {
     /// Presses of phase `kind`, in order.
     pub(crate) fn presses(&self, kind: PhaseKind) -> Vec<Press> {
+        let mut presses = self.drawn(kind);
+        if self.stays_inside {
+            for press in &mut presses {
+                press.turn_shear_inwards(&self.footprint);
+            }
+        }
+        presses
+    }
+
+    fn drawn(&self, kind: PhaseKind) -> Vec<Press> {
         match kind {
             PhaseKind::Idle => idle::presses(self),
             PhaseKind::SurfaceMap => surface_map::presses(self),

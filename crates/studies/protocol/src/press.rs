@@ -1,6 +1,6 @@
 //! A press: its place, specimen and depths, with an id computed from its content.
 
-use taceva_core::{Nanometre, Phase, Specimen};
+use taceva_core::{Footprint, Nanometre, Phase, Specimen};
 
 use crate::content_id::{ContentId, Hasher};
 
@@ -91,6 +91,35 @@ impl Press {
         }
     }
 
+    /// Turns each shear that would leave `footprint` towards its middle, or removes it if every direction leaves.
+    pub(crate) fn turn_shear_inwards(&mut self, footprint: &Footprint) {
+        let [x, y] = self.place;
+        let Motion::Indent(waypoints) = &mut self.motion else {
+            return;
+        };
+        for waypoint in waypoints {
+            let [along_x, along_y] = waypoint.shear.map(|side| side.0);
+            let turned = [
+                [along_x, along_y],
+                [-along_x, along_y],
+                [along_x, -along_y],
+                [-along_x, -along_y],
+            ];
+            let is_inside = |[along_x, along_y]: &[i64; 2]| {
+                footprint.contains(Nanometre(x.0 + along_x), Nanometre(y.0 + along_y))
+            };
+            let inside = turned.into_iter().find(is_inside);
+            waypoint.shear = inside.unwrap_or_default().map(Nanometre);
+        }
+    }
+
+    /// Greatest shear of its waypoints, in mm.
+    pub fn greatest_shear_mm(&self) -> f64 {
+        let shears = self.waypoints().iter().map(|waypoint| waypoint.shear);
+        let lengths = shears.map(|[x, y]| x.to_millimetres().hypot(y.to_millimetres()));
+        lengths.fold(0.0, f64::max)
+    }
+
     /// Number of samples if no limit ends the press early.
     pub fn samples(&self) -> usize {
         match &self.motion {
@@ -135,6 +164,24 @@ mod tests {
     fn the_name_of_a_press_is_fixed_for_ever() {
         assert_eq!(press().id().to_string(), "37530e391b5de9f73b17380ea6b3a6c8");
         assert_eq!(press().point_id(), "1.5,-0.25");
+    }
+
+    #[test]
+    fn a_shear_that_would_leave_the_footprint_turns_inwards_and_others_stay() {
+        let disc = Footprint::disc(2.0, None).expect("a disc");
+        let sheared = |x_nm: i64, shear: [i64; 2]| {
+            let mut press = press();
+            press.place = [Nanometre(x_nm), Nanometre(0)];
+            if let Motion::Indent(waypoints) = &mut press.motion {
+                waypoints[0].shear = shear.map(Nanometre);
+            }
+            press.turn_shear_inwards(&disc);
+            press.waypoints()[0].shear.map(|side| side.0)
+        };
+        assert_eq!(sheared(0, [750_000, 0]), [750_000, 0]);
+        assert_eq!(sheared(1_500_000, [750_000, 0]), [-750_000, 0]);
+        // Longer than the disc is wide.
+        assert_eq!(sheared(1_500_000, [5_000_000, 0]), [0, 0]);
     }
 
     #[test]

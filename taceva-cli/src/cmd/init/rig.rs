@@ -31,6 +31,9 @@ pub(super) fn write(
     interview.say("limits protect the gel: the robot is halted when it exceeds one");
     let depth = interview.number("greatest depth, in mm", None, [0.01, 50.0])?;
     let normal = interview.number("greatest normal force, in N", None, [0.01, 1000.0])?;
+    let shear_question = "greatest shear force, in N";
+    let as_normal = normal.to_string();
+    let shear = interview.number(shear_question, Some(&as_normal), [0.01, 1000.0])?;
     let speed = interview.number("greatest speed, in mm/s", Some("20"), [0.1, 500.0])?;
     let text = format!(
         "# The devices of one place. taceva is no safety function: emergency stop and guards must hold without it (docs/rig.md).
@@ -52,6 +55,7 @@ driver = {sensor:?}
 [limits]
 Pz_max_mm = {depth:?}
 Fz_max_N = {normal:?}
+Fxy_max_N = {shear:?}
 speed_max_mm_s = {speed:?}
 
 # An enabling switch that a person holds while the robot moves; `taceva devices` lists its arguments:
@@ -106,7 +110,10 @@ fn device(
         false => Err(format!("expected one of {}", keys.join(", "))),
     };
     let answer = interview.ask(
-        &format!("driver of the {what} ({})", keys.join(", ")),
+        &format!(
+            "driver of the {what}, alone or with arguments such as KEY:host=…;port=… ({})",
+            keys.join(", ")
+        ),
         present.first().copied(),
         check,
     )?;

@@ -8,7 +8,7 @@ use taceva_dataset::internal::quoted;
 use taceva_drivers::{ListedDriver, devices};
 use taceva_protocol::Scene;
 
-use super::{Context, Interview, finish, target};
+use super::{Context, Interview, Usage, finish, target};
 use crate::args::InitTarget;
 
 /// The devices of the simulated bench beside its sensors.
@@ -33,24 +33,21 @@ pub(super) fn write(
         .map(|driver| driver.key.clone())
         .collect();
     let name = interview.ask("name of the study", Some("my study"), |_| Ok(()))?;
-    let known = sensors.join(", ");
-    let is_known = |answer: &str| {
-        let mut words = answer.split(',').map(str::trim);
-        match words.find(|word| !sensors.iter().any(|sensor| sensor == word)) {
-            None => Ok(()),
-            Some(other) => Err(format!(
-                "`{other}` is no simulated sensor, expected some of {known}"
-            )),
-        }
-    };
-    let question = format!("sensors, separated by commas ({known})");
-    let chosen = interview.ask(&question, sensors.first().map(String::as_str), is_known)?;
-    let sensing_area = match chosen.contains(',') {
-        true => None,
-        false => footprint(interview)?,
+    let kinds = ["simulated", "rig"];
+    let question = "devices, of the simulated bench or of your rig file";
+    let (chosen, sensing_area) = match interview
+        .choose(question, &kinds, Some("simulated"))?
+        .as_str()
+    {
+        "rig" => (String::new(), Some(footprint(interview)?)),
+        _ => (simulated(&sensors, interview)?, None),
     };
     let points = interview.count("contact points", "200", [4, 100_000])?;
-    let presses = interview.count("depths at each point", "4", [1, 1000])?;
+    let presses = interview.count(
+        "depths at each point, each sampled straight down and then moved sideways",
+        "4",
+        [1, 1000],
+    )?;
     let models = ["ridge", "fast", "default", "best", "auto"];
     let model = interview.choose("model", &models, Some("fast"))?;
     let wanted = interview.choose("metrics", &["all", "accuracy"], Some("accuracy"))?;
@@ -102,19 +99,33 @@ pub(super) fn write(
     )
 }
 
-/// The line of the scene that states the sensing surface; `None` if a simulated driver states it.
-fn footprint(interview: &mut Interview) -> anyhow::Result<Option<String>> {
-    interview.say("for a real rig state the sensing area, which no driver of a camera knows; the rig file then names the devices");
-    let check = |answer: &str| match answer == "driver" || footprint_line(answer).is_some() {
-        true => Ok(()),
-        false => Err(
-            "expected `driver`, `disc RADIUS` or `rect HALF_X HALF_Y` with lengths above 0"
-                .to_owned(),
-        ),
+/// Some of the simulated `sensors`, separated by commas.
+fn simulated(sensors: &[String], interview: &mut Interview) -> anyhow::Result<String> {
+    let known = sensors.join(", ");
+    let is_known = |answer: &str| {
+        let mut words = answer.split(',').map(str::trim);
+        match words.find(|word| !sensors.iter().any(|sensor| sensor == word)) {
+            None => Ok(()),
+            Some(other) => Err(format!(
+                "`{other}` is no simulated sensor, expected some of {known}"
+            )),
+        }
     };
-    let question = "sensing area of a real sensor in mm (disc RADIUS, rect HALF_X HALF_Y, or driver if simulated)";
-    let answer = interview.ask(question, Some("driver"), check)?;
-    Ok(footprint_line(&answer))
+    let question = format!("sensors, separated by commas ({known})");
+    interview.ask(&question, sensors.first().map(String::as_str), is_known)
+}
+
+/// The line of the scene that states the sensing area.
+fn footprint(interview: &mut Interview) -> anyhow::Result<String> {
+    let expected = "expected `disc RADIUS` or `rect HALF_X HALF_Y` with lengths above 0";
+    let check = |answer: &str| match footprint_line(answer) {
+        Some(_) => Ok(()),
+        None => Err(expected.to_owned()),
+    };
+    let question =
+        "sensing area in mm, which no driver of a camera knows (disc RADIUS or rect HALF_X HALF_Y)";
+    let answer = interview.ask(question, None, check)?;
+    footprint_line(&answer).ok_or_else(|| Usage::error(expected))
 }
 
 /// The line for `disc RADIUS` or `rect HALF_X HALF_Y`.

@@ -91,6 +91,16 @@ fn a_gel_that_is_softened_by_use_is_brought_back_to_where_it_was() {
     survives(&bench, &[30_000, 45_000]);
 }
 
+#[test]
+fn a_resumed_run_is_named_with_the_option_that_chooses_another() {
+    let bench = with_small();
+    bench.ok("run small.toml -q");
+    let resumed = bench.run("run small.toml --resume");
+    assert_eq!(resumed.code, 0, "{}", resumed.err);
+    let named = "small-1, the last one of this scene; --out FOLDER resumes another";
+    assert!(resumed.err.contains(named), "{}", resumed.err);
+}
+
 #[cfg(unix)]
 #[test]
 fn a_signal_stops_a_run_between_motions_and_it_says_how_to_go_on() {

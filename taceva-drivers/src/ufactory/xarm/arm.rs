@@ -28,7 +28,11 @@ pub(super) struct Arm {
     pub(super) exchange: Exchange,
     pub(super) observer: Observer,
     pub(super) options: XarmOptions,
+    is_emulated: bool,
 }
+
+/// Begin of the serial number of an emulated arm (`taceva-wire`).
+const EMULATED: &str = "TACEVA-SIM";
 
 /// Unknown firmware: only commands that never changed are sent to it.
 const UNKNOWN: Firmware = Firmware::new(0, 0, 0);
@@ -42,8 +46,9 @@ impl Arm {
         let version = exchange
             .ask(Command::GetVersion, ANSWER)
             .map_err(unanswered(doing))?;
-        let firmware = Firmware::parse(&version.text())
-            .map_err(|error| failed(ErrorKind::Protocol, doing, error))?;
+        let version = version.text();
+        let firmware =
+            Firmware::parse(&version).map_err(|error| failed(ErrorKind::Protocol, doing, error))?;
         exchange.set_firmware(firmware);
         let mut line = Exchange::open(host, *port, firmware).map_err(unanswered(doing))?;
         line.ask(Command::GetState, ANSWER)
@@ -62,6 +67,7 @@ impl Arm {
             exchange,
             observer,
             options,
+            is_emulated: version.contains(EMULATED),
         })
     }
 
@@ -148,6 +154,10 @@ fn reported_pose(report: &ArmReport) -> Result<Pose, DriverError> {
 const LAST_GOOD_STATE: u8 = 3;
 
 impl Robot for Arm {
+    fn is_emulated(&self) -> bool {
+        self.is_emulated
+    }
+
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let seen = self
             .observer

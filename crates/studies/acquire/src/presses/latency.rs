@@ -101,6 +101,10 @@ impl ForceTransducer for Late<dyn ForceTransducer> {
 }
 
 impl Robot for Late<dyn Robot> {
+    fn is_emulated(&self) -> bool {
+        self.device.is_emulated()
+    }
+
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let (pose, stamp) = self.device.pose(deadline)?;
         Ok((pose, self.true_stamp(stamp)))

@@ -42,6 +42,10 @@ impl Registered {
 }
 
 impl Robot for Registered {
+    fn is_emulated(&self) -> bool {
+        self.robot.is_emulated()
+    }
+
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let (base, stamp) = self.robot.pose(deadline)?;
         Ok((self.registration.to_sensor(&base), stamp))

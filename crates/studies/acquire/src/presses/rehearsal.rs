@@ -1,7 +1,7 @@
 //! Rehearsal: visits every place of a scene above the gel, under the guard of a run. Nothing is pressed or recorded.
 
 use taceva_core::{Frame, Millimetre, SinkError};
-use taceva_protocol::{Cancel, ContentId, Event, Mode, PressLog, PressRecord, RunSpec};
+use taceva_protocol::{Cancel, ContentId, Event, Mode, PressLog, PressRecord, RunError, RunSpec};
 
 use super::devices::{OpenRig, Sitting};
 use super::operator::{stopped, unit_is_there};
@@ -54,7 +54,14 @@ pub fn rehearse_scene(scene: &PlannedScene, workshop: Workshop<'_>) -> Result<us
                 }
             };
             let done = open.conduct(&spec, &mut Unwritten, sitting, &mut events);
-            let report = done.map_err(|error| stopped(&study.plan, error))?;
+            let report = done.map_err(|error| {
+                // Nothing was pressed, so nothing is repeated.
+                let error = RunError {
+                    press: None,
+                    ..error
+                };
+                stopped(&study.plan, error)
+            })?;
             sitting.is_enabled = true;
             visited += report.made;
         }

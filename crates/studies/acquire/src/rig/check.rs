@@ -43,7 +43,7 @@ const NOISE_PART: f64 = 0.5;
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RigCheck {
-    /// True if the devices are emulated, as the rig file states.
+    /// True if the devices are emulated, as the rig file states or the robot reports.
     pub simulated: bool,
     /// Force transducer at rest; noise in N.
     pub force: Option<Stream>,
@@ -128,6 +128,7 @@ pub fn check_rig(
         });
         return Ok(check);
     };
+    check.simulated |= robot.is_emulated();
     let heard = listen_to_robot(&mut *robot).map_err(without_answer);
     if let Some(heard) = check.of("robot", heard) {
         let facts = descriptor.robot();
@@ -164,7 +165,8 @@ fn without_answer(error: DriverError) -> String {
 }
 
 fn is_let_move(operator: &mut dyn Operator, robot: String) -> bool {
-    operator.ask(&Question::Enable(robot), &Cancel::new()) == Answer::Done
+    let way = format!("{WAY_MM} mm straight up at {WAY_MM_S} mm/s, halted on the way");
+    operator.ask(&Question::Enable { robot, way }, &Cancel::new()) == Answer::Done
 }
 
 impl RigCheck {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use taceva_core::Descriptor;
-use taceva_protocol::{Latency, RigFile, RigLatencies, SceneProblem, TapError};
+use taceva_protocol::{Latency, RigFile, RigLatencies, SceneProblem};
 
 use crate::error::AcquireError;
 use crate::presses::{Workshop, tap_study, written_latencies_ms};
@@ -35,8 +35,10 @@ indentations = 1
 pub struct RigTap {
     /// True if the devices are emulated, as the rig file states.
     pub simulated: bool,
-    /// Number of taps.
+    /// Number of taps with a clear edge of every device.
     pub taps: usize,
+    /// Reasons of the taps without, at most a quarter of all.
+    pub dropped: Vec<String>,
     /// Previous latencies of robot, transducer and sensor, in ms, from the rig file or else from the drivers.
     pub before_ms: [f64; 3],
     /// Remaining delay of the transducer relative to the robot.
@@ -54,7 +56,7 @@ pub struct RigTap {
 ///
 /// # Errors
 /// [`AcquireError::Scene`] with the line of the rig file if it lacks a robot, a transducer, a sensor or limits. [`AcquireError::Open`] and
-/// [`AcquireError::Acquisition`] if a device failed or the rig contradicts its file. [`AcquireError::Request`] with the reason if the taps give no
+/// [`AcquireError::Acquisition`] if a device failed or the rig contradicts its file. [`AcquireError::Taps`] with the reason if the taps give no
 /// latency.
 pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireError> {
     let rig = super::read_rig(path)?;
@@ -93,14 +95,16 @@ pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireErr
         latency.unwrap_or(0.0)
     });
     let tapped = tap_study(study, workshop)?;
-    let refused = |error: TapError| {
-        AcquireError::Request(format!("{}: {error}", taceva_core::shown(rig.name())))
-    };
-    let (force, sensor) = tapped.latencies().map_err(refused)?;
+    let (force, sensor) = tapped.latencies().map_err(|source| AcquireError::Taps {
+        rig: rig.name().to_owned(),
+        source,
+    })?;
+    let dropped: Vec<String> = tapped.dropped().iter().map(ToString::to_string).collect();
     let latencies = RigLatencies::measured(before_ms, &force, &sensor);
     Ok(RigTap {
         simulated: rig.simulated,
-        taps: tapped.count(),
+        taps: tapped.count() - dropped.len(),
+        dropped,
         before_ms,
         force,
         sensor,

@@ -5,7 +5,7 @@ use std::time::Duration;
 use taceva_core::{Deadline, Pose, Robot};
 use taceva_drivers::Drivers;
 use taceva_protocol::{
-    Answer, Cancel, Jogged, Operator, Question, RigFile, SceneProblem, Spot, Taught,
+    Answer, Cancel, Jogged, Operator, Question, RigFile, SceneProblem, Spot, Taught, TeachError,
 };
 
 use crate::error::AcquireError;
@@ -31,15 +31,18 @@ pub fn teach_rig(
     let opener = FileOpener::new(rig, drivers);
     let (mut robot, _) = opener.base_robot()?.ok_or_else(missing)?;
     let mut jog = |spot: Spot| stood(&mut *robot, spot, operator);
-    let jogged = Jogged {
-        middle: jog(Spot::Middle)?,
-        along_x: jog(Spot::AlongX)?,
-        along_y: jog(Spot::AlongY)?,
-    };
-    let taught = jogged.taught(written.carries).map_err(|error| {
+    let refused = |error: TeachError| {
         let problem = SceneProblem::Contradiction(error.to_string());
         AcquireError::from(rig.error(written.axes.at(), problem))
-    })?;
+    };
+    let (middle, along_x) = (jog(Spot::Middle)?, jog(Spot::AlongX)?);
+    Jogged::check_x(&middle, &along_x).map_err(refused)?;
+    let jogged = Jogged {
+        middle,
+        along_x,
+        along_y: jog(Spot::AlongY)?,
+    };
+    let taught = jogged.taught(written.carries).map_err(refused)?;
     let text = rig.with_taught(&taught).ok_or_else(missing)?;
     Ok((taught, text))
 }

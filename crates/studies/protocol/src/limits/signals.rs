@@ -29,6 +29,17 @@ const STALE_READINGS: f64 = 3.0;
 /// Greatest travel of the tip in contact while readings grow stale, in mm.
 const BLIND_MM: f64 = 0.25;
 
+/// Number of standard deviations of the force that a threshold in the air must exceed.
+const AIR_NOISES: f64 = 5.0;
+/// Number of standard deviations of a suggested threshold: the zero and slow drift have noise too.
+const CALM_NOISES: f64 = 10.0;
+
+/// `threshold_N` to write instead of `threshold_n`, in N, if the force has the noise `noise_n`. `None` if 5 times the noise is at most `threshold_n`.
+pub fn calm_threshold_n(noise_n: f64, threshold_n: f64) -> Option<f64> {
+    let calm_n = (CALM_NOISES * noise_n * 100.0).ceil() / 100.0;
+    (AIR_NOISES * noise_n > threshold_n).then_some(calm_n)
+}
+
 impl Default for Signals {
     fn default() -> Signals {
         Signals {
@@ -54,7 +65,7 @@ impl Signals {
 
     /// Least force out of contact that exceeds the noise, in N.
     pub(crate) fn air_n(&self) -> f64 {
-        5.0 * self.force_noise_n
+        AIR_NOISES * self.force_noise_n
     }
 
     /// Derives the signals of `rig` from its descriptors.
@@ -212,6 +223,13 @@ mod tests {
         let mut scene = Scene::parse("small", SMALL).expect("a scene");
         scene.protocol.contact.speed_mm_s.value = speed_mm_s;
         Signals::of(&scene, &scene.studies[0], rig).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_threshold_within_five_times_the_noise_is_replaced_by_one_of_ten_times() {
+        assert_eq!(calm_threshold_n(0.0042, 0.02), Some(0.05));
+        assert_eq!(calm_threshold_n(0.0039, 0.02), None);
+        assert_eq!(calm_threshold_n(0.0042, 0.05), None);
     }
 
     #[test]

@@ -162,6 +162,8 @@ impl<'a> Gather<'a> {
                     lights: self.lights,
                     markers: markers != Some(false),
                     seed: scene.seed,
+                    stays_inside: !limits.simulated
+                        && !study.rig.as_ref().is_some_and(|rig| rig.simulated),
                 })
             }
             _ => None,

@@ -88,6 +88,14 @@ pub enum TeachError {
 }
 
 impl Jogged {
+    /// Checks the jog along x before the robot is jogged along y.
+    ///
+    /// # Errors
+    /// [`TeachError`] if it is too short, askew or turned.
+    pub fn check_x(middle: &Pose, along_x: &Pose) -> Result<(), TeachError> {
+        way(middle, along_x, 'x').map(drop)
+    }
+
     /// Computes origin and axes of the rig file for a robot that moves `carries`.
     ///
     /// # Errors

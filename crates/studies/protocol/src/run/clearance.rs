@@ -57,7 +57,8 @@ pub fn raise(
             Some(operator) => Some(&mut **operator),
             None => None,
         };
-        enable(robot, operator, cancel)?;
+        let way = format!("straight up to {} mm above the gel", tip.pace.clearance_mm);
+        enable(robot, way, operator, cancel)?;
     }
     tip.wait_until_held(&mut attendant).map_err(unmoved)?;
     tip.force
@@ -76,9 +77,10 @@ pub fn raise(
     Ok(true)
 }
 
-/// Asks the operator to enable `robot` before its first motion.
+/// Asks the operator to enable `robot` before its first motions, which `way` names.
 pub(super) fn enable(
     robot: &str,
+    way: String,
     operator: Option<&mut dyn Operator>,
     cancel: &Cancel,
 ) -> Result<(), RunError> {
@@ -86,7 +88,8 @@ pub(super) fn enable(
         let needed = format!("a person to enable `{robot}`");
         return Err(unmoved(StopCause::Missing(needed)));
     };
-    match operator.ask(&Question::Enable(robot.to_owned()), cancel) {
+    let robot = robot.to_owned();
+    match operator.ask(&Question::Enable { robot, way }, cancel) {
         Answer::Done => Ok(()),
         Answer::Skip | Answer::Stop => Err(unmoved(StopCause::Cancelled)),
     }

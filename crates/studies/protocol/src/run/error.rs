@@ -147,7 +147,10 @@ impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.cause)?;
         if let Some(press) = self.press {
-            write!(f, "; press {press} will be repeated")?;
+            write!(
+                f,
+                "; the unfinished press {press} is repeated when this run is resumed"
+            )?;
         }
         if let Left::InPlace = self.left {
             f.write_str("; the tip stays in place, perhaps in the gel")?;

@@ -111,7 +111,7 @@ impl fmt::Display for Trip {
             Trip::UnexpectedContact { force_n } => {
                 write!(
                     f,
-                    "a force of {force_n:.3} N where no contact is expected"
+                    "a force of {force_n:.3} N where no contact is expected; if nothing touches the tip, write a greater `threshold_N` under [protocol.contact] of the scene: above 5 times the noise that `taceva rig check` prints"
                 )
             }
             Trip::ForceRate { rate_n_s } => {
@@ -168,6 +168,19 @@ mod tests {
             );
             assert!(said.starts_with(&expected), "{said}");
         }
+    }
+
+    #[test]
+    fn a_force_in_the_air_names_the_key_that_separates_it_from_noise() {
+        let said = Trip::UnexpectedContact { force_n: -0.023 }.to_string();
+        assert!(
+            said.starts_with("a force of -0.023 N where no contact"),
+            "{said}"
+        );
+        assert!(
+            said.contains("`threshold_N` under [protocol.contact]"),
+            "{said}"
+        );
     }
 
     #[test]

@@ -19,8 +19,13 @@ pub trait Operator {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Question {
-    /// Enable this robot: the operator types its name or presses a button with the name.
-    Enable(String),
+    /// Enable a robot: the operator types its name or presses a button with the name.
+    Enable {
+        /// Name of the robot.
+        robot: String,
+        /// Its next motions.
+        way: String,
+    },
     /// Mount this specimen on the robot, unrotated.
     Mount(Specimen),
     /// Put this unit of the sensor under the robot.
@@ -78,9 +83,9 @@ pub enum Answer {
 impl fmt::Display for Question {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Question::Enable(robot) => write!(
+            Question::Enable { robot, way } => write!(
                 f,
-                "`{}` is about to move: keep your hands clear and the emergency stop within reach",
+                "`{}` is about to move: {way}; keep your hands clear and the emergency stop within reach",
                 taceva_core::shown(robot)
             ),
             Question::Jog(Spot::Middle) => f.write_str(
@@ -100,7 +105,16 @@ impl fmt::Display for Question {
                 "the gel surface is {height_mm:+.3} mm deeper than in the last session, and its force at the same depth differs by {:+.1} %: continue this recording if it is the same gel, stop if it was moved or replaced",
                 100.0 * force_part
             ),
-            Question::Mount(specimen) => write!(f, "mount the {specimen}, turned straight"),
+            Question::Mount(specimen) => {
+                let unrotated = match specimen {
+                    Specimen::Sphere { .. } => "",
+                    Specimen::Grating { .. } => ", unrotated",
+                };
+                write!(
+                    f,
+                    "mount the {specimen}{unrotated}; the robot is halted until you confirm"
+                )
+            }
             Question::Instead { of_changer, why } => write!(
                 f,
                 "the changer failed: {}; check that it has stopped and is out of the way, then by hand: {of_changer}",
@@ -132,7 +146,16 @@ mod tests {
             spacing: Nanometre(500_000),
         };
         for (question, word) in [
-            (Question::Mount(board), "0.5 mm"),
+            (
+                Question::Mount(board),
+                "0.5 mm, unrotated; the robot is halted",
+            ),
+            (
+                Question::Mount(Specimen::Sphere {
+                    radius: Nanometre(2_000_000),
+                }),
+                "mount the sphere of radius 2 mm; the robot is halted until you confirm",
+            ),
             (Question::Unit("b".to_owned()), "unit b"),
             (
                 Question::Instead {
@@ -145,8 +168,11 @@ mod tests {
             (Question::GoOn, "keep your hands clear"),
             (Question::Acknowledge(Fault::Collision), "collision"),
             (
-                Question::Enable("lab/arm".to_owned()),
-                "`lab/arm` is about to move",
+                Question::Enable {
+                    robot: "lab/arm".to_owned(),
+                    way: "5 mm up".to_owned(),
+                },
+                "`lab/arm` is about to move: 5 mm up; keep",
             ),
             (
                 Question::Resume(ChangedTouch {

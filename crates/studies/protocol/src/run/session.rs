@@ -1,6 +1,6 @@
 //! A run from start to end: the order of its presses, and its stop.
 
-use taceva_core::{Lighting, Nanometre, PressOutcome, Sensor, Specimen};
+use taceva_core::{Lighting, Nanometre, PressOutcome, Sensor, Specimen, counted};
 
 use super::bounds::Bounds;
 use super::camera::Camera;
@@ -168,7 +168,20 @@ impl<'a> Run<'a> {
             // If no presses are left, the robot is not enabled.
             return Ok(report);
         }
-        self.enable()?;
+        let clearance_mm = self.tip.pace.clearance_mm;
+        let way = match spec.mode {
+            Mode::Acquire => format!(
+                "up to {clearance_mm} mm above the gel, there slowly over a few places, down for a gentle touch, then {}",
+                counted(presses.len() - report.resumed, "press")
+            ),
+            Mode::Rehearse { height } => format!(
+                "over {}, {} mm above the height of travel, at up to {} mm/s, without a press",
+                counted(presses.len(), "place"),
+                height.0,
+                self.tip.pace.travel.mm_per_s()
+            ),
+        };
+        self.enable(way)?;
         self.hold(None)?;
         self.tip
             .find()

@@ -36,8 +36,8 @@ struct Reaction {
 }
 
 impl Run<'_> {
-    /// Asks the operator to enable the robot before its first motion.
-    pub(super) fn enable(&mut self) -> Result<(), RunError> {
+    /// Asks the operator to enable the robot before its first motions, which `way` names.
+    pub(super) fn enable(&mut self, way: String) -> Result<(), RunError> {
         let robot = self.session.as_ref().and_then(|session| session.robot);
         let Some(robot) = robot else {
             return Ok(());
@@ -46,7 +46,7 @@ impl Run<'_> {
             Some(operator) => Some(&mut **operator),
             None => None,
         };
-        enable(robot, operator, self.tip.cancel)
+        enable(robot, way, operator, self.tip.cancel)
     }
 
     /// Begins the session, once, before the first press and with its specimen.

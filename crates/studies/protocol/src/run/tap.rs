@@ -100,7 +100,12 @@ pub fn tap<'a>(
 
 impl Run<'_> {
     fn tap(&mut self, listener: &mut dyn TapListener) -> Result<Tapped, RunError> {
-        self.enable()?;
+        let way = format!(
+            "up to {} mm above the gel, down for a gentle touch at its middle, then {} taps, with the specimen of the first press mounted",
+            self.tip.pace.clearance_mm,
+            Tapped::TAPS
+        );
+        self.enable(way)?;
         self.hold(None)?;
         self.tip
             .find()

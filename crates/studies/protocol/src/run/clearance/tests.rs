@@ -77,7 +77,10 @@ fn a_tip_in_the_gel_is_let_move_then_raised_and_halted() {
     let rig = over_a_gel(CONTACT_MM + 0.5);
     let (done, person) = raised(&rig, Answer::Done);
     assert!(done.expect("raised"), "it stood low");
-    let enable = Question::Enable("lab/arm".to_owned());
+    let enable = Question::Enable {
+        robot: "lab/arm".to_owned(),
+        way: "straight up to 2 mm above the gel".to_owned(),
+    };
     assert_eq!(person.asked, [(enable, CONTACT_MM + 0.5, 0)]);
     let state = rig.state();
     assert!(state.halted);

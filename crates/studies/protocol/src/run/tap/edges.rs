@@ -16,6 +16,8 @@ const AT_REST: f64 = 0.75;
 const END_MM: f64 = 0.05;
 /// Least ratio of the fastest to the slowest tap. Below it, offset and latency cannot be separated.
 const LEAST_RATIO: f64 = 1.5;
+/// Taps that may be left out: one in this number.
+const DROPPED: usize = 4;
 /// Number of standard deviations that cover 95 of 100 taps.
 const WITHIN: f64 = 2.0;
 
@@ -61,7 +63,7 @@ pub enum TapError {
     },
     /// The signal of a device still changes long after the tip came to rest.
     #[error(
-        "tap {tap}: the {device} signal still changes after the tip has rested for 0.4 s: its latency is too long for a tap, or the gel creeps"
+        "tap {tap}: the {device} signal still changes after the tip has rested for 0.4 s: its latency is too long for a tap, or the gel creeps; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it"
     )]
     Late {
         /// Number of the tap, from 1.
@@ -99,6 +101,14 @@ struct Passage {
     speed_mm_s: f64,
 }
 
+/// Passage of the tip in one tap, and times at which transducer and sensor show half of their change, in s.
+#[derive(Clone, Copy, Debug)]
+struct TapEdges {
+    passage: Passage,
+    force_s: f64,
+    sensor_s: f64,
+}
+
 impl Tapped {
     /// Number of taps, alternating between the speed of contact and a part of it.
     pub const TAPS: u32 = 20;
@@ -126,35 +136,37 @@ impl Tapped {
     /// Each tap gives the delay between two times: the tip passes the reference height, and a device shows half of its change. Over all taps the
     /// delay is L + δ/v, a line in the reciprocal of the speed v. L is the latency, δ the offset of the half change below that height.
     ///
+    /// A tap that a device does not show clearly is left out, up to a quarter of all.
+    ///
     /// # Errors
-    /// [`TapError`] for missing, unclear or contradictory signals.
+    /// [`TapError`] for missing, unclear or contradictory signals: that of the first such tap if more than a quarter have one.
     pub fn latencies(&self) -> Result<(Latency, Latency), TapError> {
-        let mut passages = Vec::new();
-        for (place, heard) in self.taps.iter().enumerate() {
-            passages.push(self.passage(place + 1, heard)?);
+        let (mut clear, mut dropped) = (Vec::new(), Vec::new());
+        for edges in self.edges() {
+            match edges {
+                Ok(edges) => clear.push(edges),
+                Err(error) => dropped.push(error),
+            }
         }
-        let speeds = || passages.iter().map(|passage| passage.speed_mm_s);
+        if let Some(first) = dropped.first()
+            && DROPPED * dropped.len() > self.taps.len()
+        {
+            return Err(*first);
+        }
+        let speeds = || clear.iter().map(|tap| tap.passage.speed_mm_s);
         let ratio = speeds().fold(0.0, f64::max) / speeds().fold(f64::INFINITY, f64::min);
         if ratio.is_nan() || ratio < LEAST_RATIO {
             return Err(TapError::OneSpeed { ratio });
         }
-        let of = |device, what, said: fn(&TapHeard) -> &Said| {
-            let mut late = Vec::new();
-            for (place, (heard, passage)) in self.taps.iter().zip(&passages).enumerate() {
-                let listened = Listened {
-                    tap: place + 1,
-                    device,
-                    what,
-                };
-                let air_s = passage.at_s
-                    - (self.reference_mm - self.contact_mm + AIR_MM) / passage.speed_mm_s;
-                let edge_s = listened.edge_s(said(heard), air_s)?;
-                late.push((1.0 / passage.speed_mm_s, edge_s - passage.at_s));
-            }
-            Ok(intercept(&late))
+        let of = |edge_s: fn(&TapEdges) -> f64| {
+            let late = clear.iter().map(|tap| {
+                let Passage { at_s, speed_mm_s } = tap.passage;
+                (1.0 / speed_mm_s, edge_s(tap) - at_s)
+            });
+            intercept(&late.collect::<Vec<_>>())
         };
-        let force = of("force", "readings", |heard| &heard.forces)?;
-        let sensor = of("sensor", "frames", |heard| &heard.frames)?;
+        let force = of(|tap| tap.force_s);
+        let sensor = of(|tap| tap.sensor_s);
         let allowed_ms = self.frame_period_s() / 2.0 * 1e3;
         for (device, latency) in [("force", force), ("sensor", sensor)] {
             // NaN is rejected too.
@@ -167,6 +179,30 @@ impl Tapped {
             }
         }
         Ok((force, sensor))
+    }
+
+    /// Reasons of the taps that latencies leave out, because a device does not show them clearly.
+    pub fn dropped(&self) -> Vec<TapError> {
+        self.edges().into_iter().filter_map(Result::err).collect()
+    }
+
+    /// Edges of each tap, in order.
+    fn edges(&self) -> Vec<Result<TapEdges, TapError>> {
+        let taps = self.taps.iter().enumerate();
+        taps.map(|(place, heard)| self.edges_of(place + 1, heard))
+            .collect()
+    }
+
+    fn edges_of(&self, tap: usize, heard: &TapHeard) -> Result<TapEdges, TapError> {
+        let passage = self.passage(tap, heard)?;
+        let above_mm = self.reference_mm - self.contact_mm + AIR_MM;
+        let air_s = passage.at_s - above_mm / passage.speed_mm_s;
+        let edge_s = |device, what, said: &Said| Listened { tap, device, what }.edge_s(said, air_s);
+        Ok(TapEdges {
+            passage,
+            force_s: edge_s("force", "readings", &heard.forces)?,
+            sensor_s: edge_s("sensor", "frames", &heard.frames)?,
+        })
     }
 
     fn passage(&self, tap: usize, heard: &TapHeard) -> Result<Passage, TapError> {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use taceva_core::{Millimetre, Point, Workspace};
-use taceva_protocol::{Carried, RigFile, SceneProblem};
+use taceva_protocol::{Carried, Plan, RigFile, SceneProblem};
 
 use super::*;
 
@@ -296,4 +296,78 @@ fn a_robot_that_moves_in_its_base_frame_is_refused_without_a_rig_file_that_maps_
     );
     // A rig file maps the base frame.
     planned(&put_on(SCENE, RIG)).expect("it is mapped");
+}
+
+/// Real devices of a gel whose transducer states the range `range_n`.
+fn real_devices(range_n: f64) -> RigInfo {
+    let real = |key: &'static str, facts: Facts| {
+        let spec = DescriptorSpec::new(DriverKey::fixed(key), key, DriverSource::Real, facts);
+        Some(spec.check().expect("no contradiction"))
+    };
+    let force = ForceFacts::default()
+        .with_axes(Axes::FORCE)
+        .with_force_max(Newton(range_n));
+    RigInfo {
+        sensor: real("lab/camera", Facts::Sensor(Box::default())),
+        robot: real("lab/arm", Facts::Robot(RobotFacts::default())),
+        force: real("lab/box", Facts::Force(force)),
+        lighting: None,
+    }
+}
+
+fn plan_on_real(range_n: f64, rig: &str) -> Plan {
+    let devices = real_devices(range_n);
+    let plans = plan(&put_on(SCENE, rig), |_| {
+        SourceInfo::Rig(Box::new(devices.clone()))
+    });
+    plans.expect("plans").remove(0)
+}
+
+#[test]
+fn the_range_of_a_transducer_never_loosens_the_limit_of_the_shear_force() {
+    let shear_n = |range_n: f64, rig: &str| {
+        let limits = plan_on_real(range_n, rig).limits.expect("it moves");
+        limits.shear_max.0
+    };
+    // The limit of the normal force is 1.8 N.
+    for (range_n, expected_n) in [(50.0, 1.8), (1.8, 1.8)] {
+        let found_n = shear_n(range_n, RIG);
+        assert!((found_n - expected_n).abs() < 1e-12, "{range_n}: {found_n}");
+    }
+    let written = RIG.replace("[limits]\n", "[limits]\nFxy_max_N = 3.0\n");
+    assert!((shear_n(50.0, &written) - 3.0).abs() < 1e-12);
+}
+
+#[test]
+fn sheared_presses_of_a_real_rig_stay_inside_the_footprint_and_keep_their_length() {
+    let footprint = Footprint::rectangle(8.0, 10.0, None).expect("lengths");
+    let leaves = |plan: &Plan| {
+        let presses = plan.presses.iter().map(|planned| &planned.press);
+        let left = presses.filter(|press| {
+            let [x, y] = press.place;
+            let mut shears = press.waypoints().iter().map(|waypoint| waypoint.shear);
+            shears.any(|[along_x, along_y]| {
+                let [x, y] = [(x, along_x), (y, along_y)]
+                    .map(|(place, along)| taceva_core::Nanometre(place.0 + along.0));
+                !footprint.contains(x, y)
+            })
+        });
+        left.count()
+    };
+    let real = plan_on_real(50.0, RIG);
+    let greatest_mm = |plan: &Plan| {
+        let presses = plan.presses.iter();
+        let shears = presses.map(|planned| planned.press.greatest_shear_mm());
+        shears.fold(0.0, f64::max)
+    };
+    assert_eq!(leaves(&real), 0);
+    // An emulated gel needs no protection: its presses are those of the simulated bench, some of which leave.
+    let emulated = RIG.replacen(
+        "rig_version = 1\n",
+        "rig_version = 1\nsimulated = true\n",
+        1,
+    );
+    let emulated = plan_on_real(50.0, &emulated);
+    assert!(leaves(&emulated) > 0);
+    assert!((greatest_mm(&real) - greatest_mm(&emulated)).abs() < 1e-12);
 }

@@ -23,3 +23,21 @@ fn a_run_in_the_air_visits_every_place_far_above_the_gel_and_presses_nothing() {
     assert!(state.motions >= 3 && state.deepest_mm <= 0.0);
     assert_eq!(state.pictures, 0);
 }
+
+#[test]
+fn a_run_in_the_air_that_is_halted_names_the_threshold_and_no_press_to_repeat() {
+    let world = World::new();
+    world.state().obstacle_x_mm = 0.05;
+    let visited = with_workshop(
+        &world,
+        &SilentProgress,
+        (SCENE, None, None),
+        |planned, workshop| Ok(rehearse_scene(planned, workshop)?),
+    );
+    let said = visited.expect_err("something is in the way").to_string();
+    assert!(
+        said.contains("`threshold_N` under [protocol.contact]"),
+        "{said}"
+    );
+    assert!(!said.contains("is repeated"), "{said}");
+}

@@ -223,6 +223,10 @@ impl RobotWatch for Arm {
 }
 
 impl Robot for Arm {
+    fn is_emulated(&self) -> bool {
+        self.0.state().is_emulated
+    }
+
     fn pose(&mut self, _: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let now = MonotonicClock.now();
         let state = self.0.state();

@@ -17,7 +17,9 @@ struct Person(Answer);
 
 impl Operator for Person {
     fn ask(&mut self, question: &Question, _: &Cancel) -> Answer {
-        assert_eq!(*question, Question::Enable("wall/robot".to_owned()));
+        let said = question.to_string();
+        let way = "`wall/robot` is about to move: 5 mm straight up at 5 mm/s, halted on the way;";
+        assert!(said.starts_with(way), "{said}");
         self.0
     }
 }
@@ -259,4 +261,18 @@ fn places_that_are_no_frame_are_refused_with_the_line_of_the_axes() {
         said.contains("lab.toml, line 6: the jog along x ends 4.00 mm off"),
         "{said}"
     );
+}
+
+#[test]
+fn a_jog_along_x_that_is_too_short_is_refused_before_the_jog_along_y() {
+    let world = World::new();
+    let middle = [300.0, 5.0, 251.25];
+    let mut jogs = Jogs {
+        world: world.clone(),
+        along: [middle, middle, [308.0, 5.0, 251.25]],
+    };
+    let refused = teach_rig(&rig(), &drivers(&world), &mut jogs).expect_err("no jog");
+    let said = refused.to_string();
+    assert!(said.contains("the jog along x is 0.00 mm long"), "{said}");
+    assert_eq!(world.state().motions, 2);
 }

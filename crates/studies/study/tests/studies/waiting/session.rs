@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use taceva_acquire::AcquireError;
 use taceva_core::{Progress, SilentProgress};
+use taceva_dataset::Source;
 use taceva_protocol::{Answer, Cancel, Operator, Question, StopCause};
 use taceva_study::StudyError;
 
@@ -77,7 +78,12 @@ fn a_session_is_enabled_tried_and_written_down_and_the_next_one_goes_on_where_th
     };
     assert!(matches!(source.cause, StopCause::Cancelled), "{source}");
     let asked = person.lock().expect("whole").0.clone();
-    assert_eq!(asked[0], Question::Enable("wall/robot".to_owned()));
+    let enable = asked[0].to_string();
+    assert!(
+        enable.starts_with("`wall/robot` is about to move: up to ")
+            && enable.contains("a gentle touch, then 3 presses;"),
+        "{enable}"
+    );
     assert!(matches!(asked[1..], [Question::Mount(_)]), "{asked:?}");
     assert_eq!(rows(&run).len(), 1);
 
@@ -104,6 +110,23 @@ fn a_session_is_enabled_tried_and_written_down_and_the_next_one_goes_on_where_th
     assert!((number(0, 6) / number(1, 6) - 1.0).abs() <= 0.1, "{rows:?}");
     // A load of 0.3 N rests on the transducer.
     assert!((number(0, 9) - 0.3).abs() < 0.01, "{rows:?}");
+}
+
+#[test]
+fn a_robot_that_reports_an_emulation_makes_the_recording_simulated_whatever_the_rig_file_says() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let rig = rig_file(folder.path(), UPRIGHT);
+    let person = Mutex::new(Person::default());
+    for (is_emulated, source) in [(false, Source::Recorded), (true, Source::Simulated)] {
+        world.state().is_emulated = is_emulated;
+        let dataset = record_on(
+            &world,
+            &folder.path().join(format!("run-{is_emulated}")),
+            &SilentProgress,
+            (&scene(), Some(&rig), Some(&person)),
+        );
+        assert_eq!(dataset.expect("a recording").header().source, source);
+    }
 }
 
 #[test]

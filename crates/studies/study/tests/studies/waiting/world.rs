@@ -36,6 +36,8 @@ pub(crate) struct State {
     pub(crate) is_stopped: bool,
     /// True if the robot reports no pose, because its cable is unplugged.
     pub(crate) is_lost: bool,
+    /// True if the robot reports that it is emulated.
+    pub(crate) is_emulated: bool,
     /// Number of motions and releases that were requested after the fault was reported.
     pub(crate) defied: u32,
     told: bool,
@@ -78,6 +80,7 @@ impl World {
             struck_s: None,
             is_stopped: false,
             is_lost: false,
+            is_emulated: false,
             defied: 0,
             told: false,
             is_held: true,

@@ -15,6 +15,11 @@ fn the_suite_passes_with_reports_of_today() {
 }
 
 #[test]
+fn an_emulated_arm_is_recognised_by_its_serial_number() {
+    assert!(setup(Ports::ANY).open().is_emulated());
+}
+
+#[test]
 fn the_suite_passes_with_the_layout_of_old_firmware() {
     let ports = Ports {
         firmware: [1, 10, 0],

@@ -195,7 +195,9 @@ fn what_does_not_show_the_tap_is_named() {
 #[test]
 fn a_robot_that_is_not_heard_or_keeps_one_speed_is_refused() {
     let mut deaf = RIG.tapped(20);
-    deaf.taps[4].heights.clear();
+    for tap in &mut deaf.taps[4..10] {
+        tap.heights.clear();
+    }
     let error = deaf.latencies().expect_err("no poses");
     assert!(
         matches!(
@@ -217,4 +219,22 @@ fn a_robot_that_is_not_heard_or_keeps_one_speed_is_refused() {
     assert!(matches!(error, TapError::OneSpeed { .. }), "{error}");
     let nothing = Tapped::new(0.0, 0.1).latencies().expect_err("no taps");
     assert!(matches!(nothing, TapError::OneSpeed { .. }), "{nothing}");
+}
+
+#[test]
+fn a_quarter_of_the_taps_may_be_unclear_and_is_left_out() {
+    let mut tapped = RIG.tapped(20);
+    let (all, _) = tapped.latencies().expect("clear edges");
+    for tap in &mut tapped.taps[..5] {
+        tap.frames.clear();
+    }
+    let (force, _) = tapped.latencies().expect("15 clear taps");
+    assert!(
+        (force.after_robot_ms - all.after_robot_ms).abs() < 1.0,
+        "{force:?}"
+    );
+    assert_eq!(tapped.dropped().len(), 5);
+    tapped.taps[5].frames.clear();
+    let error = tapped.latencies().expect_err("14 of 20");
+    assert!(matches!(error, TapError::Few { tap: 1, .. }), "{error}");
 }
