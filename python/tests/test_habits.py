@@ -102,7 +102,7 @@ def test_frames_of_numbers_that_may_be_absent_are_taken() -> None:
     found = taceva.score(*frames, points=points)
     assert [score.value for score in found.scores()] == [score.value for score in expected.scores()]
     frames[1].iloc[0, 0] = pandas.NA
-    with pytest.raises(ValueError, match=r"prediction: nan at \[0, 0\]"):
+    with pytest.raises(ValueError, match="prediction row 0, column Px: nan"):
         taceva.score(*frames, points=points)
 
 

@@ -80,7 +80,7 @@ def score_function(
     """
     if draws and draws < 100:
         raise ValueError(f"draws {draws}: expected at least 100, or 0 for no interval")
-    given, both = pair(truth, prediction, channels)
+    given, both = pair(truth, prediction, channels, points=points)
     wanted = SIX if given is None else tuple(given)
     if isinstance(channels, str):
         raise TypeError(f"channels: expected a list of names, found the text {channels!r}")
@@ -90,7 +90,7 @@ def score_function(
     rows = len(tables[0])
     if len(tables[1]) != rows:
         raise ValueError(f"prediction has {counted(len(tables[1]), 'row')}, truth has {rows}")
-    clusters = _clusters(beside(both.points if points is None else points, both.index, "points"), rows, independent)
+    clusters = _clusters(beside(both.points, both.index, "points"), rows, independent)
     called = name or str(getattr(function, "__name__", type(function).__name__))
     parts: dict[str, Any] = {"+".join(wanted): slice(None)} if together else {channel: at for at, channel in enumerate(wanted)}
     if isinstance(unit, Mapping) and (unknown := sorted(set(unit) - set(parts))):
