@@ -293,7 +293,7 @@ def test_a_comparison_has_a_narrow_table_of_the_main_scores_for_a_paper() -> Non
     near, far = (taceva.score(truth, truth + scale * (prediction - truth), points=points, name=name) for scale, name in ((0.5, "near"), (1, "far")))
     comparison = taceva.compare(near, far)
     assert comparison.to_latex().count("p by Holm") and "p by Holm" not in comparison.to_latex("main")
-    assert "near" in comparison.to_latex("main") and r"\begin{tabular" in comparison.to_latex("main")
+    assert "near" in comparison.to_latex("main") and r"\toprule" in comparison.to_latex("main")
     with pytest.raises(ValueError, match="table 'wide': expected 'all' or 'main'"):
         comparison.to_latex("wide")
 
