@@ -252,14 +252,10 @@ def _unused_points(truth: NamedColumns | None, prediction: NamedColumns | None, 
 
 
 def _names(truth: NamedColumns | None, paired_by: str | None) -> Any:
-    """Return the names of the rows of the truth: its key, or its index; ``None`` if rows are known by number alone."""
-    if truth is None:
+    """Return the names of the rows of the truth by which they were paired; ``None`` for rows paired by order."""
+    if truth is None or not paired_by:
         return None
-    if paired_by is not None and truth.column(paired_by) is not None:
-        return truth.column(paired_by)
-    if paired_by == "the index":
-        return truth.index
-    return next((truth.column(key) for key in KEYS if truth.column(key) is not None), None)
+    return truth.index if paired_by == "the index" else truth.column(paired_by)
 
 
 def _refuse_keys(truth: NamedColumns, prediction: NamedColumns, names: Sequence[str]) -> None:

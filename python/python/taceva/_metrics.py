@@ -311,11 +311,11 @@ def score(
     wanted = SIX if channels is None else channels
     found = TactileMetrics(wanted, metrics, units=units, periods=periods, independent=independent, fields=list(fields))
     found._add(both, fields, allow_invalid)
-    tables = [real(both.truth, "truth"), real(both.prediction, "prediction")]
-    if not _taceva.keeps_samples(len(tables[0])):
+    of_truth, of_prediction = real(both.truth, "truth"), real(both.prediction, "prediction")
+    if not _taceva.keeps_samples(len(of_truth)):
         return Result(found._scored(name, both.notes))
     points = beside(both.points, both.index, "points")
-    samples = Samples.of(wanted, *tables, None if points is None else names_of_points(points), both.names)
+    samples = Samples.of(wanted, of_truth, of_prediction, None if points is None else names_of_points(points), both.names)
     return Result(found._scored(name, [*both.notes, *samples.notes(periods or {})]), samples.table)
 
 
