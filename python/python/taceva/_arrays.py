@@ -100,7 +100,12 @@ def require_finite(array: Numbers, name: str, first: int = 0) -> None:
         )
 
 
-def refuse_invalid(tables: Mapping[str, npt.NDArray[Any]], channels: Sequence[str], order: npt.NDArray[np.intp] | None) -> None:
+def refuse_invalid(
+    tables: Mapping[str, npt.NDArray[Any]],
+    channels: Sequence[str],
+    order: npt.NDArray[np.intp] | None,
+    remedy: str = "allow_invalid=True counts such rows and leaves them out",
+) -> None:
     """Reject NaN and infinite numbers in the first of ``tables`` with any. ``order`` has the rows of the prediction as they were given."""
     for name, table in tables.items():
         found, count = None, 0
@@ -118,8 +123,7 @@ def refuse_invalid(tables: Mapping[str, npt.NDArray[Any]], channels: Sequence[st
         own = row if order is None or name == "truth" else int(order[row])
         of_truth = "" if own == row else f" (row {row} of truth)"
         raise ValueError(
-            f"{name} row {own}{of_truth}, column {channel}: {value}; {counted(count, 'such row')}: expected finite numbers; "
-            "allow_invalid=True counts such rows and leaves them out"
+            f"{name} row {own}{of_truth}, column {channel}: {value}; {counted(count, 'such row')}: expected finite numbers; {remedy}"
         )
 
 
