@@ -14,7 +14,7 @@ use crate::errors::{ModelError, study_error, value_error};
 use crate::inventory::host;
 use crate::{results, watched};
 
-/// Results file of two tables, with the content that `taceva score` writes.
+/// Results file of two tables, with the content that `taceva score` writes, and the table of their samples if they are kept.
 #[pyfunction]
 #[pyo3(signature = (truth, prediction, metrics, sensor, key, allow_invalid, jobs, bar = None))]
 #[expect(clippy::too_many_arguments, reason = "the Python side names them")]
@@ -28,7 +28,7 @@ pub(crate) fn score_tables(
     allow_invalid: bool,
     jobs: usize,
     bar: Option<&Bound<'_, PyAny>>,
-) -> PyResult<String> {
+) -> PyResult<(String, Option<String>)> {
     let request = ScoreRequest {
         truth,
         prediction,
@@ -41,11 +41,21 @@ pub(crate) fn score_tables(
         allow_invalid,
         jobs: jobs_of(jobs),
     };
-    let scored = watched::run(py, bar, |progress| Scoring::read(request)?.run(progress))?;
-    results::sealed(&scored.map_err(|error| study_error(&error))?.report)
+    let scored = watched::run(py, bar, |progress| -> Result<_, EvaluateError> {
+        let scoring = Scoring::read(request)?;
+        let mut report = scoring.run(progress)?.report;
+        let rows = report.scores.iter().map(|score| score.n + score.n_invalid);
+        let rows = rows.max().and_then(|rows| usize::try_from(rows).ok());
+        if rows.is_some_and(results::keeps_samples) {
+            report.samples = Some(scoring.samples()?);
+        }
+        Ok(report)
+    })?;
+    results::sealed_with_samples(&scored.map_err(|error| study_error(&error))?)
 }
 
-/// Results file of a model on a recording, with the content that `taceva evaluate` writes. `model` is a name, or the file of a fitted model.
+/// Results file of a model on a recording, with the content that `taceva evaluate` writes, and the table of its samples if they are kept. `model`
+/// is a name, or the file of a fitted model.
 #[pyfunction]
 #[pyo3(signature = (recording, model, settings, channels, split, seed, part, metrics, jobs, bar = None))]
 #[expect(clippy::too_many_arguments, reason = "the Python side names them")]
@@ -61,7 +71,7 @@ pub(crate) fn evaluate_named(
     metrics: Vec<String>,
     jobs: usize,
     bar: Option<&Bound<'_, PyAny>>,
-) -> PyResult<String> {
+) -> PyResult<(String, Option<String>)> {
     let part = part.map(part_of).transpose()?;
     let mut known = models();
     let path = PathBuf::from(&model);
@@ -115,7 +125,7 @@ pub(crate) fn evaluate_named(
         taceva_evaluate::evaluate(&recording.dataset, &request, work)
     };
     let evaluated: Result<_, EvaluateError> = watched::run(py, bar, work)?;
-    results::sealed(&evaluated.map_err(|error| study_error(&error))?.report)
+    results::sealed_with_samples(&evaluated.map_err(|error| study_error(&error))?.report)
 }
 
 /// Part called `name`.

@@ -84,7 +84,7 @@ impl Given {
         })?
     }
 
-    /// Results file of `predictions`, `[rows, channels]`, for the rows to predict.
+    /// Results file of `predictions`, `[rows, channels]`, for the rows to predict, and the table of their samples if they are kept.
     #[expect(clippy::too_many_arguments, reason = "the Python side names them")]
     fn score(
         &self,
@@ -95,7 +95,7 @@ impl Given {
         predictions: &Bound<'_, PyAny>,
         metrics: Vec<String>,
         jobs: usize,
-    ) -> PyResult<String> {
+    ) -> PyResult<(String, Option<String>)> {
         let width = self.with(|rows| rows.channels().len())?;
         let table = Table::of(predictions, "predictions", width)?;
         let numbers = table.row_by_row(py);
@@ -110,7 +110,7 @@ impl Given {
         let scored = watched::run(py, None, |_| {
             rows.score(&recording.dataset, model, numbers, metrics, jobs_of(jobs))
         })?;
-        results::sealed(&scored.map_err(|error| study_error(&error))?.report)
+        results::sealed_with_samples(&scored.map_err(|error| study_error(&error))?.report)
     }
 }
 

@@ -47,7 +47,9 @@ mod _taceva {
     #[pymodule_export]
     use super::record::{import_recording, record};
     #[pymodule_export]
-    use super::results::{comparison, figure_pdf, figures, not_measured, read_result, score_table};
+    use super::results::{
+        comparison, figure_pdf, figures, keeps_samples, not_measured, read_result, score_table,
+    };
 
     /// Sets the location attributes of an error to `None`, for unknown locations.
     #[pymodule_init]

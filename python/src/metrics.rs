@@ -8,8 +8,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use taceva_core::{Batch, Channel, Channels, Column, Field, FieldSet, Unit};
 use taceva_evaluate::{Note, PairedBy, with_skill};
-use taceva_metrics::{Evaluator, MetricPlan, State, catalogue};
-use taceva_results::EvaluationReport;
+use taceva_metrics::{Evaluator, MetricPlan, State, catalogue, plane_axes};
+use taceva_results::{EvaluationReport, Score};
 
 use crate::arrays::{Points, Table};
 use crate::errors::value_error;
@@ -240,19 +240,49 @@ impl Sums {
         *self.evaluator() = Evaluator::new(&self.plan);
     }
 
-    /// Scores so far, as the text of a results file. `paired_by` names the keys that paired rows of named columns; `""` means by order.
-    fn compute(&self, py: Python<'_>, paired_by: Vec<String>) -> PyResult<String> {
+    /// Scores so far, as the text of a results file. `paired_by` names the keys that paired rows of named columns; `""` means by order. `name` names
+    /// the scored sensor or model, and `notes` are further ones.
+    fn compute(
+        &self,
+        py: Python<'_>,
+        paired_by: Vec<String>,
+        name: Option<String>,
+        notes: Vec<String>,
+    ) -> PyResult<String> {
         py.detach(|| {
             let evaluation = self.evaluator().score().map_err(value_error)?;
             let mut report = EvaluationReport::of_arrays(&evaluation);
-            let notes = paired_by.into_iter().map(|key| Note::Paired(paired(key)));
-            report
-                .provenance
-                .notes
-                .extend(notes.map(|note| note.to_string()));
+            if let Some(name) = name {
+                report.subject.sensor = name;
+            }
+            let paired = paired_by.into_iter().map(|key| Note::Paired(paired(key)));
+            let paired = paired.map(|note| note.to_string());
+            let left_out = left_out(&report.scores);
+            let all = &mut report.provenance.notes;
+            all.extend(paired.chain(notes).chain(left_out));
             crate::results::sealed(&report)
         })
     }
+}
+
+/// Note on rows that were left out because a number was not finite; `None` if there are none.
+fn left_out(scores: &[Score]) -> Option<String> {
+    let mut channels: Vec<&str> = Vec::new();
+    let mut counts = Vec::new();
+    for score in scores.iter().filter(|score| score.n_invalid > 0) {
+        let channel = score.channel.as_str();
+        if plane_axes(channel).is_none() && !channels.contains(&channel) {
+            channels.push(channel);
+            let rows = score.n + score.n_invalid;
+            counts.push(format!("{} of {rows} of {channel}", score.n_invalid));
+        }
+    }
+    (!counts.is_empty()).then(|| {
+        format!(
+            "rows with NaN or an infinite number were left out: {}",
+            counts.join(", ")
+        )
+    })
 }
 
 /// Pairing of rows, from its Python form.
@@ -260,6 +290,7 @@ fn paired(key: String) -> PairedBy {
     match key.as_str() {
         "" => PairedBy::Order,
         "the index" => PairedBy::Index,
+        "the order" => PairedBy::ChosenOrder,
         _ => PairedBy::Key {
             truth: key.clone(),
             prediction: key,

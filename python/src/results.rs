@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use pyo3::prelude::*;
 use serde::Serialize;
 use taceva_report::{CompareRequest, Layout, ScoreTable, Study, Table, compare};
-use taceva_results::{Interval, Score, Value};
+use taceva_results::{EvaluationReport, Interval, Samples, Score, Value};
 
 use crate::errors::value_error;
 
@@ -13,6 +13,29 @@ use crate::errors::value_error;
 pub(crate) fn sealed(report: &impl Serialize) -> PyResult<String> {
     let sealed = taceva_results::sealed(report).map_err(value_error)?;
     Ok(sealed + "\n")
+}
+
+/// Greatest number of samples that a result keeps for comparisons in pairs.
+const MOST_SAMPLES: usize = 200_000;
+
+/// Results file of `report`, and the table of its samples if they are kept.
+pub(crate) fn sealed_with_samples(report: &EvaluationReport) -> PyResult<(String, Option<String>)> {
+    let samples = report.samples.as_ref();
+    let samples = samples.filter(|samples| samples.rows() <= MOST_SAMPLES);
+    let table = samples.map(table_of).transpose()?;
+    Ok((sealed(report)?, table))
+}
+
+/// True if a result keeps the samples of `rows` rows.
+#[pyfunction]
+pub(crate) fn keeps_samples(rows: usize) -> bool {
+    rows <= MOST_SAMPLES
+}
+
+fn table_of(samples: &Samples) -> PyResult<String> {
+    let mut table = Vec::new();
+    samples.write(&mut table).map_err(value_error)?;
+    String::from_utf8(table).map_err(value_error)
 }
 
 /// Results of one evaluation for Python.
@@ -154,10 +177,12 @@ pub(crate) fn not_measured(sources: Vec<String>) -> Option<String> {
     taceva_results::not_measured(sources.iter().map(String::as_str))
 }
 
-/// Comparison of two or more results. `form` may also be `json`, in addition to the forms of `score_table`.
+/// Comparison of two or more results with the tables of their samples, `None` if unknown. `form` may also be `json`, and `main` for the LaTeX
+/// table of the main scores, in addition to the forms of `score_table`.
 #[pyfunction]
 pub(crate) fn comparison(
     texts: Vec<String>,
+    samples: Vec<Option<String>>,
     metrics: Vec<String>,
     margins: BTreeMap<String, f64>,
     seed: u64,
@@ -168,14 +193,45 @@ pub(crate) fn comparison(
         margins,
         seed,
     };
-    let studies = studies(&texts)?;
+    let mut studies = studies(&texts)?;
+    for (study, table) in studies.iter_mut().zip(samples) {
+        study.samples = table
+            .map(|table| Samples::read(&table).map_err(value_error))
+            .transpose()?;
+    }
     let request = request.resolved(&studies).map_err(value_error)?;
-    let compared = compare(&studies, &request);
+    let mut compared = compare(&studies, &request);
+    compared
+        .notes
+        .extend(without_samples(&compared.names, &studies));
     match form {
+        "main" => {
+            let scores = ScoreTable::compared(&studies, &request);
+            let tables = scores.for_column(&scores.caption());
+            let tables: Vec<String> = tables
+                .iter()
+                .map(|table| table.latex(Layout::Column))
+                .collect();
+            Ok(tables.join("\n"))
+        }
         "json" => Ok(compared.json()),
         "text" => Ok(compared.text()),
         form => rendered(&compared.table(), form),
     }
+}
+
+/// Note on studies without samples; `None` if all have some.
+fn without_samples(names: &[String], studies: &[Study]) -> Option<String> {
+    let absent = names.iter().zip(studies);
+    let absent = absent.filter(|(_, study)| study.samples.is_none());
+    let absent: Vec<&str> = absent.map(|(name, _)| name.as_str()).collect();
+    (!absent.is_empty()).then(|| {
+        format!(
+            "no samples are kept with {}: compared by the intervals of both, not sample by sample; `score` and `evaluate` keep up to \
+             {MOST_SAMPLES} samples, sums and files none: `save_samples` writes them beside a saved result",
+            absent.join(", ")
+        )
+    })
 }
 
 fn studies(texts: &[String]) -> PyResult<Vec<Study>> {

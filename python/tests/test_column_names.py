@@ -130,6 +130,58 @@ def test_streamed_frames_are_matched_and_remembered_over_merge_and_pickle() -> N
     assert any("by the index" in note for note in again.compute().notes)
 
 
+def test_a_key_of_the_caller_pairs_rows_and_is_no_channel() -> None:
+    truth, prediction = frames()
+    touched = truth.assign(touch=range(ROWS))
+    mixed = shuffled(prediction.assign(touch=range(ROWS))).reset_index(drop=True)
+    result = taceva.score(touched, mixed, key="touch")
+    assert mae(result) == pytest.approx(ERROR) and ("mae", "touch") not in result
+    assert any("by `touch`" in note for note in result.notes)
+    metrics = taceva.TactileMetrics(["Px", "Fz"])
+    metrics.update(touched, mixed, key="touch")
+    assert mae(metrics.compute()) == pytest.approx(ERROR)
+    by_order = taceva.score(truth.assign(sample=range(ROWS)), prediction.assign(sample=range(ROWS)[::-1]), key="order")
+    assert mae(by_order) == pytest.approx(ERROR) and any("by order, as requested" in note for note in by_order.notes)
+    with pytest.raises(ValueError, match="key='trial': truth has no such column: expected a column of both, or 'order'"):
+        taceva.score(touched, mixed, key="trial")
+    with pytest.raises(ValueError, match="key='touch' names a column, but truth and prediction are arrays without names"):
+        taceva.score(truth.to_numpy(), prediction.to_numpy(), channels=["Px", "Fz"], key="touch")
+
+
+def test_a_column_of_unique_whole_numbers_in_both_is_refused_as_a_channel() -> None:
+    truth, prediction = (frame.assign(touch=range(ROWS)) for frame in frames())
+    with pytest.raises(ValueError, match="the column 'touch' holds the same unique whole numbers .* pair them with key='touch'"):
+        taceva.score(truth, shuffled(prediction).reset_index(drop=True))
+    assert taceva.score(truth, prediction, units={"touch": "1"})["mae", "touch"].value == 0.0
+    assert taceva.score(truth, prediction, channels=["Fz", "touch"])["mae", "touch"].value == 0.0
+
+
+def test_contact_points_may_be_named_by_their_column() -> None:
+    truth, prediction = frames()
+    points = [f"p{row // 2}" for row in range(ROWS)]
+    expected = taceva.score(truth, prediction, points=points)["mae", "Fz"].interval
+    assert expected is not None
+    for result in (
+        taceva.score(truth.assign(point=points), shuffled(prediction), points="point"),
+        taceva.score(truth, prediction.assign(point=points), points="point"),
+    ):
+        assert result["mae", "Fz"].interval == expected
+    unused = taceva.score(truth.assign(point=points), prediction)
+    assert "the column `point` was not used: give points='point' if it names contact points" in unused.notes
+    with pytest.raises(ValueError, match="points='pint': no such column, expected one of Px, Fz, point, or one value per row"):
+        taceva.score(truth.assign(point=points), prediction, points="pint")
+
+
+def test_a_number_that_is_not_finite_is_named_by_the_row_and_column_of_the_frame() -> None:
+    truth, prediction = frames()
+    mixed = shuffled(prediction.assign(id=range(ROWS))).reset_index(drop=True)
+    mixed.loc[[3, 8], "Fz"] = np.nan
+    row = min([3, 8], key=lambda at: mixed["id"][at])
+    assert row != mixed["id"][row]
+    with pytest.raises(ValueError, match=rf"prediction row {row} \(row {mixed['id'][row]} of truth\), column Fz: nan; 2 such rows"):
+        taceva.score(truth.assign(id=range(ROWS)), mixed)
+
+
 def test_arrays_without_names_are_scored_as_ever() -> None:
     truth, prediction = (frame.to_numpy() for frame in frames())
     assert taceva.score(truth, prediction, channels=["Px", "Fz"]).notes == []

@@ -102,7 +102,7 @@ def test_frames_of_numbers_that_may_be_absent_are_taken() -> None:
     found = taceva.score(*frames, points=points)
     assert [score.value for score in found.scores()] == [score.value for score in expected.scores()]
     frames[1].iloc[0, 0] = pandas.NA
-    with pytest.raises(ValueError, match=r"prediction: nan at \[0, 0\]"):
+    with pytest.raises(ValueError, match="prediction row 0, column Px: nan"):
         taceva.score(*frames, points=points)
 
 
@@ -237,6 +237,9 @@ def test_a_function_that_gives_no_number_is_refused_and_what_it_raises_comes_out
         taceva.score_function(lambda true, found: 1.0, truth, prediction, draws=5)
     with pytest.raises(ValueError, match="points has 3 rows, truth has 120"):
         taceva.score_function(lambda true, found: 1.0, truth, prediction, points=[1, 2, 3])
+    prediction[[7, 9], 5] = np.nan
+    with pytest.raises(ValueError, match="prediction row 7, column Fz: nan; 2 such rows: expected finite numbers; leave out such rows first"):
+        taceva.score_function(lambda true, found: 1.0, truth, prediction)
 
 
 def test_labels_with_names_are_recorded_by_name(tmp_path: Path) -> None:

@@ -133,8 +133,8 @@ def test_no_rows_give_undefined_scores_with_a_reason() -> None:
         (np.zeros((3, 6), complex), np.zeros((3, 6)), TypeError, "complex128"),
         (np.full((3, 6), None), np.zeros((3, 6)), TypeError, "object"),
         (np.array([["a"] * 6]), np.zeros((1, 6)), TypeError, "truth: expected numbers"),
-        (np.zeros((3, 6)), np.array([[0.0] * 6, [0.0] * 6, [0.0] * 5 + [np.nan]]), ValueError, r"nan at \[2, 5\]"),
-        (np.zeros((1, 6)), np.array([[np.inf] + [0.0] * 5]), ValueError, r"inf at \[0, 0\]"),
+        (np.zeros((3, 6)), np.array([[0.0] * 6, [0.0] * 6, [0.0] * 5 + [np.nan]]), ValueError, "prediction row 2, column Fz: nan"),
+        (np.zeros((1, 6)), np.array([[np.inf] + [0.0] * 5]), ValueError, "prediction row 0, column Px: inf"),
     ],
     ids=["shape", "length", "one row", "complex", "objects", "texts", "nan", "infinite"],
 )
@@ -151,8 +151,10 @@ def test_invalid_samples_are_counted_where_that_is_allowed() -> None:
     truth = np.zeros((3, 6))
     prediction = np.zeros((3, 6))
     prediction[1, 5] = np.nan
-    score = taceva.score(truth, prediction, allow_invalid=True)["mae", "Fz"]
+    result = taceva.score(truth, prediction, allow_invalid=True)
+    score = result["mae", "Fz"]
     assert (score.n, score.n_invalid) == (2, 1)
+    assert result.notes == ["rows with NaN or an infinite number were left out: 1 of 3 of Fz"]
 
 
 def test_unknown_names_are_refused_with_the_nearest() -> None:
@@ -166,6 +168,8 @@ def test_unknown_names_are_refused_with_the_nearest() -> None:
         taceva.TactileMetrics(["Fz"], units={"Mz": "N·mm"})
     with pytest.raises(ValueError, match="no channel"):
         taceva.TactileMetrics([])
+    with pytest.raises(ValueError, match=r"expected \[rows, 6\]: one column per channel, or give channels=\[…\]"):
+        taceva.score([[0.0, 0.0]], [[0.0, 0.0]])
     result = taceva.score([[0.0]], [[0.0]], channels=["Fz"])
     with pytest.raises(KeyError, match="known are mae"):
         result["hausdorff", "Fz"]
@@ -229,6 +233,109 @@ def test_a_comparison_says_which_is_better() -> None:
         taceva.compare(near)
     with pytest.raises(ValueError, match="did you mean `mae`"):
         str(taceva.compare(near, far, metrics=["mea"]))
+
+
+def tests_of(comparison: taceva.Comparison) -> set[str]:
+    """Return the tests behind the answers for MAE."""
+    answers = comparison.to_dict()["answers"]
+    return {answer["difference"]["test"] for answer in answers if answer["metric"] == "mae" and answer["difference"]}
+
+
+def test_results_of_the_same_samples_are_compared_in_pairs(tmp_path: Path) -> None:
+    truth, prediction, points = (array[:600] for array in arrays())
+    # Greater errors that both share hide the difference from the intervals.
+    shared = np.random.default_rng(1).exponential(0.3, size=truth.shape)
+    near, far = truth + shared, truth + shared + 0.02 * np.abs(prediction - truth)
+    of_arrays = [taceva.score(truth, found, points=points) for found in (near, far)]
+    tables = []
+    for name, found in (("near", near), ("far", far)):
+        (tmp_path / name).mkdir()
+        tables.append(taceva.score_tables(*write_tables(tmp_path / name, truth, found, points), key="order"))
+    for results in (of_arrays, tables, pickle.loads(pickle.dumps(of_arrays))):
+        paired = taceva.compare(*results, metrics=["mae"])
+        assert len(tests_of(paired)) == 1 and "sign" in str(tests_of(paired)), tests_of(paired)
+        assert "no samples are kept" not in str(paired)
+    answers = taceva.compare(*of_arrays, metrics=["mae"]).to_dict()["answers"]
+    assert all(answer["difference"]["shown"] for answer in answers)
+
+
+def test_arrays_that_change_after_they_were_scored_are_compared_as_they_were_scored() -> None:
+    truth, prediction, points = (array[:600] for array in arrays())
+    buffer, results = prediction.copy(), []
+    for scale in (1.0, 1.5):
+        buffer[:] = truth + scale * (prediction - truth)
+        results.append(taceva.score(truth, buffer, points=points))
+    buffer[:] = 0.0
+    assert "sign" in str(tests_of(taceva.compare(*results, metrics=["mae"])))
+
+
+def test_results_without_samples_are_compared_by_intervals_and_a_note_states_it(tmp_path: Path) -> None:
+    truth, prediction, points = (array[:600] for array in arrays())
+    result = taceva.score(truth, prediction, points=points)
+    sums = taceva.TactileMetrics()
+    sums.update(truth, truth + 2 * (prediction - truth), points)
+    result.save(tmp_path / "scores.json")
+    for other in (sums.compute(), taceva.load(tmp_path / "scores.json")):
+        comparison = taceva.compare(result, other, metrics=["mae"])
+        assert tests_of(comparison) == {"by the intervals of both"}
+        for shown in (str(comparison), comparison._repr_html_()):
+            assert "no samples are kept with unknown 2: compared by the intervals of both" in " ".join(shown.split())
+    with pytest.raises(ValueError, match="no samples are kept"):
+        sums.compute().save_samples(tmp_path / "none.csv")
+    result.save_samples(tmp_path / "scores.samples.csv")
+    loaded = taceva.load(tmp_path / "scores.json")
+    far = taceva.score(truth, truth + 2 * (prediction - truth), points=points)
+    assert "sign" in str(tests_of(taceva.compare(loaded, far, metrics=["mae"])))
+
+
+def test_a_comparison_has_a_narrow_table_of_the_main_scores_for_a_paper() -> None:
+    truth, prediction, points = (array[:600] for array in arrays())
+    near, far = (taceva.score(truth, truth + scale * (prediction - truth), points=points, name=name) for scale, name in ((0.5, "near"), (1, "far")))
+    comparison = taceva.compare(near, far)
+    assert comparison.to_latex().count("p by Holm") and "p by Holm" not in comparison.to_latex("main")
+    assert "near" in comparison.to_latex("main") and r"\toprule" in comparison.to_latex("main")
+    with pytest.raises(ValueError, match="table 'wide': expected 'all' or 'main'"):
+        comparison.to_latex("wide")
+
+
+def test_a_score_of_arrays_has_the_name_of_the_caller_in_tables_and_comparisons() -> None:
+    truth, prediction, points = (array[:600] for array in arrays())
+    results = [taceva.score(truth, prediction, points=points, name=name) for name in ("mine", "theirs")]
+    assert "mine" in str(results[0]) and "mine" in results[0].to_latex() and "unknown" not in str(results[0])
+    assert taceva.compare(*results).to_dict()["of"] == ["mine", "theirs"]
+    metrics = taceva.TactileMetrics()
+    metrics.update(truth, prediction, points)
+    assert metrics.compute(name="mine")["mae", "Fz"] == results[0]["mae", "Fz"] and "mine" in str(metrics.compute(name="mine"))
+
+
+def test_one_row_that_makes_most_of_the_squared_error_is_named() -> None:
+    truth, prediction, _ = (array[:600] for array in arrays())
+    assert not any("squared error" in note for note in taceva.score(truth, prediction).notes)
+    prediction[17, 5] += 50.0
+    expected = "Fz: row 17 makes 100 % of the squared error: look at its truth and its prediction"
+    assert taceva.score(truth, prediction).notes == [expected]
+    with_angle = taceva.score(truth[:, 5], prediction[:, 5], channels=["yaw"], periods={"yaw": 360})
+    assert not any("squared error" in note for note in with_angle.notes)
+
+
+def test_a_channel_that_is_probably_mistyped_is_refused_and_any_other_unknown_one_is_noted(tmp_path: Path) -> None:
+    rows = [[0.0, 1.0], [1.0, 2.0]]
+    for name in ("Fq", "fx", "PZ"):
+        with pytest.raises(ValueError, match=f"channel '{name}' has no known unit: expected Px, Py, Pz, Fx, Fy or Fz, or its unit"):
+            taceva.score(rows, rows, channels=["Fz", name])
+        with pytest.raises(ValueError, match=f"channel '{name}' has no known unit"):
+            taceva.from_arrays(tmp_path / name, rows, channels=["Fz", name], sensor="gel", source="synthetic")
+        assert taceva.score(rows, rows, channels=["Fz", name], units={name: "N"})["mae", name].unit == "N"
+    noted = taceva.score(rows, rows, channels=["Fz", "force_z"])
+    assert any(note.startswith("force_z: not one of Px Py Pz Fx Fy Fz; taken as a channel of unit 1") for note in noted.notes)
+    assert not taceva.score(rows, rows, channels=["Fz", "force_z"], units={"force_z": "N"}).notes
+    metrics = pickle.loads(pickle.dumps(taceva.TactileMetrics(["Fz", "force_z"])))
+    assert any("force_z" in note for note in metrics(rows, rows).notes)
+
+
+def test_skipped_metrics_name_the_place_of_their_reasons() -> None:
+    result = taceva.score([[0.0], [1.0]], [[0.5], [1.0]], channels=["Fz"], metrics="all")
+    assert result.skipped and "See result.skipped for the reasons." in str(result)
 
 
 @pytest.mark.parametrize("channels", [["Fz", "Px"], ["Fz", "b", "Px", "a"], ["b", "a"]])

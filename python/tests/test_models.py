@@ -149,3 +149,36 @@ def test_one_channel_is_fitted_as_a_list(drawn: taceva.Dataset) -> None:
     linear = pytest.importorskip("sklearn.linear_model")
     result = taceva.evaluate(drawn, linear.LinearRegression(), split=SPLIT, channels=["Fz"], settings=SMALL)
     assert float(result["r2", "Fz"]) > 0.5
+
+
+class Linear:
+    """A linear model without a penalty."""
+
+    def fit(self, seen: Any, labels: Any) -> None:
+        self.weights = np.linalg.lstsq(np.c_[seen, np.ones(len(seen))], labels, rcond=None)[0]
+
+    def predict(self, seen: Any) -> Any:
+        return np.c_[seen, np.ones(len(seen))] @ self.weights
+
+
+def test_two_models_on_one_test_part_are_compared_in_pairs(drawn: taceva.Dataset) -> None:
+    split = "by-point 60/0/40"
+    results = [taceva.evaluate(drawn, model, split=split, settings=SMALL) for model in ("ridge", Linear())]
+    comparison = taceva.compare(*results, metrics=["mae"])
+    answers = [answer for answer in comparison.to_dict()["answers"] if answer["channel"] == "Fz"]
+    assert [answer["difference"]["test"].startswith("paired") for answer in answers] == [True], answers
+    assert "no samples are kept" not in str(comparison)
+
+
+def test_a_model_of_the_caller_is_cross_validated_by_folds_as_the_refusal_of_evaluate_says(drawn: taceva.Dataset) -> None:
+    for split in ("cv:5", "loo by-point"):
+        with pytest.raises(ValueError, match=rf"fit and predict the rows of each of dataset.folds\('{split}'\)"):
+            taceva.evaluate(drawn, Mean(), split=split, settings=SMALL)
+    seen, labels, model = drawn.features(settings=SMALL), drawn.labels(), Linear()
+    predicted = np.full_like(labels, np.nan)
+    for fold in drawn.folds("cv:5"):
+        model.fit(seen[fold.train], labels[fold.train])
+        predicted[fold.test] = model.predict(seen[fold.test])
+    crossed = taceva.score(labels, predicted, channels=drawn.channels, points=drawn.points(), name="mine")
+    assert crossed["mae", "Fz"].n == len(drawn) and crossed["mae", "Fz"].interval is not None
+    assert float(crossed["r2", "Fz"]) > 0.5

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from taceva import _taceva
+from taceva._counted import counted
 
 Numbers = npt.NDArray[np.float32] | npt.NDArray[np.float64]
 
@@ -59,7 +60,19 @@ def with_units(channels: Sequence[str], units: Mapping[str, str]) -> list[tuple[
     unknown = sorted(set(units) - set(channels))
     if unknown:
         raise ValueError(f"units of {', '.join(unknown)}, expected channels among {', '.join(channels)}")
+    for name in channels:
+        if name not in units and _taceva.unit_of(name) is None and _is_mistyped(name):
+            raise ValueError(f"channel {name!r} has no known unit: expected Px, Py, Pz, Fx, Fy or Fz, or its unit, such as units={{{name!r}: 'N'}}")
     return [(name, units.get(name) or _taceva.unit_of(name) or "1") for name in channels]
+
+
+def _is_mistyped(name: str) -> bool:
+    """Return whether ``name`` is probably one of the six channels, mistyped.
+
+    >>> _is_mistyped("fx"), _is_mistyped("Fq"), _is_mistyped("Mz"), _is_mistyped("force")
+    (True, True, False, False)
+    """
+    return len(name) == 2 and name[0] in "PpFf" and name[1].isalpha()
 
 
 def column_order(channels: list[tuple[str, str]]) -> list[int] | None:
@@ -84,6 +97,33 @@ def require_finite(array: Numbers, name: str, first: int = 0) -> None:
         raise ValueError(
             f"{name}: {array[(row, *column)]} at {[first + row, *column]}: expected finite numbers; "
             "allow_invalid=True counts such samples and leaves them out"
+        )
+
+
+def refuse_invalid(
+    tables: Mapping[str, npt.NDArray[Any]],
+    channels: Sequence[str],
+    order: npt.NDArray[np.intp] | None,
+    remedy: str = "allow_invalid=True counts such rows and leaves them out",
+) -> None:
+    """Reject NaN and infinite numbers in the first of ``tables`` with any. ``order`` has the rows of the prediction as they were given."""
+    for name, table in tables.items():
+        found, count = None, 0
+        for first in range(0, len(table), BLOCK_ROWS):
+            block = table[first : first + BLOCK_ROWS].reshape(-1, len(channels))
+            is_invalid = ~np.isfinite(block)
+            rows = np.flatnonzero(is_invalid.any(axis=1))
+            count += len(rows)
+            if found is None and len(rows):
+                column = int(is_invalid[rows[0]].argmax())
+                found = (first + int(rows[0]), channels[column], block[rows[0], column])
+        if found is None:
+            continue
+        row, channel, value = found
+        own = row if order is None or name == "truth" else int(order[row])
+        of_truth = "" if own == row else f" (row {row} of truth)"
+        raise ValueError(
+            f"{name} row {own}{of_truth}, column {channel}: {value}; {counted(count, 'such row')}: expected finite numbers; {remedy}"
         )
 
 

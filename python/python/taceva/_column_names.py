@@ -5,7 +5,7 @@ Columns are matched by name and rows by key, like files in ``taceva score``; dis
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -20,6 +20,12 @@ _AGREE = {"point_id": 0.0, "frame_sha256": 0.0, "t_s": 0.0005}
 
 #: Columns that are no channels.
 _BESIDE = {*KEYS, *_AGREE, "scene", "unit_id", "repeat", "depth_step", "phase", "part", "kind", "spacing_mm", "zero_u_mm", "intensity"}
+
+#: Columns that probably hold contact points, under another name than ``point_id``.
+_LIKE_POINTS = {"point", "points", "contact", "contact_point"}
+
+#: Least number of rows for which equal sets of unique whole numbers are unlikely to be chance; the same as for the command.
+_LEAST_KEYS = 5
 
 _SIX = ("Px", "Py", "Pz", "Fx", "Fy", "Fz")
 
@@ -36,10 +42,12 @@ class NamedColumns:
     index: npt.NDArray[Any] | None = None
     #: True if the index is the default count from 0 of pandas.
     is_counted: bool = True
+    #: Columns that are no channels because the caller names them as key or contact points.
+    beside: set[str] = field(default_factory=set)
 
     def channels(self) -> list[str]:
         """Return the names of columns that are channels."""
-        return [name for name in self.columns if name not in _BESIDE]
+        return [name for name in self.columns if name not in _BESIDE and name not in self.beside]
 
     def array(self, channels: Sequence[str], name: str) -> npt.NDArray[Any]:
         """Return ``[rows, channels]``, in the order of ``channels``.
@@ -66,12 +74,18 @@ class PairedArrays:
 
     truth: Any
     prediction: Any
-    #: Contact points in the columns, if the caller gave none.
+    #: Contact points of the caller, or in the columns.
     points: Any
-    #: Pairing of rows: the name of a key, ``the index``, or ``""`` for order.
+    #: Pairing of rows: the name of a key, ``the index``, ``the order`` as requested, or ``""`` for order.
     paired_by: str | None
-    #: Names of the rows of the truth, if any, to align further columns.
+    #: Index of the rows of the truth, if any, to align further columns.
     index: npt.NDArray[Any] | None = field(default=None)
+    #: Row of the prediction for each row of the truth; ``None`` for the same order.
+    order: npt.NDArray[np.intp] | None = field(default=None)
+    #: Names of the rows of the truth, if known.
+    names: Any = field(default=None)
+    #: Notes on columns that were not used.
+    notes: list[str] = field(default_factory=list)
 
 
 def named_columns(table: Any, name: str) -> NamedColumns | None:
@@ -165,21 +179,38 @@ def _numbers(column: Any) -> npt.NDArray[Any]:
     return found
 
 
-def pair(truth: Any, prediction: Any, channels: Sequence[str] | None) -> tuple[Sequence[str] | None, PairedArrays]:
+def pair(
+    truth: Any,
+    prediction: Any,
+    channels: Sequence[str] | None,
+    *,
+    points: Any = None,
+    key: str | None = None,
+    declared: Collection[str] = (),
+) -> tuple[Sequence[str] | None, PairedArrays]:
     """Return the common channels, and both arrays with the rows of the truth.
 
-    Plain arrays are returned unchanged, with ``channels``.
+    Plain arrays are returned unchanged, with ``channels``. ``points`` may be the name of a column. ``key`` is the column that pairs rows, or
+    ``order``. Channels in ``declared`` have a unit or a period.
 
     Raises
     ------
     ValueError
-        For different columns, and for rows that cannot be paired or disagree.
+        For different columns, for rows that cannot be paired or disagree, and for a column that probably names rows.
     """
     of_truth, of_prediction = named_columns(truth, "truth"), named_columns(prediction, "prediction")
     if of_truth is None and of_prediction is None:
-        return channels, PairedArrays(truth, prediction, None, None)
+        for name, column in (("points", points), ("key", None if key == "order" else key)):
+            if isinstance(column, str):
+                raise ValueError(f"{name}={column!r} names a column, but truth and prediction are arrays without names")
+        return channels, PairedArrays(truth, prediction, points, None)
+    for columns in (of_truth, of_prediction):
+        if columns is not None:
+            columns.beside.update(name for name in (points, key) if isinstance(name, str))
     wanted = _channels(of_truth, of_prediction, channels)
-    order, paired_by = _order(of_truth, of_prediction)
+    order, paired_by = _order(of_truth, of_prediction, key)
+    if channels is None and of_truth is not None and of_prediction is not None:
+        _refuse_keys(of_truth, of_prediction, [name for name in wanted or () if name not in _SIX and name not in declared])
     arrays = []
     for columns, given, name in ((of_truth, truth, "truth"), (of_prediction, prediction, "prediction")):
         if columns is None:
@@ -191,14 +222,55 @@ def pair(truth: Any, prediction: Any, channels: Sequence[str] | None) -> tuple[S
             arrays.append(columns.array(wanted or _SIX, name))
     if order is not None:
         arrays[1] = arrays[1][order]
-    points = None if of_truth is None else of_truth.column("point_id")
-    if points is None and of_prediction is not None:
-        points = of_prediction.column("point_id")
-        points = points if points is None or order is None else points[order]
+    notes = [] if points is not None else _unused_points(of_truth, of_prediction, wanted or _SIX)
+    if points is None or isinstance(points, str):
+        points = _points(of_truth, of_prediction, order, points)
     if of_truth is not None and of_prediction is not None:
         _check_agreement(of_truth, of_prediction, order, paired_by)
     index = None if of_truth is None else of_truth.index
-    return wanted, PairedArrays(arrays[0], arrays[1], points, paired_by, index)
+    return wanted, PairedArrays(arrays[0], arrays[1], points, paired_by, index, order, _names(of_truth, paired_by), notes)
+
+
+def _points(truth: NamedColumns | None, prediction: NamedColumns | None, order: npt.NDArray[np.intp] | None, name: str | None) -> Any:
+    """Return the contact points in the column called ``name``, else in ``point_id`` if there is one."""
+    wanted = "point_id" if name is None else name
+    points = None if truth is None else truth.column(wanted)
+    if points is None and prediction is not None:
+        points = prediction.column(wanted)
+        points = points if points is None or order is None else points[order]
+    if points is None and name is not None:
+        known = ", ".join(dict.fromkeys(key for columns in (truth, prediction) if columns is not None for key in columns.columns))
+        raise ValueError(f"points={name!r}: no such column, expected one of {known}, or one value per row")
+    return points
+
+
+def _unused_points(truth: NamedColumns | None, prediction: NamedColumns | None, channels: Sequence[str]) -> list[str]:
+    """Return notes on columns that probably hold contact points but are not used."""
+    there = {name for columns in (truth, prediction) if columns is not None for name in columns.columns}
+    unused = sorted(name for name in there if name in _LIKE_POINTS and name not in channels)
+    return [f"the column `{name}` was not used: give points={name!r} if it names contact points" for name in unused if "point_id" not in there]
+
+
+def _names(truth: NamedColumns | None, paired_by: str | None) -> Any:
+    """Return the names of the rows of the truth by which they were paired; ``None`` for rows paired by order."""
+    if truth is None or not paired_by:
+        return None
+    return truth.index if paired_by == "the index" else truth.column(paired_by)
+
+
+def _refuse_keys(truth: NamedColumns, prediction: NamedColumns, names: Sequence[str]) -> None:
+    """Reject a column with the same unique whole numbers in both tables, which probably names rows."""
+    for name in names:
+        both = [columns.column(name) for columns in (truth, prediction)]
+        if any(column is None or np.asarray(column).dtype.kind not in "iuf" for column in both):
+            continue
+        own, other = (np.unique(np.asarray(column)) for column in both)
+        is_unique = len(own) >= _LEAST_KEYS and len(own) == len(both[0]) and len(other) == len(both[1])
+        if is_unique and np.array_equal(own, other) and bool(np.all(own == np.floor(own))):
+            raise ValueError(
+                f"the column {name!r} holds the same unique whole numbers in truth and prediction, so it probably names rows: "
+                f"pair them with key={name!r}, or score it as a channel with units={{{name!r}: '1'}}"
+            )
 
 
 def _is_known(columns: NamedColumns, wanted: Sequence[str] | None) -> bool:
@@ -225,11 +297,20 @@ def _channels(truth: NamedColumns | None, prediction: NamedColumns | None, given
     return names
 
 
-def _order(truth: NamedColumns | None, prediction: NamedColumns | None) -> tuple[npt.NDArray[np.intp] | None, str | None]:
+def _order(
+    truth: NamedColumns | None, prediction: NamedColumns | None, given: str | None
+) -> tuple[npt.NDArray[np.intp] | None, str | None]:
     """Return the row of the prediction for each row of the truth, ``None`` for the same order, and the name of the key."""
+    if given == "order":
+        return None, "the order"
+    if given is not None:
+        for columns, name in ((truth, "truth"), (prediction, "prediction")):
+            if columns is None or given not in columns.columns:
+                known = "none" if columns is None else ", ".join(columns.columns)
+                raise ValueError(f"key={given!r}: {name} has no such column: expected a column of both, or 'order'; its columns are {known}")
     if truth is None or prediction is None:
         return None, None
-    for key in KEYS:
+    for key in KEYS if given is None else (given,):
         own, other = truth.column(key), prediction.column(key)
         if own is not None and other is not None:
             order = aligned(own, other, f"the key {key!r}", "correct the keys, or remove the column")
@@ -300,7 +381,7 @@ def _check_agreement(truth: NamedColumns, prediction: NamedColumns, order: npt.N
             differs = np.asarray([str(one) != str(two) for one, two in zip(own.tolist(), other.tolist(), strict=True)], dtype=bool)
         if differs.any():
             at = int(np.nonzero(differs)[0][0])
-            by = "order" if paired_by in ("", None) else repr(paired_by)
+            by = "order" if paired_by in ("", "the order", None) else repr(paired_by)
             raise ValueError(
                 f"row {at}: {name} is {own[at]!r} in truth and {other[at]!r} in prediction, which were paired by {by}: "
                 "they do not belong together; give both a column `sample` that names their rows"

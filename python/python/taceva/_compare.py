@@ -15,7 +15,8 @@ class Comparison:
     """Result of `compare`: differences between results with intervals, and p-values adjusted by Holm for the number of comparisons."""
 
     def __init__(self, results: Sequence[Result], metrics: Sequence[str], margins: Mapping[str, float], seed: int) -> None:
-        self._asked = ([result.text for result in results], list(metrics), dict(margins), seed)
+        texts, samples = [result.text for result in results], [result._table_of_samples() for result in results]
+        self._asked = (texts, samples, list(metrics), dict(margins), seed)
 
     def _form(self, form: str) -> str:
         return _taceva.comparison(*self._asked, form)
@@ -24,9 +25,18 @@ class Comparison:
         """Return the JSON that ``taceva compare --format json`` writes, as a dictionary."""
         return dict(json.loads(self._form("json")))
 
-    def to_latex(self) -> str:
-        """Return a table for a paper."""
-        return self._form("tex")
+    def to_latex(self, table: str = "all") -> str:
+        """Return a LaTeX table: every answer, or with ``"main"`` the main scores side by side, one column of a paper wide; it needs ``booktabs``.
+
+        Raises
+        ------
+        ValueError
+            For another table.
+        """
+        forms = {"all": "tex", "main": "main"}
+        if table not in forms:
+            raise ValueError(f"table {table!r}: expected 'all' or 'main'")
+        return self._form(forms[table])
 
     def figures(self) -> list[Figure]:
         """Return all figures that show the results together."""
@@ -50,9 +60,10 @@ def compare(
     Parameters
     ----------
     results
-        Of the same metrics, such as of two models on one recording. Results that scored the same samples are compared in pairs.
+        Of the same metrics, such as of two models on one recording. The MAE of results of the same samples is compared in pairs, and other scores
+        by their intervals. `score`, `score_tables` and `evaluate` keep up to 200,000 samples; `TactileMetrics` keeps none, and a note states so.
     metrics
-        Results with common metrics, such as of two models on one recording. Results that scored the same samples are compared in pairs.
+        Metrics to compare, by name, such as ``["mae", "r2"]``; by default every metric that both results have and of which one direction is better.
     margins
         The largest difference that still counts as equal, in the unit of the metric: ``{"mae.Fz": 0.05}``, or ``{"mae": 0.05}`` for every channel.
     seed

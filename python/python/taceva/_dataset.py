@@ -210,7 +210,8 @@ class Dataset:
     def folds(self, split: str = "cv:5", seed: int = 0) -> list[Rows]:
         """Divide the rows once for each fold of a cross-validation, like ``taceva evaluate --split cv:5``; each row is tested in one fold.
 
-        ``split`` may be ``cv:10``, ``cv:5 by-point``, ``loo by-column:object``, ``leave-one-recording-out`` and others.
+        ``split`` may be ``cv:10``, ``cv:5 by-point``, ``loo by-column:object``, ``leave-one-recording-out`` and others. Fit a model of your own on
+        ``features[fold.train]``, predict ``features[fold.test]``, and give the predictions of all folds to `score`.
 
         Raises
         ------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Mapping, Sequence
 from contextvars import ContextVar
 from typing import Any
@@ -62,7 +63,7 @@ def evaluate(
     channels
         Channels to predict, in the order of the model; if empty, all labels in the order of `Dataset.channels`.
     split, seed
-        As in `Dataset.split`.
+        As in `Dataset.split`. Only a named model is fitted for each fold of ``"cv:5"``; see `Dataset.folds` for an object.
     part
         ``test`` by default. The parts ``train``, ``validation`` and ``all`` are not a test, and a note states so.
     bounded
@@ -94,10 +95,10 @@ def evaluate(
     if isinstance(model, str | os.PathLike):
         if not bounded:
             raise ValueError("bounded=False: a model given by name or file always keeps its bounds")
-        text = _taceva.evaluate_named(
+        named = _taceva.evaluate_named(
             recording._inner, os.fspath(model), words, list(channels), split, seed, part, wanted, jobs, bar()
         )
-        return Result(text)
+        return Result(*named)
     if isinstance(model, type):
         raise TypeError(f"model: {_name_of(model)} is a class, expected an object of it")
     learns = callable(getattr(model, "fit", None)) and callable(getattr(model, "predict", None))
@@ -105,6 +106,11 @@ def evaluate(
         raise TypeError(
             f"model: {_name_of(model)} has no fit and predict and cannot be called; "
             "expected a name, a file, or an object that learns or predicts"
+        )
+    if split is not None and re.match(r"(cv:|loo\b|leave-one)", split):
+        raise ValueError(
+            f"split {split}: `evaluate` fits a model for each fold only by name, such as 'ridge'; for an object, fit and predict the rows of "
+            f"each of dataset.folds({split!r}), and give all predictions to `score`, as docs/python.md shows"
         )
     if not bounded and not learns:
         raise ValueError("bounded=False: a model used as given has no bounds")
@@ -126,8 +132,7 @@ def evaluate(
     predictions = _ending(_name_of(model), predicted)
     found = prediction_rows(predictions, _name_of(model), len(given.target()), names)
     found = np.ascontiguousarray(found[:, [names.index(name) for name in given.channels()]])
-    text = given.score(recording._inner, _name_of(model), described, found, wanted, jobs)
-    return Result(text)
+    return Result(*given.score(recording._inner, _name_of(model), described, found, wanted, jobs))
 
 
 def _ending(name: str, work: Callable[[], Any]) -> Any:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from taceva import _taceva
-from taceva._arrays import numbers
+from taceva._arrays import numbers, refuse_invalid
 from taceva._arrays import points as names_of_points
 from taceva._column_names import beside, pair
 from taceva._counted import counted
@@ -80,7 +80,7 @@ def score_function(
     """
     if draws and draws < 100:
         raise ValueError(f"draws {draws}: expected at least 100, or 0 for no interval")
-    given, both = pair(truth, prediction, channels)
+    given, both = pair(truth, prediction, channels, points=points)
     wanted = SIX if given is None else tuple(given)
     if isinstance(channels, str):
         raise TypeError(f"channels: expected a list of names, found the text {channels!r}")
@@ -90,7 +90,8 @@ def score_function(
     rows = len(tables[0])
     if len(tables[1]) != rows:
         raise ValueError(f"prediction has {counted(len(tables[1]), 'row')}, truth has {rows}")
-    clusters = _clusters(beside(both.points if points is None else points, both.index, "points"), rows, independent)
+    refuse_invalid({"truth": tables[0], "prediction": tables[1]}, wanted, both.order, "leave out such rows first")
+    clusters = _clusters(beside(both.points, both.index, "points"), rows, independent)
     called = name or str(getattr(function, "__name__", type(function).__name__))
     parts: dict[str, Any] = {"+".join(wanted): slice(None)} if together else {channel: at for at, channel in enumerate(wanted)}
     if isinstance(unit, Mapping) and (unknown := sorted(set(unit) - set(parts))):
@@ -116,7 +117,7 @@ def score_function(
 
 
 def _table(array: Any, name: str, width: int) -> Numbers:
-    found = np.asarray(numbers(array, name), dtype=np.float64)
+    found = np.asarray(numbers(array, name, allow_invalid=True), dtype=np.float64)
     if found.ndim == 1 and width == 1:
         found = found[:, np.newaxis]
     if found.ndim != 2 or found.shape[1] != width:

@@ -8,14 +8,15 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from taceva import _taceva
-from taceva._arrays import BLOCK_ROWS, column_order, in_order, native, real, require_finite, with_units
+from taceva._arrays import BLOCK_ROWS, column_order, in_order, native, real, refuse_invalid, with_units
 from taceva._arrays import points as names_of_points
 from taceva._bar import bar
 from taceva._fields import columns, require_unweighted
-from taceva._column_names import beside, pair
+from taceva._column_names import PairedArrays, beside, pair
 from taceva._counted import counted
 from taceva._pickles import PICKLE_VERSION, require_version
 from taceva._result import Result
+from taceva._samples import Samples
 from taceva._settings import metric_names
 from taceva._states import gathered, opened, sealed
 
@@ -79,7 +80,10 @@ class TactileMetrics:
         unknown = sorted(set(periods) - set(channels))
         if unknown:
             raise ValueError(f"periods of {', '.join(unknown)}, expected channels among {', '.join(channels)}")
-        own_units = with_units(channels, dict.fromkeys(periods, "deg") | units)
+        units = dict.fromkeys(periods, "deg") | units
+        own_units = with_units(channels, units)
+        #: Channels without a known unit.
+        self._unknown = [name for name in channels if name not in units and _taceva.unit_of(name) is None]
         self._begin((own_units, metric_names(metrics), independent, list(fields), periods))
         self._paired: set[str] = set()
 
@@ -101,6 +105,7 @@ class TactileMetrics:
         prediction: Any,
         points: Any = None,
         *,
+        key: str | None = None,
         allow_invalid: bool = False,
         **fields: Any,
     ) -> None:
@@ -111,10 +116,12 @@ class TactileMetrics:
         truth, prediction
             ``[rows, channels]``, or ``[rows]`` for one channel: numpy arrays or torch tensors, float32 or float64, in the unit of their channel.
             Whole numbers are converted. Named columns (pandas, polars, Arrow, a dict of arrays) are matched by name. Rows are matched by a
-            common column ``sample``, ``id``, ``sample_id`` or ``index``, else by the pandas index.
+            common column ``sample``, ``id``, ``sample_id`` or ``index``, else by the pandas index. Two default indices pair them by order.
         points
-            Contact point of each row, a whole number or a text. Intervals treat the samples of one point as dependent. By default a column
-            ``point_id`` is used.
+            Contact point of each row, a whole number or a text, or the name of the column that holds them. Intervals treat the samples of one
+            point as dependent. By default a column ``point_id`` is used.
+        key
+            Common column that pairs rows, or ``"order"``.
         allow_invalid
             True to count and skip rows with NaN or an infinite number instead of rejecting them.
         fields
@@ -127,15 +134,18 @@ class TactileMetrics:
         TypeError
             For arrays of other types than real numbers.
         """
-        _, both = pair(truth, prediction, self.channels)
-        points = beside(both.points if points is None else points, both.index, "points")
+        _, both = pair(truth, prediction, self.channels, points=points, key=key)
+        self._add(both, fields, allow_invalid)
+
+    def _add(self, both: PairedArrays, fields: Mapping[str, Any], allow_invalid: bool) -> None:
+        """Add paired samples."""
+        points = beside(both.points, both.index, "points")
         fields = {name: beside(column, both.index, name) for name, column in fields.items()}
-        truth, prediction = both.truth, both.prediction
-        tables = {"truth": real(truth, "truth"), "prediction": real(prediction, "prediction")}
+        tables = {"truth": real(both.truth, "truth"), "prediction": real(both.prediction, "prediction")}
         width = len(self.channels)
         for name, table in tables.items():
             if table.shape[1:] != (width,) and not (width == 1 and table.ndim == 1):
-                raise ValueError(f"{name} has the shape {list(table.shape)}, expected [rows, {width}]: one column per channel")
+                raise ValueError(f"{name} has the shape {list(table.shape)}, expected [rows, {width}]: one column per channel, or give channels=[…]")
         names = None if points is None else names_of_points(points)
         rows = len(tables["truth"])
         for name, column in {"prediction": tables["prediction"], "points": names}.items():
@@ -151,8 +161,7 @@ class TactileMetrics:
             fields_of = [(name, column[block]) for name, column in said]
             is_apart = sums is not self._sums
             if not sums.update(rows_of["truth"], rows_of["prediction"], points_of, fields_of, allow_invalid, is_apart):
-                for name, table in tables.items():
-                    require_finite(native(table[block], name, allow_invalid=True), name, first)
+                refuse_invalid(tables, self.channels, both.order)
         if sums is not self._sums:
             self._sums.merge(sums)
         if both.paired_by is not None:
@@ -164,6 +173,7 @@ class TactileMetrics:
         prediction: Any,
         points: Any = None,
         *,
+        key: str | None = None,
         allow_invalid: bool = False,
         **fields: Any,
     ) -> Result:
@@ -175,7 +185,7 @@ class TactileMetrics:
         ([0.5, 0.25], 0.375)
         """
         batch = self._emptied()
-        batch.update(truth, prediction, points, allow_invalid=allow_invalid, **fields)
+        batch.update(truth, prediction, points, key=key, allow_invalid=allow_invalid, **fields)
         self.merge(batch)
         return batch.compute()
 
@@ -197,11 +207,22 @@ class TactileMetrics:
         found = TactileMetrics.__new__(TactileMetrics)
         found._begin(self._asked)
         found._paired = set()
+        found._unknown = self._unknown
         return found
 
-    def compute(self) -> Result:
-        """Return the scores of all samples so far; more samples may follow. Without samples, the scores are undefined."""
-        return Result(self._sums.compute(sorted(self._paired)))
+    def compute(self, *, name: str | None = None) -> Result:
+        """Return the scores of all samples so far; more samples may follow. Without samples, the scores are undefined.
+
+        ``name`` is that of the sensor or the model, for tables.
+        """
+        return Result(self._scored(name, []))
+
+    def _scored(self, name: str | None, notes: Sequence[str]) -> str:
+        """Return the results file of all samples, with ``notes``."""
+        own = [
+            f"{channel}: not one of {' '.join(SIX)}; taken as a channel of unit 1; give its unit as units={{{channel!r}: …}}" for channel in self._unknown
+        ]
+        return self._sums.compute(sorted(self._paired), name, [*own, *notes])
 
     def merge(self, other: TactileMetrics) -> None:
         """Add the samples of ``other``, which does not change.
@@ -231,12 +252,13 @@ class TactileMetrics:
         self._paired |= set(json.loads(paired))
 
     def __getstate__(self) -> dict[str, Any]:
-        return {"version": PICKLE_VERSION, "asked": self._asked, "states": self.states()}
+        return {"version": PICKLE_VERSION, "asked": self._asked, "unknown": self._unknown, "states": self.states()}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         require_version(state.get("version"))
         self._begin(state["asked"])
         self._paired = set()
+        self._unknown = state["unknown"]
         self.merge_states(state["states"])
 
     def __repr__(self) -> str:
@@ -253,6 +275,8 @@ def score(
     units: Mapping[str, str] | None = None,
     periods: Mapping[str, int] | None = None,
     independent: bool = False,
+    key: str | None = None,
+    name: str | None = None,
     allow_invalid: bool = False,
     **fields: Any,
 ) -> Result:
@@ -260,12 +284,14 @@ def score(
 
     Parameters
     ----------
-    truth, prediction, points, allow_invalid
+    truth, prediction, points, key, allow_invalid
         As in `TactileMetrics.update`: ``[rows, channels]`` in the unit of each channel, and the contact point of each row.
     channels
         Names of the columns; by default the columns of data frames, or the six, ``Px Py Pz`` in mm and ``Fx Fy Fz`` in N.
     metrics, units, periods, independent
         As in `TactileMetrics`.
+    name
+        Name of the sensor or the model, for tables and comparisons.
     fields
         Additional fields of the rows, such as ``scene=["dark", …]``.
 
@@ -281,15 +307,16 @@ def score(
     0.5
     """
     require_unweighted(fields)
-    channels, both = pair(truth, prediction, channels)
+    channels, both = pair(truth, prediction, channels, points=points, key=key, declared={*(units or {}), *(periods or {})})
     wanted = SIX if channels is None else channels
     found = TactileMetrics(wanted, metrics, units=units, periods=periods, independent=independent, fields=list(fields))
-    points = beside(both.points if points is None else points, both.index, "points")
-    fields = {name: beside(column, both.index, name) for name, column in fields.items()}
-    found.update(both.truth, both.prediction, points, allow_invalid=allow_invalid, **fields)
-    if both.paired_by is not None:
-        found._paired.add(both.paired_by)
-    return found.compute()
+    found._add(both, fields, allow_invalid)
+    of_truth, of_prediction = real(both.truth, "truth"), real(both.prediction, "prediction")
+    if not _taceva.keeps_samples(len(of_truth)):
+        return Result(found._scored(name, both.notes))
+    points = beside(both.points, both.index, "points")
+    samples = Samples.of(wanted, of_truth, of_prediction, None if points is None else names_of_points(points), both.names)
+    return Result(found._scored(name, [*both.notes, *samples.notes(periods or {})]), samples.table)
 
 
 def score_tables(
@@ -317,7 +344,7 @@ def score_tables(
     jobs
         Number of threads; all cores if 0. Results do not depend on it.
     """
-    text = _taceva.score_tables(
+    scored = _taceva.score_tables(
         os.fspath(truth),
         os.fspath(prediction),
         metric_names(metrics),
@@ -327,4 +354,4 @@ def score_tables(
         jobs,
         bar(),
     )
-    return Result(text)
+    return Result(*scored)

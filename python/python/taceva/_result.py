@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, overload
@@ -102,7 +102,9 @@ class Result(Mapping[tuple[str, str], Score]):
     (True, True, False, ['Fz'])
     """
 
-    def __init__(self, text: str) -> None:
+    def __init__(self, text: str, samples: str | Callable[[], str] | None = None) -> None:
+        #: Table of the samples behind the scores, or a function that makes it.
+        self._samples = samples
         self._report = _taceva.read_result(text)
         self._text = text
         self._scores = [_score(found) for found in self._report["scores"]]
@@ -207,6 +209,28 @@ class Result(Mapping[tuple[str, str], Score]):
         with Path(path).open("x", encoding="utf-8", newline="\n") as file:
             file.write(self._text)
 
+    def save_samples(self, path: str | os.PathLike[str]) -> None:
+        """Write the samples behind the scores to ``path``, which must not exist.
+
+        `load` and ``taceva compare`` find them beside ``NAME.json`` as ``NAME.samples.csv``, and compare results in pairs.
+
+        Raises
+        ------
+        ValueError
+            For a result without samples.
+        """
+        samples = self._table_of_samples()
+        if samples is None:
+            raise ValueError("no samples are kept: `score` and `evaluate` keep up to 200000, sums and loaded files without their table none")
+        with Path(path).open("x", encoding="utf-8", newline="\n") as file:
+            file.write(samples)
+
+    def _table_of_samples(self) -> str | None:
+        """Return the table of the samples behind the scores, or ``None`` if they are not kept."""
+        if callable(self._samples):
+            self._samples = self._samples()
+        return self._samples
+
     def _said(self) -> list[str]:
         """Return the most important notes: that samples were not measured, and the notes of the result."""
         unmeasured = _taceva.not_measured([self.source])
@@ -215,7 +239,7 @@ class Result(Mapping[tuple[str, str], Score]):
     def _absent(self) -> list[str]:
         """Return notes on missing items: skipped metrics, and intervals of arrays."""
         skipped = [what.removeprefix("metric:") for what in self.skipped]
-        lines = [f"Skipped: {', '.join(skipped)}. The reasons: skipped."] if skipped else []
+        lines = [f"Skipped: {', '.join(skipped)}. See result.skipped for the reasons."] if skipped else []
         has_values = any(score.value is not None for score in self._scores)
         if self.source == "unknown" and has_values and all(score.interval is None for score in self._scores):
             lines.append("No intervals: they need at least 5 contact points. Pass points=[…], or independent=True if no two samples belong together.")
@@ -237,12 +261,12 @@ class Result(Mapping[tuple[str, str], Score]):
     def __hash__(self) -> int:
         return hash(self._text)
 
-    def __reduce__(self) -> tuple[Any, tuple[int, str]]:
-        return _arrived, (PICKLE_VERSION, self._text)
+    def __reduce__(self) -> tuple[Any, tuple[int, str, str | None]]:
+        return _arrived, (PICKLE_VERSION, self._text, self._table_of_samples())
 
 
 def load(path: str | os.PathLike[str]) -> Result:
-    """Read the JSON of one evaluation that `Result.save` or the command wrote.
+    """Read the JSON of one evaluation that `Result.save` or the command wrote, and the table ``NAME.samples.csv`` beside ``NAME.json`` if it exists.
 
     Raises
     ------
@@ -251,12 +275,13 @@ def load(path: str | os.PathLike[str]) -> Result:
     ValueError
         For a file that was edited after it was written, or is not the result of one evaluation.
     """
-    return Result(Path(path).read_text(encoding="utf-8"))
+    samples = Path(path).with_suffix(".samples.csv")
+    return Result(Path(path).read_text(encoding="utf-8"), samples.read_text(encoding="utf-8") if samples.is_file() else None)
 
 
-def _arrived(version: object, text: str = "") -> Result:
+def _arrived(version: object, text: str = "", samples: str | None = None) -> Result:
     require_version(version)
-    return Result(text)
+    return Result(text, samples)
 
 
 def _score(found: dict[str, Any]) -> Score:
