@@ -5,6 +5,7 @@ mod cache;
 mod dataset;
 mod examples;
 mod figure;
+mod gauge;
 mod init;
 mod live;
 mod model;
@@ -23,6 +24,7 @@ pub(crate) use self::bench::{Bench, BenchKernels, BenchModels, BenchSubject};
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
 pub(crate) use self::dataset::{Check, Export, Import, Reseal};
 pub(crate) use self::figure::FigureArgs;
+pub(crate) use self::gauge::{Gauge, GaugeMethod, GaugeResponse};
 pub(crate) use self::init::{Init, InitSubject, InitTarget};
 pub(crate) use self::live::{Capture, LiveArgs, Preview};
 pub(crate) use self::model::{Evaluate, Fit, Merge, Predict, Score};
@@ -129,6 +131,8 @@ pub(crate) enum Command {
     Choose(Choose),
     /// Test a result against limits, and write its data sheet
     Accept(Accept),
+    /// Study a measuring system: how much of what differs between readings comes from units, gels, days or persons
+    Gauge(Gauge),
     /// Published numbers of sensors, each with its source
     Catalogue(CatalogueArgs),
     /// List the results kept for later runs, or remove old ones

@@ -17,6 +17,7 @@ mod effort;
 pub(crate) mod evaluate;
 pub(crate) mod export;
 pub(crate) mod fit;
+pub(crate) mod gauge;
 pub(crate) mod import;
 pub(crate) mod init;
 mod live_predictions;

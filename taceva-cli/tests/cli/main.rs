@@ -11,6 +11,7 @@ mod exported;
 mod extended;
 mod features;
 mod foreign_forms;
+mod gauge;
 mod grasps;
 mod gratings;
 mod guide;

@@ -8,6 +8,7 @@ mod compare;
 mod escape;
 mod figure;
 mod figures;
+mod gauge;
 mod html;
 mod light;
 mod markup;
@@ -43,6 +44,7 @@ pub use figure::{DARK, Figure, FigureStyle, LIGHT, SERIES, STYLE};
 pub use figures::{
     Race, RacePoint, StudyFigures, figures, figures_for, model_bench, race, study_figures, undrawn,
 };
+pub use gauge::{ChannelGauge, GaugeColumns, GaugeStudies};
 pub use html::{Pick, Picture, ReportPage, Triple, picks, report};
 pub use names::names;
 pub use number::{FormattedValue, spaced, with_interval};
