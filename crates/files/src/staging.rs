@@ -128,7 +128,8 @@ impl Staged {
         self,
         exchange: impl Fn(&Path, &Path) -> io::Result<bool>,
     ) -> io::Result<()> {
-        self.folder.disown();
+        // No exit falls between two renames.
+        let publishing = self.folder.disown();
         let (path, target) = (&self.path, &self.target);
         let mut former = std::ffi::OsString::from(FORMER);
         former.push(path.file_name().unwrap_or_default());
@@ -147,6 +148,7 @@ impl Staged {
             }
             Some(&former)
         };
+        drop(publishing);
         if let Err(error) = sync_folder(parent_of(target)) {
             // The new name may not survive a power loss, so the old version is put back.
             drop(match old {
@@ -175,8 +177,9 @@ pub fn replace<E: From<io::Error>>(
     clear_once(parent_of(path));
     write(&staged.path)?;
     fs::File::open(&staged.path)?.sync_all()?;
-    staged.folder.disown();
+    let publishing = staged.folder.disown();
     fs::rename(&staged.path, path)?;
+    drop(publishing);
     Ok(sync_folder(parent_of(path))?)
 }
 

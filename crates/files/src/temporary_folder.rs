@@ -110,15 +110,17 @@ impl TemporaryFolder {
         &self.path
     }
 
-    /// Keeps [`remove_before_exit`] from the folder, because its content is about to be published.
-    pub(crate) fn disown(&self) {
-        own().remove(&self.path);
+    /// Keeps [`remove_before_exit`] from the folder, because its content is about to be published. While the result is held, that function waits.
+    pub(crate) fn disown(&self) -> MutexGuard<'static, BTreeSet<PathBuf>> {
+        let mut own = own();
+        own.remove(&self.path);
+        own
     }
 }
 
 impl Drop for TemporaryFolder {
     fn drop(&mut self) {
-        self.disown();
+        drop(self.disown());
         // The next process removes the rest.
         drop(remove(&self.path));
     }

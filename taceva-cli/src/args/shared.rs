@@ -112,7 +112,8 @@ pub(crate) struct ScoringArgs {
         default_value = "all"
     )]
     pub(crate) metrics: Vec<String>,
-    /// Treat each sample as independent of the others: intervals are then over samples instead of contact points
+    /// Treat each sample as independent of the others: intervals are then over samples instead of contact points;
+    /// `evaluate` refuses it where neighbouring samples resemble each other
     #[arg(long)]
     pub(crate) independent: bool,
     /// Facts about the sensor: footprint, greatest depth, opacity; metrics that need a missing fact are skipped

@@ -66,6 +66,7 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
         results::write(&comparison.table(), &args.output, || comparison.json())?;
     } else if matches!(args.output.format, Format::Json | Format::Csv) {
         let scores = ScoreTable::answered(&studies, &request, comparison.answers.clone());
+        let scores = scores.of_channels(&args.channels);
         let table = scores.comparison_table(&comparison, &studies, &request, args.all);
         results::write(&table, &args.output, || {
             scores.comparison_json(&comparison, &studies, &request, args.all)

@@ -87,7 +87,10 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
             validation.split,
             validation.seed,
             counted(validation.samples, "sample"),
-            held_out(&validation.split)
+            match groups_of(&validation.split) {
+                FoldGroups::Samples => "own label".to_owned(),
+                by => in_words(&by),
+            }
         )?;
         let neighbours = validation.neighbours.as_deref();
         let neighbours = neighbours.filter(|words| words.contains(OPTIMISTIC));
@@ -113,9 +116,7 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     {
         writeln!(out, "warning  {note}")?;
     }
-    let split = card.provenance.validation.as_ref();
-    let split = split.map_or(&fitted.manifest.split, |validation| &validation.split);
-    let measured = measured_on(card.choice.by, &held_out(split));
+    let measured = measured_on(card.choice.by, &in_words(&left_out(fitted)));
     for (channel, choice) in card.channels.iter().zip(&card.choice.channels) {
         let setting = card.choice.setting.as_deref().zip(choice.value);
         let chosen =
@@ -149,21 +150,40 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "wrote    {}", shown(&args.out))
 }
 
-/// Group that the cross-validation `split` leaves out as a whole, in words.
-fn held_out(split: &str) -> String {
-    let by = match split.parse::<SplitSpec>().map(|spec| spec.kind) {
+/// Groups that `split` leaves out as a whole.
+fn groups_of(split: &str) -> FoldGroups {
+    match split.parse::<SplitSpec>().map(|spec| spec.kind) {
         Ok(SplitKind::Folds(folds)) => folds.by,
         Ok(SplitKind::ByColumn(by)) => FoldGroups::Column(by.column),
         Ok(SplitKind::ByBlock) => FoldGroups::Blocks,
         Ok(SplitKind::LeaveOneRecordingOut) => FoldGroups::Recordings,
         _ => FoldGroups::Points,
+    }
+}
+
+/// Groups that the fit left out as a whole to choose settings: those of its cross-validation, or of its division, else contact points.
+fn left_out(fitted: &Fitted) -> FoldGroups {
+    let validation = fitted.model.card().provenance.validation.as_ref();
+    let by = match (validation, &fitted.divided.groups) {
+        (Some(validation), _) => groups_of(&validation.split),
+        (None, Some(_)) => groups_of(&fitted.manifest.split),
+        (None, None) => FoldGroups::Points,
     };
     match by {
-        FoldGroups::Column(name) => format!("group of `{}`", shown(&name)),
-        FoldGroups::Samples => "own label".to_owned(),
+        FoldGroups::Samples => FoldGroups::Points,
+        by => by,
+    }
+}
+
+/// One of the groups `by`, in words.
+fn in_words(by: &FoldGroups) -> String {
+    match by {
+        FoldGroups::Column(name) => format!("group of `{}`", shown(name)),
         FoldGroups::Blocks => "block of time".to_owned(),
         FoldGroups::Recordings => "recording".to_owned(),
-        FoldGroups::Points | FoldGroups::Detected => "contact point".to_owned(),
+        FoldGroups::Points | FoldGroups::Detected | FoldGroups::Samples => {
+            "contact point".to_owned()
+        }
     }
 }
 

@@ -113,6 +113,24 @@ fn a_cross_validated_fit_chooses_its_strength_by_the_groups_of_its_split() {
 }
 
 #[test]
+fn a_fit_validated_at_random_names_the_contact_points_that_chose_its_strength() {
+    let bench = grasps(&["grasp"]);
+    let points = "[time]\n";
+    let map = MAP.replace("COLUMNS", "grasp = \"grasp\"");
+    let map = map.replace(points, "[ids]\npoint_id = \"grasp\"\n[time]\n");
+    bench.write("lab/points.toml", &map);
+    bench.ok("import lab --map lab/points.toml --out points -q");
+    let line = "taceva fit points --model ridge --split 'cv:5 random' --out m.taceva";
+    let said = done(&bench, line);
+    for words in [
+        "a model that had not seen its own label",
+        "N, with each contact point left out in turn",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+}
+
+#[test]
 fn samples_whose_neighbours_resemble_each_other_are_not_independent() {
     let bench = grasps(&["grasp"]);
     bench.refused(

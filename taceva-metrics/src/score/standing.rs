@@ -164,9 +164,9 @@ impl Standing {
                 }
             }),
             Standing::NotAboveNoiseFloor => Some("More presses at each place would narrow this."),
-            Standing::Neighbours => {
-                Some("Leave --split out: the default keeps neighbours together.")
-            }
+            Standing::Neighbours => Some(
+                "Leave --split out, in `taceva fit` too: the default keeps neighbours together.",
+            ),
             Standing::LowStimulus => Some("Stronger light or more different presses avoid this."),
             Standing::Bounded => Some("A model fitted on a wider range of labels avoids this."),
         }

@@ -100,7 +100,10 @@ pub(crate) fn check_seen(
         divided => Some(divided?),
     };
     let folds = match request.split {
-        None => scored_by_default(dataset, request.seed)?,
+        None => match scored_by_default(dataset, request.seed) {
+            Err(EvaluateError::Split(_)) => None,
+            folds => folds?,
+        },
         Some(_) => None,
     };
     let (frames, reference) = if reads(dataset, &wanted, Field::Frame) {

@@ -199,9 +199,17 @@ fn are_beside(
     let is_other = is_lone || (table.own_taxels().is_empty() && table.time().is_none());
     !has_pictures
         && is_other
-        && table.channels() == 0
+        && stated_channels(table) == 0
         && pictures.paths.len() > 1
         && table.rows != pictures.paths.len()
+}
+
+/// Number of channels; 0 for a text of numbers without names, which may be the matrix of a camera.
+fn stated_channels(table: &SeenTable<'_>) -> usize {
+    match table.has_guessed_channels && table.group.ending == "txt" {
+        true => 0,
+        false => table.channels(),
+    }
 }
 
 /// Table whose rows are the samples. Prefers tables that name pictures, then taxels, then as many rows as the clip has frames, then the most
@@ -222,7 +230,7 @@ fn main_table<'t, 'g>(
                 frames::evidence(folder, groups, table),
                 !table.is_single_array && !table.own_taxels().is_empty(),
                 clip.map_or(0, |clip| clip.fit(table)),
-                table.channels(),
+                stated_channels(table),
                 table.group.paths.len(),
                 table.rows,
             )

@@ -241,7 +241,7 @@ fn pairs<'a>(
                 };
                 let of_studies = Sides { a: study, b: other };
                 let barred = comparability::barred(scores, of_both);
-                let barred = barred.or_else(|| splits::barred(of_studies, of_both));
+                let barred = barred.or_else(|| splits::barred(metric, of_studies, of_both));
                 let (difference, unpaired) = match barred {
                     Some(reason) => (Err(reason), None),
                     None => difference(scores, of_studies, of_both, request.seed),

@@ -14,6 +14,7 @@ pub(crate) use standing::by_published_r2;
 pub use statement::Statement;
 pub(crate) use statement::UNSTATED;
 
+use taceva_core::Unit;
 use taceva_metrics::{Standing, TrainingSpread, catalogue};
 use taceva_results::{
     DominantSample, EvaluationReport, Interval, OverSeeds, Provenance, ResultsError, Samples,
@@ -160,10 +161,13 @@ impl Study {
         }
     }
 
-    /// Sample that makes a great part of the squared error behind `score`, if no skill is shown.
+    /// Sample that makes a great part of the squared error behind `score`, if no skill is shown. `None` for angles, whose errors may wrap.
     pub(crate) fn dominant(&self, score: &Score) -> Option<DominantSample> {
+        let mae = self.score("mae", &score.channel);
+        let is_angle = mae.is_some_and(|mae| matches!(mae.unit, Unit::Degree | Unit::Radian));
         let samples = self.samples.as_ref();
-        let samples = samples.filter(|_| score.standing == Standing::NoSkill)?;
+        let is_named = score.standing == Standing::NoSkill && !is_angle;
+        let samples = samples.filter(|_| is_named)?;
         samples.dominant(&score.channel)
     }
 

@@ -14,6 +14,13 @@ impl EvaluationReport {
         for own in &mut self.by_recording {
             own.scores.retain(is_named);
         }
+        for own in &mut self.by_group {
+            own.errors.retain(|error| names.contains(&error.channel));
+        }
+        self.by_group.retain(|own| !own.errors.is_empty());
+        if let Some(over) = &mut self.over_seeds {
+            over.scores.retain(|own| names.contains(&own.channel));
+        }
         let axes = names.iter().filter_map(|name| plane_axes(name)).flatten();
         let names: Vec<&str> = names.iter().map(String::as_str).chain(axes).collect();
         let samples = self.samples.take();

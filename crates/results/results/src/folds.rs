@@ -106,7 +106,11 @@ impl Provenance {
 /// ```
 pub fn kept_together(split: &str) -> &str {
     let shares = split.rsplit_once(' ');
-    let shares = shares.filter(|(_, last)| last.split('/').count() == 3);
+    let are_shares = |text: &str| {
+        let numbers: Result<Vec<f64>, _> = text.split('/').map(str::parse).collect();
+        numbers.is_ok_and(|numbers| numbers.len() == 3)
+    };
+    let shares = shares.filter(|(_, last)| are_shares(last));
     let text = shares.map_or(split, |(text, _)| text);
     let text = match text.split_once(' ') {
         Some((word, by)) if word == "loo" || word.starts_with("cv:") => by,
@@ -170,6 +174,7 @@ mod tests {
                 "leave-one-recording-out",
             ),
             ("declared", "declared"),
+            ("by-column:a b/c/d", "by-column:a b/c/d"),
         ] {
             assert_eq!(kept_together(split), expected);
         }

@@ -16,12 +16,12 @@ pub struct GroupErrors {
     /// Name of the group.
     pub group: String,
     /// Errors by channel.
-    pub errors: Vec<ChannelError>,
+    pub errors: Vec<GroupError>,
 }
 
 /// Mean absolute error of one channel in one group.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ChannelError {
+pub struct GroupError {
     /// Channel: `Fz`.
     pub channel: String,
     /// Symbol of the unit of the error.
@@ -67,7 +67,7 @@ pub fn group_errors(samples: &Samples, scores: &[Score]) -> Vec<GroupErrors> {
     if !(2..=MOST).contains(&names.len()) {
         return Vec::new();
     }
-    let mut groups: BTreeMap<&str, Vec<ChannelError>> = BTreeMap::new();
+    let mut groups: BTreeMap<&str, Vec<GroupError>> = BTreeMap::new();
     for score in scores.iter().filter(|score| score.metric == "mae") {
         let Some(channel) = samples.channel(&score.channel) else {
             continue;
@@ -88,7 +88,7 @@ pub fn group_errors(samples: &Samples, scores: &[Score]) -> Vec<GroupErrors> {
             continue;
         }
         for (group, errors) in own {
-            groups.entry(group).or_default().push(ChannelError {
+            groups.entry(group).or_default().push(GroupError {
                 channel: score.channel.clone(),
                 unit: score.unit.symbol().to_owned(),
                 n: errors.n,
@@ -137,7 +137,7 @@ mod tests {
         let found = group_errors(&samples, &[mae(3.5 / 3.0, 3)]);
         let named = |group: &str, n: u64, mae: f64| GroupErrors {
             group: group.to_owned(),
-            errors: vec![ChannelError {
+            errors: vec![GroupError {
                 channel: "Fz".to_owned(),
                 unit: "N".to_owned(),
                 n,

@@ -20,7 +20,7 @@ mod value;
 pub use error::ResultsError;
 pub use folds::kept_together;
 pub use formula::{escape_csv, unescape_csv};
-pub use group_errors::{ChannelError, GroupErrors, group_errors};
+pub use group_errors::{GroupError, GroupErrors, group_errors};
 pub use interval::{Interval, described_method};
 pub use origin::not_measured;
 pub use provenance::{ModelProvenance, OPTIMISTIC, Provenance, RecordingProvenance};

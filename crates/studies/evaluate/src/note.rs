@@ -176,7 +176,7 @@ pub enum Note {
     LikelyRadians {
         /// The channel.
         channel: String,
-        /// Its period as it was taken, in degrees.
+        /// Period that was taken, in degrees.
         period: u16,
     },
     /// Byte-identical tables of truth and predictions.

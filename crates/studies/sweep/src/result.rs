@@ -13,7 +13,7 @@ use crate::key::TaskKey;
 
 const SCHEMA: &str = "taceva.sweep-result/1.0";
 
-/// Contact point, number of its samples, and sum of their absolute errors, by channel.
+/// Group or contact point, number of its samples, and sum of their absolute errors, by channel.
 pub(crate) type PointErrors = BTreeMap<String, Vec<(String, u64, f64)>>;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,7 +89,7 @@ impl TaskResult {
         scores.find(|score| score.metric == metric && score.channel == channel)
     }
 
-    /// Absolute errors of a channel by contact point.
+    /// Absolute errors of a channel by group or contact point.
     pub(crate) fn sums(&self, channel: &str) -> Option<ClusterSums> {
         let mut sums = ClusterSums::default();
         for (point, n, sum) in self.errors.get(channel)? {

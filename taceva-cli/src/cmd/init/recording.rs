@@ -90,7 +90,7 @@ fn remarks(map: &str, path: &str) -> Vec<String> {
     match open_places(map) {
         0 => {}
         1 => remarks.push(format!("fill in the place {OPEN} of {path}")),
-        _ => remarks.push(format!("fill in the {open} places {OPEN} of {path}")),
+        open => remarks.push(format!("fill in the {open} places {OPEN} of {path}")),
     }
     match guesses {
         0 => {}

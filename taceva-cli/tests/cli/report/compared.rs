@@ -111,6 +111,12 @@ fn a_comparison_has_rows_of_the_named_channels() {
         named.contains("mae Fz (N)") && !named.contains(row),
         "{named}"
     );
+    let csv = bench.ok("compare ViTacTip GelSight --channels Fz --format csv -q");
+    let has_value = |channel: &str| {
+        let start = format!("mae,lower,{channel},ViTacTip,,");
+        csv.lines().any(|line| line.starts_with(&start))
+    };
+    assert!(has_value("Fz") && !has_value("Pz"), "{csv}");
     bench.refused(
         "compare ViTacTip GelSight --channels Fq",
         2,

@@ -96,7 +96,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found.into_iter().collect()
 }
 
-/// Line of the map without a lag of `seconds` of the channel `name`; `None` unless a join by time with one lag gives it.
+/// Line of the map that removes a lag of `seconds` of the channel `name`; `None` unless a join by time with one lag gives it.
 fn line(evidence: &Evidence<'_>, name: &str, seconds: f64) -> Option<String> {
     let mut columns = evidence.header.columns.iter();
     let column = columns.find(|column| column.label == name)?;

@@ -40,8 +40,12 @@ pub(super) fn known_layout(preset: &str) -> String {
 
 /// Comment on an array that is beside pictures but not a table of them.
 pub(super) fn array_beside_pictures(table: &SeenTable<'_>) -> String {
+    let reason = match table.group.ending.as_str() {
+        "txt" => "its numbers have no names, and its rows are not as many",
+        _ => "if it is the picture without contact, save it as PNG and name it as `reference`",
+    };
     format!(
-        "{} ({}) does not describe the pictures: if it is the picture without contact, save it as PNG and name it as `reference`.",
+        "{} ({}) does not describe the pictures: {reason}.",
         table.group.pattern(),
         taceva_core::counted(table.rows, "row")
     )

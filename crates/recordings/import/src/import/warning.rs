@@ -96,7 +96,7 @@ pub enum ImportWarning {
         /// Number of these rows at whose time the joined table has a row.
         equal: u64,
     },
-    /// Most rows of the main table have no match by time.
+    /// Most rows of both tables have no match by time.
     JoinFew {
         /// Name of the join.
         join: String,
@@ -199,8 +199,8 @@ impl fmt::Display for ImportWarning {
             ),
             ImportWarning::NoPictures { pictures, first } => write!(
                 f,
-                "the map has no [frame], so no row has a picture; the folder has {pictures} pictures, such as {}: name them by `column` or \
-                 `pattern` of [frame] and import again",
+                "the map has no [frame], so no row has a picture; the folder has {pictures} pictures, such as {}: if they show these rows, \
+                 name them by `column` or `pattern` of [frame] and import again",
                 taceva_core::shown(first)
             ),
             ImportWarning::JoinPause {
@@ -212,7 +212,8 @@ impl fmt::Display for ImportWarning {
             } => write!(
                 f,
                 "{} {} labels of `{}` from up to {farthest_ms} ms away, although its rows are usually {usual_ms} ms apart: its pauses are \
-                 crossed; write `tolerance_ms = {tolerance_ms}` with `unmatched = \"drop\"` to leave these rows out",
+                 crossed; write `tolerance_ms = {tolerance_ms}` with `unmatched = \"drop\"` to leave these rows out, or `pick = \"before\"` if a row \
+                 holds until the next",
                 taceva_core::counted(*rows, "row"),
                 taceva_core::by_count(*rows, "takes", "take"),
                 taceva_core::shown(join)
@@ -238,15 +239,15 @@ impl fmt::Display for ImportWarning {
             ),
             ImportWarning::TimeOrder { at, rows } => write!(
                 f,
-                "the time of {} is before that of the row above, first at {}, and the next row is later than both: correct stamps that are \
-                 swapped, because such rows are joined by a wrong time",
+                "the time of {} is before that of the row above, first at {}, and the next row is later than both: if stamps are swapped, \
+                 correct them, because such rows are joined by a wrong time; rows written in another order are joined correctly",
                 taceva_core::counted(*rows, "row"),
                 taceva_core::shown(at)
             ),
             ImportWarning::DropUnmatched { name } => write!(
                 f,
-                "`{}` in `frames_named` of [drop] left out no row: write the name as the table has it, or `clip.mp4#12` (from 0) for a \
-                 picture in a clip or an array",
+                "`{}` in `frames_named` of [drop] left out no row: another rule left it out already, or its name is another; write it as \
+                 the table has it, or `clip.mp4#12` (from 0) for a picture in a clip or an array",
                 taceva_core::shown(name)
             ),
         }

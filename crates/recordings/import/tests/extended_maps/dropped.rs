@@ -77,3 +77,16 @@ fn a_picture_in_an_array_is_left_out_by_its_position_and_a_name_of_no_picture_is
         "{warnings:?}"
     );
 }
+
+#[test]
+fn files_that_are_rows_are_left_out_by_their_names() {
+    let files = [("p_1.5.png", ""), ("p_2.5.png", "")];
+    let map = format!(
+        "table = {{ files = \"*.png\" }}\n[path]\npattern = \"p_{{fz:number}}.png\"\n[frame]\ncolumn = \"file\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = {{ from = \"path.fz\", unit = \"N\" }}\n[drop]\nrows = [2]\n{NO_TIME}"
+    );
+    let problem = refused(&files, &map);
+    assert!(
+        problem.contains("`frames_named = [\"p_1.5.png\"]`"),
+        "{problem}"
+    );
+}

@@ -148,3 +148,13 @@ fn a_join_that_matches_less_than_half_of_the_rows_is_warned_of_with_both_spans()
         "{warned}"
     );
 }
+
+#[test]
+fn single_presses_that_match_few_rows_of_a_stream_are_not_warned_of() {
+    let presses: Vec<f64> = (0..12).map(|press| 1.0 + 2.0 * f64::from(press)).collect();
+    let cam: Vec<f64> = (0..240).map(|row| 0.1 * f64::from(row)).collect();
+    let folder = folder(&cam, &presses);
+    let map = map("tolerance_ms = 50\nlag_ms = 0\n").replace("\"linear\"", "\"nearest\"");
+    let found = summary(folder.path(), &map);
+    assert_eq!((found.rows_kept, codes(&found)), (12, Vec::new()));
+}

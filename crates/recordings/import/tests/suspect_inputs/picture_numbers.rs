@@ -58,6 +58,51 @@ fn as_many_pictures_as_rows_are_drafted_in_the_order_of_the_rows() {
     let apart = ["cam/1.png", "cam/2.png", "cam/4.png"];
     let folder = with_pictures(&[("log.csv", "Fz_N\n1.5\n0.5\n2.5\n")], &apart);
     assert!(!draft(folder.path()).contains("pattern = "));
+    // Rows that were sorted by their forces are not in the order of the pictures.
+    let table = "t_s,Fz_N\n20.5,0.5\n10.5,1.5\n30.5,2.5\n";
+    let folder = with_pictures(&[("log.csv", table)], &CAMERA);
+    assert!(!draft(folder.path()).contains("pattern = "));
+}
+
+#[test]
+fn a_column_whose_last_number_is_of_no_picture_does_not_number_them() {
+    // More rows than a draft reads: numbers from 1 beside pictures from 0.
+    let rows = (1..=205).map(|row| format!("{row},{}.5\n", row % 7));
+    let table = format!("n,Fz_N\n{}", rows.collect::<String>());
+    for (digits, expected) in [
+        (0, "pattern = \"cam/{row}.png\""),
+        (5, "pattern = \"cam/{row:05}.png\""),
+    ] {
+        let names: Vec<String> = (0..205)
+            .map(|number| format!("cam/{number:0digits$}.png"))
+            .collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let folder = with_pictures(&[("log.csv", &table)], &names);
+        let text = draft(folder.path());
+        assert!(line(&text, "pattern = ").starts_with(expected), "{text}");
+    }
+}
+
+#[test]
+fn the_matrix_of_a_camera_in_a_text_is_no_table_of_forces() {
+    let rows = [
+        ["600.5", "0.0", "320.5"],
+        ["0.0", "600.5", "240.5"],
+        ["0.0", "0.0", "1.0"],
+    ];
+    let names = ["touch_1.png", "touch_2.png", "touch_3.png", "touch_4.png"];
+    for between in [",", " "] {
+        let rows = rows.iter().map(|row| row.join(between) + "\n");
+        let matrix: String = rows.collect();
+        let folder = with_pictures(&[("camera.txt", &matrix)], &names);
+        let text = draft(folder.path());
+        assert!(
+            text.contains("table = { files = \"touch_*.png\" }"),
+            "{text}"
+        );
+        assert!(!text.contains("Fx = "), "{text}");
+        assert!(text.contains("camera.txt (3 rows) does not"), "{text}");
+    }
 }
 
 #[test]
@@ -74,6 +119,21 @@ fn numbered_pictures_of_two_sides_are_drafted_as_views() {
         assert!(text.contains(part), "{text}");
     }
     planned(folder.path(), &filled(&text)).expect("an import");
+}
+
+#[test]
+fn two_series_that_are_no_views_leave_the_pattern_open() {
+    let names = ["depth_1.png", "depth_2.png", "rgb_1.png", "rgb_2.png"];
+    let folder = with_pictures(&[("log.csv", "Fz_N\n1.5\n0.5\n")], &names);
+    let text = draft(folder.path());
+    assert!(
+        line(&text, "pattern = ").starts_with("pattern = \"?\""),
+        "{text}"
+    );
+    for name in ["depth", "rgb"] {
+        let other = format!("# or: pattern = \"{name}_{{row+1}}.png\"");
+        assert!(text.contains(&other), "{text}");
+    }
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! Values of published worked examples, recomputed.
 
 mod agreement;
+mod budget;
 mod conformity;
+mod curve;
 mod gauge;
 mod quantiles;
 mod support;

@@ -31,12 +31,11 @@ impl LimitInterval {
         let [least, most] = range.map_or([f64::NEG_INFINITY, f64::INFINITY], |metric| {
             metric.range.ends()
         });
-        let ends = estimate_of(score).map(|estimate| estimate.over_trainings(spread).ends());
+        let estimate = estimate_of(score).ok();
+        let ends = estimate.map(|estimate| estimate.over_trainings(spread).ends());
         LimitInterval {
-            ends: ends
-                .ok()
-                .map(|[low, high]| [low.max(least), high.min(most)]),
-            trainings: values.len(),
+            ends: ends.map(|[low, high]| [low.max(least), high.min(most)]),
+            trainings: ends.map_or(0, |_| values.len()),
         }
     }
 }

@@ -7,9 +7,8 @@ use taceva_metrics::{
     paired_over_trainings, plane_axes,
 };
 
-use crate::results::Study;
-use taceva_results::Score;
-use taceva_results::{SampleChannel, Samples};
+use crate::results::{BY_GROUP, Study};
+use taceva_results::{Interval, SampleChannel, Samples, Score};
 
 /// Difference of both mean absolute errors, or the reason why the two are not compared in pairs.
 ///
@@ -64,7 +63,7 @@ fn truth(study: &Study) -> Option<&str> {
         .map(String::as_str)
 }
 
-/// |truth − prediction| of each sample, by contact point.
+/// |truth − prediction| of each sample, by cluster.
 struct Errors<'a> {
     /// Bits of the truth of each sample, axis by axis.
     truths: BTreeMap<&'a str, Vec<u64>>,
@@ -93,12 +92,7 @@ impl<'a> Errors<'a> {
         let channels: Vec<SampleChannel<'_>> =
             channels.collect::<Option<_>>().ok_or_else(strange)?;
         let rows = scored(samples, &channels, score.n).ok_or_else(strange)?;
-        // Each sample counts as a point only if the interval of the score agrees.
-        let is_alone = score
-            .interval
-            .as_ref()
-            .and_then(|interval| interval.method())
-            .is_some_and(|method| method.contains("samples taken as independent"));
+        let clusters = Clusters::of(score);
         let mut truths = BTreeMap::new();
         let mut sums = ClusterSums::default();
         let (mut sum, mut count) = (0.0, 0.0);
@@ -108,18 +102,16 @@ impl<'a> Errors<'a> {
             let key = samples
                 .word(Samples::KEY, row)
                 .ok_or("sample names are missing in the table of samples")?;
-            let point = match is_alone {
-                true => Some(key),
-                false => samples.word("point_id", row),
-            };
-            let point = point.ok_or("contact points are missing in the table of samples")?;
+            let cluster = samples.word(clusters.column, row);
+            let cluster = cluster
+                .ok_or_else(|| format!("{} are missing in the table of samples", clusters.name))?;
             let truth: Vec<u64> = pairs.iter().map(|[truth, _]| truth.to_bits()).collect();
             if truths.insert(key, truth).is_some() {
                 return Err("a sample occurs twice in the table of samples".to_owned());
             }
             let errors = pairs.iter().map(|[truth, found]| (truth - found).abs());
             let error = errors.sum::<f64>() / pairs.len() as f64;
-            sums.try_add(point, error).map_err(|_| strange())?;
+            sums.try_add(cluster, error).map_err(|_| strange())?;
             sum += error;
             count += 1.0;
         }
@@ -128,6 +120,30 @@ impl<'a> Errors<'a> {
             true => Ok(Errors { truths, sums }),
             false => Err(strange()),
         }
+    }
+}
+
+/// Clusters that the interval of a score leaves out; its errors are summed by the same ones.
+struct Clusters {
+    name: &'static str,
+    column: &'static str,
+}
+
+impl Clusters {
+    /// Clusters of `score`, by the method of its interval: contact points, if it names no others.
+    fn of(score: &Score) -> Clusters {
+        let method = score.interval.as_ref().and_then(Interval::method);
+        let method = method.unwrap_or_default();
+        let (name, column) = if method.contains("samples taken as independent") {
+            ("sample names", Samples::KEY)
+        } else if method.contains(BY_GROUP) {
+            ("groups", Samples::GROUP)
+        } else if method.contains(" by recording") {
+            ("recordings", "recording")
+        } else {
+            ("contact points", "point_id")
+        };
+        Clusters { name, column }
     }
 }
 

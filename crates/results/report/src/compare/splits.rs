@@ -1,12 +1,16 @@
 //! Scores of one dataset whose splits left out different groups, which give no verdict.
 
-use taceva_metrics::Sides;
+use taceva_metrics::{Sides, catalogue};
 
 use crate::results::Study;
 use taceva_results::kept_together;
 
-/// Reason why two results of one dataset give no verdict: their splits keep different samples together.
-pub(super) fn barred(studies: Sides<&Study>, names: Sides<&str>) -> Option<String> {
+/// Reason why two results of one dataset give no verdict on `metric`: their splits keep different samples together. A metric without predictions
+/// depends on no split.
+pub(super) fn barred(metric: &str, studies: Sides<&Study>, names: Sides<&str>) -> Option<String> {
+    if catalogue::find(metric).is_some_and(|metric| !metric.reads_predictions()) {
+        return None;
+    }
     let stated = |study: &Study, key: &str| {
         let found = study.provenance.iter().find(|(name, _)| name == key);
         found.map(|(_, text)| text.clone())

@@ -268,8 +268,13 @@ fn scope(studies: &[Study]) -> String {
         1 => "Intervals",
         _ => "Intervals and p values",
     };
+    // Tests of results with several seeds add the variance between trainings.
+    let trainings = match own.iter().any(|study| study.over_seeds.is_some()) {
+        true => ", and intervals do not include that between trainings",
+        false => " and trainings",
+    };
     format!(
-        " {what} apply to other {} on the same units {models}; they do not include the variation between units and trainings.",
+        " {what} apply to other {} on the same units {models}; they do not include the variation between units{trainings}.",
         clusters(studies)
     )
 }

@@ -73,7 +73,7 @@ fn alone(study: &Study, row: &ScoreRow) -> Option<Markup> {
     Some(html! {
         (phrase(cell, row)) ", n = " (cell.n) @if let Some(groups) = cell.groups { " of " (counted(groups, "group")) } "."
         @if let Some(why) = cell.standing.reason() { " Not used in verdicts: " (why) "." }
-        @if let Some(sample) = sample { " Its " (sample) ": look at its picture and its labels." }
+        @if let Some(sample) = sample { " Its " (sample) ": look at its data and its labels." }
         @if let Some(remedy) = cell.standing.remedy(study.made.folds.is_some()) { " " (remedy) }
     })
 }

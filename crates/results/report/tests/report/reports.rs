@@ -335,6 +335,8 @@ fn scores_over_seeds_stand_on_the_page_where_there_are_any() {
     ));
     assert!(page.contains("</a> ↓</th><td>Pz</td><td>mm</td>") && page.contains("0.05 … 0.35"));
     assert!(page.contains("Each model was fitted with the seeds 3, 1 and 2;"));
+    let scope = "between units, and intervals do not include that between trainings.";
+    assert!(page.contains(scope), "{page}");
     result["over_seeds"]["scores"][0]["interval"] = serde_json::json!([1]);
     let error = support::read(&result).expect_err("one end");
     let place = "over_seeds.scores[0].interval";

@@ -27,7 +27,7 @@ const LEAST_SHARE: f64 = 0.25;
 pub struct DominantSample {
     /// Name of the sample.
     pub name: String,
-    /// Its share of the squared error, from 0 to 1.
+    /// Share of the squared error that it makes, from 0 to 1.
     pub share: f64,
 }
 

@@ -387,11 +387,11 @@ impl<'a> Folds<'a> {
     }
 
     fn plan(&self, request: &FitRequest, fold: &Fold) -> Result<FitPlan<'a>, EvaluateError> {
-        FitPlan::on(
-            self.dataset,
-            request,
-            Recipe::of(request)?,
-            fold.divided.clone(),
-        )
+        let recipe = Recipe::of(request)?;
+        let mut plan = FitPlan::on(self.dataset, request, recipe, fold.divided.clone())?;
+        if let Some(groups) = self.groups() {
+            plan.leave_out_groups(groups);
+        }
+        Ok(plan)
     }
 }

@@ -155,7 +155,7 @@ impl fmt::Display for Note {
             }
             Note::Dominant { channel, sample } => write!(
                 f,
-                "{channel}: {sample}: look at its picture and its labels, then run `taceva check`"
+                "{channel}: {sample}: look at its data and its labels, then run `taceva check`"
             ),
             Note::Chosen { fold: None, choice } => f.write_str(choice),
             Note::Chosen {

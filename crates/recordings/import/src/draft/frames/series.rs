@@ -148,7 +148,10 @@ impl<'g> Series<'g> {
         let numbers: Option<Vec<u64>> = filled(column).map(whole_number).collect();
         let numbers = numbers.unwrap_or_default();
         let different: HashSet<u64> = numbers.iter().copied().collect();
+        // A draft reads the first rows and the last one: numbers from 1 are not those of pictures from 0.
+        let last = whole_number(&column.last);
         may_name(column)
+            && last.is_none_or(|last| self.numbers.contains(&last))
             && numbers.len() > 1
             && different.len() == numbers.len()
             && different.iter().all(|number| self.numbers.contains(number))
@@ -198,6 +201,16 @@ fn column_of<'t>(series: &Series<'_>, main: &'t SeenTable<'_>) -> Option<&'t See
     counting.into_iter().chain(others).next()
 }
 
+/// True unless the times of the rows show that they were sorted after the recording.
+fn is_in_order(main: &SeenTable<'_>) -> bool {
+    main.time().is_none_or(|time| {
+        let times = time.column.cells.iter();
+        times
+            .filter_map(|cell| cell.parse::<f64>().ok())
+            .is_sorted()
+    })
+}
+
 /// True if a column of `main` numbers pictures.
 pub(super) fn has_column(groups: &[FileGroup], main: &SeenTable<'_>) -> bool {
     main.group.paths.len() == 1
@@ -222,7 +235,7 @@ pub(super) fn of(
         Some((series, series.of_column(main, column)))
     });
     let mut found: Vec<(&Series<'_>, Vec<String>)> = numbered.collect();
-    if found.is_empty() {
+    if found.is_empty() && is_in_order(main) {
         let counted = all.iter().filter(|series| series.counts(main.rows));
         found.extend(counted.map(|series| (series, series.of_rows(main))));
     }
@@ -247,9 +260,17 @@ pub(super) fn of(
         .flat_map(|lines| lines.first())
         .map(|line| format!("# or: {line}"))
         .collect();
+    if !others.is_empty() {
+        let named = std::mem::replace(&mut first.lines[0], SEVERAL.to_owned());
+        first.lines.insert(1, format!("# or: {named}"));
+    }
     first.lines.extend(others);
     vec![first]
 }
+
+/// Open line for several series that are no views, such as colour and depth.
+const SEVERAL: &str =
+    "pattern = \"?\"   # several series belong to the rows: name that of the sensor";
 
 /// Comment for a table without pictures, with the pictures of the folder that no line joins.
 pub(in crate::draft) fn none_found(groups: &[FileGroup], main: &SeenTable<'_>) -> String {

@@ -132,6 +132,7 @@ fn names(column: &SeenColumn, stems: &HashSet<&str>, rows: usize) -> bool {
     };
     may_name(column)
         && cells.len() > 1
+        && (column.last.is_empty() || stems.contains(column.last.as_str()))
         && different.len() == cells.len()
         && cells.iter().all(|cell| stems.contains(cell))
         && (!cells.iter().all(is_count) || are_as_many())

@@ -38,6 +38,8 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
             let with_header = TableForm::Delimited(form(true));
             let names = ForeignTable::read(path, &with_header).map(|table| table.names());
             let (form, keys) = match names {
+                // Each of its lines is numbers.
+                _ if group.ending == "txt" => (form(false), String::new()),
                 Ok(names) if is_numbered(&names) => (form(true), format!(", {NUMBERED_HEADER}")),
                 Ok(names) if !is_of_numbers(&names) => (form(true), String::new()),
                 _ => (form(false), String::new()),

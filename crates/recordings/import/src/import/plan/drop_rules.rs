@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::reading::Reading;
 use crate::error::{ImportError, table_error};
+use crate::foreign::TableForm;
 use crate::import::map::ImportMap;
 use crate::import::rows::MappedTable;
 use crate::import::warning::ImportWarning;
@@ -24,6 +25,14 @@ pub(super) fn check_tables(
     for dropped in &map.drop.rows {
         let number = dropped.row;
         match (&dropped.table, tables) {
+            (None, [first, _, ..]) if map.form == TableForm::Files => {
+                return Err(table_error!(
+                    first,
+                    "row {number} in `rows` of [drop]: each of the {} files is a row, so name it: `frames_named = [\"{}\"]`",
+                    tables.len(),
+                    shown(&relative(first))
+                ));
+            }
             (None, [first, _, ..]) => {
                 return Err(table_error!(
                     first,

@@ -2,7 +2,8 @@
 
 use super::{of_metric, score, study};
 use serde_json::json;
-use taceva_metrics::Standing;
+use taceva_core::Unit;
+use taceva_metrics::{DifferenceTest, Standing};
 use taceva_report::{ReportPage, Study, report};
 use taceva_results::Samples;
 
@@ -157,6 +158,27 @@ fn samples_that_are_taken_as_independent_are_paired_one_by_one() {
     assert!(test.contains("sign"), "{test}");
 }
 
+#[test]
+fn errors_are_summed_by_the_groups_that_the_interval_leaves_out() {
+    let grouped = |sensor: &str, error: f64| {
+        let mut study = sampled(sensor, 0.0, error);
+        let mut mae = score(study.scores[0].value.number().expect("a number"), 0.01, "N");
+        mae["n"] = 48.into();
+        mae["method"] = json!("jackknife by group, G=8, logarithmic");
+        study.scores = self::study(sensor, &[("mae", "Fz", mae)], &["Fz"]).scores;
+        let samples = study.samples.as_mut().expect("samples");
+        let group = |row: usize| Some(format!("object {}", row % 8));
+        let groups = (0..samples.rows()).map(group).collect();
+        samples.push_words(Samples::GROUP, groups);
+        study
+    };
+    let comparison = of_metric(&[grouped("a", 0.25), grouped("b", 0.5)], "mae");
+    let difference = comparison.answers[0].difference.as_ref();
+    let test = difference.expect("tested").test;
+    let by_group = matches!(test, DifferenceTest::SignFlip { clusters: 8, .. });
+    assert!(by_group, "{test}");
+}
+
 /// A study of a shear force: errors of x are about `error`, those of y twice as large, and their mean is the score of the plane.
 fn sheared(sensor: &str, error: f64) -> Study {
     let mut table = String::from("id,point_id,Fx,Fx_predicted,Fy,Fy_predicted\n");
@@ -214,11 +236,22 @@ fn a_sample_that_makes_most_of_the_squared_error_is_named_beside_a_model_without
     assert!(words.contains(expected), "{words}");
     let alone = report(&ReportPage {
         title: "weak",
-        studies: &[weak],
+        studies: std::slice::from_ref(&weak),
         pictures: &[],
         triples: &[],
     });
     assert!(alone.contains("Its sample s7 makes 52 % of"), "{alone}");
+    // The difference of two angles is no error if it wraps.
+    for score in &mut weak.scores {
+        score.unit = Unit::Degree;
+    }
+    let angle = report(&ReportPage {
+        title: "weak",
+        studies: &[weak],
+        pictures: &[],
+        triples: &[],
+    });
+    assert!(!angle.contains("Its sample"), "{angle}");
 }
 
 #[test]

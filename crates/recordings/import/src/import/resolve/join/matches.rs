@@ -86,7 +86,11 @@ impl JoinMatches {
 
     /// Warnings about its times.
     pub(in crate::import) fn warnings(&self) -> Vec<ImportWarning> {
-        self.timing.warnings(&self.name, self.matched)
+        let tables = self.tables.values();
+        let used: usize = tables.clone().map(|uses| uses.used.len()).sum();
+        let candidates: usize = tables.map(|uses| uses.candidates).sum();
+        self.timing
+            .warnings(&self.name, self.matched, 2 * used < candidates)
     }
 
     /// Spans of the times of both sides in words, if no row of a join by time has a match.

@@ -48,7 +48,7 @@ pub(super) struct Timing {
     pub(super) greatest_gap_s: Option<f64>,
     /// Rows with a match across a pause of the joined table.
     far: u64,
-    /// Usual step of the joined table, s.
+    /// Greatest usual step of the joined tables of these rows, s.
     usual_s: f64,
     lagged: Lagged,
     /// The two rows before the next one.
@@ -101,8 +101,8 @@ impl Timing {
             let is_far = |gap_s: f64| gap_s > (FAR * usual_s).max(FAR_S);
             if row.pick != Pick::Before && row.gap_s.is_some_and(is_far) {
                 self.far += 1;
+                self.usual_s = self.usual_s.max(usual_s);
             }
-            self.usual_s = self.usual_s.max(usual_s);
             self.lagged.add(&row, candidates, usual_s);
         }
         if let [Some(before), Some(last)] = &self.recent
@@ -159,8 +159,14 @@ impl Timing {
         ))
     }
 
-    /// Warnings about the lag, the tolerance and the matches of `join`, of which `matched` rows have one.
-    pub(super) fn warnings(&self, join: &str, matched: u64) -> Vec<ImportWarning> {
+    /// Warnings about the lag, the tolerance and the matches of `join`, of which `matched` rows have one. Single presses match few rows of a
+    /// stream: few matches are a fault only if `most_unused`, that is if most joined rows serve none.
+    pub(super) fn warnings(
+        &self,
+        join: &str,
+        matched: u64,
+        most_unused: bool,
+    ) -> Vec<ImportWarning> {
         let mut warnings = Vec::new();
         let join_name = || join.to_owned();
         if self.far > 0 {
@@ -180,7 +186,7 @@ impl Timing {
                 equal: self.lagged.without_lag,
             });
         }
-        if self.rows >= LEAST && 2 * matched < self.rows {
+        if self.rows >= LEAST && 2 * matched < self.rows && most_unused {
             warnings.extend(self.spans(join).map(|spans| ImportWarning::JoinFew {
                 join: join_name(),
                 rows: self.rows,

@@ -1,0 +1,116 @@
+//! Amounts of a budget file: a number, or a number with its unit.
+
+use std::fmt;
+
+use serde::de::{Deserialize, Deserializer, Visitor};
+use taceva_core::{SourceUnit, Unit};
+
+use super::error::BudgetProblem;
+
+/// An amount as written.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Amount {
+    Number(f64),
+    Text(String),
+}
+
+/// The quantity that an amount must be of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Wanted {
+    /// A value of this unit.
+    In(Unit),
+    /// A share of the reading.
+    Share,
+    /// An angle, converted to radians.
+    Angle,
+    /// Anything: a number as it is, an angle in radians, other units as they are kept.
+    Any,
+    /// A number, a share or an angle in radians: the unit of the measurand is none that TacEva converts.
+    Plain,
+}
+
+impl<'de> Deserialize<'de> for Amount {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Amount, D::Error> {
+        struct Either;
+        impl Visitor<'_> for Either {
+            type Value = Amount;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a number, or a text such as \"10 mN\"")
+            }
+            fn visit_f64<E>(self, value: f64) -> Result<Amount, E> {
+                Ok(Amount::Number(value))
+            }
+            #[expect(
+                clippy::cast_precision_loss,
+                reason = "whole numbers of a budget are short"
+            )]
+            fn visit_i64<E>(self, value: i64) -> Result<Amount, E> {
+                Ok(Amount::Number(value as f64))
+            }
+            fn visit_str<E>(self, value: &str) -> Result<Amount, E> {
+                Ok(Amount::Text(value.to_owned()))
+            }
+        }
+        deserializer.deserialize_any(Either)
+    }
+}
+
+impl fmt::Display for Amount {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Amount::Number(number) => write!(f, "{number}"),
+            Amount::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+impl Amount {
+    /// The number in the wanted unit, finite.
+    pub(super) fn resolve(&self, wanted: Wanted) -> Result<f64, BudgetProblem> {
+        let wrong = |expected: &str| BudgetProblem::Value {
+            found: taceva_core::shown(&self.to_string()).to_string(),
+            expected: expected.to_owned(),
+        };
+        let (number, unit) = match self {
+            Amount::Number(number) => (*number, None),
+            Amount::Text(text) => {
+                let parted = text.trim().split_once(char::is_whitespace);
+                let percent = || text.trim().strip_suffix('%').map(|number| (number, "%"));
+                let (number, symbol) = parted
+                    .or_else(percent)
+                    .ok_or_else(|| wrong("a number, a blank and a unit, such as \"10 mN\""))?;
+                let unit =
+                    SourceUnit::parse(symbol.trim()).map_err(|error| wrong(&error.to_string()))?;
+                let number = number
+                    .parse()
+                    .map_err(|_| wrong("a number before the unit"))?;
+                (number, Some(unit))
+            }
+        };
+        if !f64::is_finite(number) {
+            return Err(wrong("a finite number"));
+        }
+        match (wanted, unit) {
+            (Wanted::Any | Wanted::Plain | Wanted::Share, None) => Ok(number),
+            (Wanted::Any | Wanted::Plain | Wanted::Angle, Some(unit))
+                if unit.unit() == Unit::Degree =>
+            {
+                Ok(unit.convert(number).to_radians())
+            }
+            (Wanted::Any, Some(unit)) => Ok(unit.convert(number)),
+            (Wanted::In(Unit::One), None) => Ok(number),
+            (Wanted::In(kept), Some(unit)) if unit.unit() == kept => Ok(unit.convert(number)),
+            (Wanted::Share | Wanted::Plain, Some(unit)) if unit.unit() == Unit::One => {
+                Ok(unit.convert(number))
+            }
+            (Wanted::In(kept), _) => Err(wrong(&format!(
+                "an amount in {kept} or a unit of the same quantity"
+            ))),
+            (Wanted::Plain, _) => Err(wrong(
+                "a number in units of the expression: only a `unit` such as mm, N or deg is converted",
+            )),
+            (Wanted::Share, _) => Err(wrong("a share of the reading, such as \"1 %\"")),
+            (Wanted::Angle, _) => Err(wrong("an angle, such as \"1 deg\"")),
+        }
+    }
+}

@@ -1,0 +1,117 @@
+//! Calibration certificate of the reference of one channel.
+
+use super::freedom::Freedom;
+use taceva_metrics::distributions::student_t;
+
+/// Meaning of an expanded uncertainty: its coverage factor, or its coverage probability.
+///
+/// It gets no further variant: a certificate states one of these.
+///
+/// ```
+/// use taceva_metrology::budget::{Coverage, Freedom};
+/// let normal = Coverage::Probability { p: 0.95, freedom: Freedom::Infinite };
+/// assert!((normal.factor().unwrap() - 1.96).abs() < 1e-4);
+/// assert_eq!(Coverage::Factor(2.0).factor(), Some(2.0));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coverage {
+    /// Coverage factor k.
+    Factor(f64),
+    /// Coverage probability p, with the degrees of freedom of the uncertainty.
+    Probability {
+        /// Probability, in 0..1.
+        p: f64,
+        /// Degrees of freedom.
+        freedom: Freedom,
+    },
+}
+
+impl Coverage {
+    /// The coverage factor; `None` if k is not above 0 or p not in 0..1.
+    pub fn factor(self) -> Option<f64> {
+        match self {
+            Coverage::Factor(k) => (k > 0.0 && k.is_finite()).then_some(k),
+            Coverage::Probability { p, freedom } => {
+                let number = freedom.number().filter(|_| p > 0.0 && p < 1.0)?;
+                Some(student_t::quantile(f64::midpoint(1.0, p), number))
+            }
+        }
+    }
+}
+
+/// Certificate of the reference, reduced to the measurand's channel; numbers in the unit of the measurand.
+///
+/// ```
+/// use taceva_metrology::budget::{Certificate, Coverage};
+/// let mut certificate = Certificate::new("D-K-1", "a laboratory", "M3813B-0042", Coverage::Factor(2.0));
+/// (certificate.absolute, certificate.relative) = (0.003, 0.001);
+/// // √(1.5² + (0.5 × 10)²) mN at 10 N.
+/// assert!((certificate.standard_uncertainty(10.0).unwrap() - 0.00522).abs() < 1e-5);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Certificate {
+    /// Number of the certificate.
+    pub number: String,
+    /// Laboratory that issued it.
+    pub laboratory: String,
+    /// Serial number in the certificate.
+    pub serial: String,
+    /// Serial number that the instrument's driver reads, if it reads one.
+    pub instrument_serial: Option<String>,
+    /// Coverage of the expanded uncertainties.
+    pub coverage: Coverage,
+    /// Expanded uncertainty that holds at every reading.
+    pub absolute: f64,
+    /// Expanded uncertainty relative to the reading.
+    pub relative: f64,
+    /// Least and greatest calibrated value.
+    pub range: Option<[f64; 2]>,
+    /// Last day of validity, as `2027-05-12`.
+    pub valid_until: Option<String>,
+    /// Day of the recording, in the same form.
+    pub recorded_on: Option<String>,
+}
+
+impl Certificate {
+    /// A certificate of no uncertainty and no range yet.
+    pub fn new(number: &str, laboratory: &str, serial: &str, coverage: Coverage) -> Certificate {
+        Certificate {
+            number: number.to_owned(),
+            laboratory: laboratory.to_owned(),
+            serial: serial.to_owned(),
+            instrument_serial: None,
+            coverage,
+            absolute: 0.0,
+            relative: 0.0,
+            range: None,
+            valid_until: None,
+            recorded_on: None,
+        }
+    }
+
+    /// Standard uncertainty at a reading: u² = (U/k)² + (U_relative × reading / k)².
+    pub fn standard_uncertainty(&self, reading: f64) -> Option<f64> {
+        let k = self.coverage.factor()?;
+        Some((self.absolute / k).hypot(self.relative * reading / k))
+    }
+
+    /// Degrees of freedom of the uncertainty.
+    pub(super) fn freedom(&self) -> Freedom {
+        match self.coverage {
+            Coverage::Factor(_) => Freedom::Infinite,
+            Coverage::Probability { freedom, .. } => freedom,
+        }
+    }
+
+    /// The sentence of a certificate that had expired when the recording was made. Dates of one form compare as texts.
+    pub(super) fn expiry(&self) -> Option<String> {
+        let (until, on) = (self.valid_until.as_ref()?, self.recorded_on.as_ref()?);
+        (on > until).then(|| {
+            format!(
+                "certificate {} was valid until {until}, the recording is of {on}",
+                self.number
+            )
+        })
+    }
+}

@@ -1,0 +1,125 @@
+//! Errors of a budget file: line, key, what was found and what is expected.
+
+use std::fmt;
+
+use super::expression::ExpressionError;
+
+/// A rejected budget.
+///
+/// ```
+/// use taceva_metrology::budget::BudgetText;
+/// let error = BudgetText::parse("budget_version = 2\nmeasurand = \"Fz\"").unwrap_err();
+/// assert_eq!(error.to_string(), "line 1, `budget_version`: `2` is found, expected 1");
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct BudgetError {
+    /// Line, from 1, if a single line is at fault.
+    pub line: Option<usize>,
+    /// Key at fault, or the table.
+    pub key: Option<String>,
+    /// Problem.
+    pub problem: Box<BudgetProblem>,
+}
+
+impl BudgetError {
+    pub(super) fn new(
+        line: impl Into<Option<usize>>,
+        key: &str,
+        problem: BudgetProblem,
+    ) -> BudgetError {
+        BudgetError {
+            line: line.into(),
+            key: (!key.is_empty()).then(|| key.to_owned()),
+            problem: Box::new(problem),
+        }
+    }
+}
+
+impl fmt::Display for BudgetError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(line) = self.line {
+            write!(f, "line {line}")?;
+        }
+        if let Some(key) = &self.key {
+            let separator = if self.line.is_some() { ", " } else { "" };
+            write!(f, "{separator}`{}`", taceva_core::shown(key))?;
+        }
+        let separator = if self.line.is_some() || self.key.is_some() {
+            ": "
+        } else {
+            ""
+        };
+        write!(f, "{separator}{}", self.problem)
+    }
+}
+
+impl std::error::Error for BudgetError {}
+
+/// Problems of a budget.
+///
+/// ```
+/// use taceva_metrology::budget::BudgetProblem;
+/// let problem = BudgetProblem::Keys("the key `at` is missing".to_owned());
+/// assert_eq!(problem.to_string(), "the key `at` is missing");
+/// ```
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BudgetProblem {
+    /// Invalid TOML, an unknown key, or a value of the wrong type.
+    #[error("{0}")]
+    Syntax(String),
+    /// A number out of its range, or an amount that cannot be read.
+    #[error("`{found}` is found, expected {expected}")]
+    Value {
+        /// Text as found.
+        found: String,
+        /// Accepted values.
+        expected: String,
+    },
+    /// A key that needs another one, or excludes it.
+    #[error("{0}")]
+    Keys(String),
+    /// An unknown name.
+    #[error("`{name}` is no {kind}; {suggestion}")]
+    UnknownName {
+        /// Name as written.
+        name: String,
+        /// Kind of the name.
+        kind: &'static str,
+        /// The nearest name, or all of them.
+        suggestion: String,
+    },
+    /// Two sources of one name, or two that use one figure.
+    #[error("`{name}` is used twice, here and in line {other}")]
+    Twice {
+        /// Name.
+        name: String,
+        /// Line of the first.
+        other: usize,
+    },
+    /// A source that another one holds already.
+    #[error("`{inner}` is inside `{outer}` (line {line}); remove one of them")]
+    Inside {
+        /// Figure that is held.
+        inner: String,
+        /// Figure that holds it.
+        outer: String,
+        /// Line of `outer`.
+        line: usize,
+    },
+    /// Correlations that no variables can have.
+    #[error(
+        "the correlations contradict each other: the least eigenvalue of their matrix is {eigenvalue:.3e}, expected 0 or more"
+    )]
+    NotPositive {
+        /// Least eigenvalue.
+        eigenvalue: f64,
+    },
+    /// An expression that cannot be read or has no value.
+    #[error("{0}")]
+    Expression(ExpressionError),
+    /// A certificate that does not hold for the instrument or the value.
+    #[error("{0}")]
+    Certificate(String),
+}

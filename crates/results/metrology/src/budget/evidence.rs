@@ -1,0 +1,126 @@
+//! Measured figures that sources name by `from`, and the certificate of the reference.
+
+use std::collections::BTreeMap;
+
+use super::certificate::Certificate;
+use super::freedom::Freedom;
+
+/// A measured figure that can feed a source, in the unit of the measurand.
+///
+/// ```
+/// use taceva_metrology::budget::{Figure, Freedom};
+/// let within = Figure::new(0.024, Freedom::Finite(60.0)).of_rows(120, 60);
+/// assert_eq!((within.u, within.n), (0.024, Some(120)));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Figure {
+    /// Estimate: a correction that is added to the reading, 0 for most; of `drift` the slope per hour.
+    pub value: f64,
+    /// Standard uncertainty.
+    pub u: f64,
+    /// Degrees of freedom of `u`.
+    pub freedom: Freedom,
+    /// Number of rows behind it.
+    pub n: Option<u64>,
+    /// Number of clusters of these rows, such as contact points.
+    pub clusters: Option<u64>,
+    /// Digest of the file it was read from.
+    pub digest: Option<String>,
+    /// Reservation that every output repeats.
+    pub note: Option<String>,
+}
+
+impl Figure {
+    /// A figure of the estimate 0.
+    pub fn new(u: f64, freedom: Freedom) -> Figure {
+        Figure {
+            value: 0.0,
+            u,
+            freedom,
+            n: None,
+            clusters: None,
+            digest: None,
+            note: None,
+        }
+    }
+
+    /// The drift of idle readings, in units of the measurand per hour.
+    pub fn of_drift(slope_per_hour: f64) -> Figure {
+        Figure {
+            value: slope_per_hour,
+            ..Figure::new(0.0, Freedom::Infinite)
+        }
+    }
+
+    /// The same figure with the estimate `value`.
+    #[must_use]
+    pub fn of_estimate(self, value: f64) -> Figure {
+        Figure { value, ..self }
+    }
+
+    /// The same figure with its numbers of rows and clusters.
+    #[must_use]
+    pub fn of_rows(self, n: u64, clusters: u64) -> Figure {
+        Figure {
+            n: Some(n),
+            clusters: Some(clusters),
+            ..self
+        }
+    }
+
+    /// The same figure with the digest of its file.
+    #[must_use]
+    pub fn of_digest(self, digest: &str) -> Figure {
+        Figure {
+            digest: Some(digest.to_owned()),
+            ..self
+        }
+    }
+}
+
+/// All that a recording and its results can feed into a budget.
+///
+/// ```
+/// use taceva_metrology::budget::{Evidence, Figure, Freedom};
+/// let evidence = Evidence::default().with("repeatability", Figure::new(0.015, Freedom::Finite(476.0)));
+/// assert!(evidence.figure("repeatability").is_some());
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Evidence {
+    figures: BTreeMap<String, Figure>,
+    certificate: Option<Certificate>,
+}
+
+impl Evidence {
+    /// The same evidence with the figure that sources name by `from = "name"`.
+    #[must_use]
+    pub fn with(mut self, name: &str, figure: Figure) -> Evidence {
+        self.figures.insert(name.to_owned(), figure);
+        self
+    }
+
+    /// The same evidence with the certificate of the reference, `from = "certificate"`.
+    #[must_use]
+    pub fn with_certificate(self, certificate: Certificate) -> Evidence {
+        Evidence {
+            certificate: Some(certificate),
+            ..self
+        }
+    }
+
+    /// The figure of this name.
+    pub fn figure(&self, name: &str) -> Option<&Figure> {
+        self.figures.get(name)
+    }
+
+    /// Names of all figures, in order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.figures.keys().map(String::as_str)
+    }
+
+    /// The certificate.
+    pub fn certificate(&self) -> Option<&Certificate> {
+        self.certificate.as_ref()
+    }
+}

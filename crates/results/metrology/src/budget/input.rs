@@ -1,0 +1,60 @@
+//! A source with its numbers: estimate, shape, standard uncertainty and degrees of freedom.
+
+use super::evidence::Figure;
+use super::freedom::Freedom;
+use super::shape::Shape;
+
+/// A resolved source, an input of the model.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Input {
+    pub(super) name: String,
+    /// Line of its table.
+    pub(super) line: usize,
+    /// True for type A, from statistics of rows.
+    pub(super) is_statistical: bool,
+    pub(super) shape: Shape,
+    pub(super) value: f64,
+    pub(super) u: f64,
+    pub(super) freedom: Freedom,
+    pub(super) enters: Enters,
+    pub(super) from: Option<String>,
+    /// Inputs of one set were read together, row by row.
+    pub(super) set: Option<String>,
+    pub(super) rows: Vec<f64>,
+    pub(super) covers: Option<String>,
+    /// The measured figure that it names.
+    pub(super) figure: Option<Figure>,
+}
+
+impl Input {
+    /// Number of rows behind it.
+    pub(super) fn n(&self) -> Option<u64> {
+        let rows = (!self.rows.is_empty()).then_some(self.rows.len() as u64);
+        rows.or(self.figure.as_ref().and_then(|figure| figure.n))
+    }
+
+    /// Reservation of its figure.
+    pub(super) fn note(&self) -> Option<String> {
+        let note = self.figure.as_ref()?.note.as_ref()?;
+        Some(format!("{}: {note}", self.name))
+    }
+}
+
+/// The way a source enters the model without an expression.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Enters {
+    /// + δ.
+    Absolute,
+    /// × (1 + δ).
+    Relative,
+    /// × cos δ.
+    Cosine,
+}
+
+impl Enters {
+    pub(super) const NAMES: [(&'static str, Enters); 3] = [
+        ("absolute", Enters::Absolute),
+        ("relative", Enters::Relative),
+        ("cosine", Enters::Cosine),
+    ];
+}

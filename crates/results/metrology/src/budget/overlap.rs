@@ -1,0 +1,85 @@
+//! Figures that hold others, which a budget must not count twice, and effects that a test never exercised.
+
+use super::error::{BudgetError, BudgetProblem};
+use super::evidence::Evidence;
+use super::input::Input;
+use super::report::Missing;
+
+/// Figures of residuals and what each of them holds already.
+const INSIDE: [(&str, &[&str]); 2] = [
+    (
+        "error",
+        &[
+            "error.between",
+            "error.within",
+            "bias",
+            "repeatability",
+            "noise",
+            "placement",
+        ],
+    ),
+    ("error.within", &["repeatability", "noise", "placement"]),
+];
+
+/// Figures of effects that presses of one session on one unit do not exercise, each with the effect.
+const UNEXERCISED: [(&str, &str); 4] = [
+    ("hysteresis", "unloading"),
+    ("r_light", "other light"),
+    ("gauge", "other units"),
+    ("drift", "other days"),
+];
+
+/// Refuses two sources of one figure, and a source inside another one.
+pub(super) fn check(inputs: &[Input]) -> Result<(), BudgetError> {
+    let of = |input: &Input| input.from.clone().unwrap_or_default();
+    for (at, input) in inputs.iter().enumerate() {
+        let Some(from) = input.from.clone() else {
+            continue;
+        };
+        let error = |problem| Err(BudgetError::new(input.line, "from", problem));
+        if let Some(first) = inputs[..at].iter().find(|first| of(first) == from) {
+            let other = first.line;
+            return error(BudgetProblem::Twice { name: from, other });
+        }
+        let holder = inputs.iter().find(|outer| {
+            let held = INSIDE.iter().find(|(name, _)| *name == of(outer));
+            held.is_some_and(|(_, inner)| inner.contains(&from.as_str()))
+        });
+        if let Some(outer) = holder {
+            let (inner, line) = (from, outer.line);
+            let outer = of(outer);
+            return error(BudgetProblem::Inside { inner, outer, line });
+        }
+    }
+    Ok(())
+}
+
+/// Effects that no source names by `from` or `covers`.
+pub(super) fn missing(inputs: &[Input], evidence: &Evidence) -> Vec<Missing> {
+    let is_of = |name: &str, figure: &str| match figure {
+        // A component of a gauge study, such as `gauge.json#unit`.
+        "gauge" => name == figure || name.contains('#') || name.starts_with("gauge."),
+        _ => name == figure,
+    };
+    let names = |input: &Input| [input.from.clone(), input.covers.clone()];
+    let all: Vec<String> = inputs.iter().flat_map(names).flatten().collect();
+    let absent = UNEXERCISED
+        .iter()
+        .filter(|(figure, _)| !all.iter().any(|name| is_of(name, figure)));
+    let effects = absent.map(|(figure, effect)| {
+        let is_measured = evidence.names().any(|name| is_of(name, figure));
+        let reason = match is_measured {
+            true => "measured, but no source of the budget names it",
+            false => "not in this recording",
+        };
+        Missing::new(figure, &format!("{effect}: {reason}"))
+    });
+    let reference = (!all.iter().any(|name| name == "certificate")).then(|| {
+        let reason = match evidence.certificate() {
+            Some(_) => "reference: certified, but no source of the budget names it",
+            None => "reference: the recording has no certificate",
+        };
+        Missing::new("certificate", reason)
+    });
+    effects.chain(reference).collect()
+}

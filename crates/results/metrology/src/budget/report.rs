@@ -1,0 +1,264 @@
+//! A finished budget, `taceva.budget/1`.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+use taceva_core::shown;
+
+use super::digits::{beside, two_digits};
+use super::freedom::Freedom;
+use super::monte_carlo::MonteCarloResult;
+
+/// Name and version of the form in JSON.
+pub const BUDGET_SCHEMA: &str = "taceva.budget/1";
+
+/// An uncertainty budget of one value, all numbers in `unit` and with all digits. It prints as text with U in two digits.
+///
+/// ```
+/// # use taceva_metrology::budget::{BudgetText, Evidence, MonteCarlo};
+/// # let text = "budget_version = 1\nmeasurand = \"Fz\"\nat = [\"1 N\"]\n[[source]]\nname = \"lamp\"\nu = \"10 mN\"\n";
+/// let budget = &BudgetText::parse(text)?.budgets(&Evidence::default(), None)?[0];
+/// assert!(budget.to_string().contains("Fz = 1.000 N, U = 0.020 N (k = 1.960, p = 95 %, nu_eff infinite)"));
+/// # Ok::<(), taceva_metrology::budget::BudgetError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Budget {
+    /// [`BUDGET_SCHEMA`].
+    pub schema: String,
+    /// Name of the measurand.
+    pub measurand: String,
+    /// Reading for which the budget holds; `None` if an expression alone gives the value.
+    pub at: Option<f64>,
+    /// Unit.
+    pub unit: String,
+    /// Value, corrected.
+    pub value: f64,
+    /// Combined standard uncertainty of first order.
+    pub u: f64,
+    /// Standard uncertainty with the terms of second order.
+    pub second_order_u: f64,
+    /// Effective degrees of freedom.
+    pub nu_eff: Freedom,
+    /// Coverage factor, of `nu_eff` cut to a whole number.
+    pub k: Option<f64>,
+    /// Coverage probability.
+    pub p: f64,
+    /// Expanded uncertainty k u, not rounded.
+    #[serde(rename = "U")]
+    pub expanded: Option<f64>,
+    /// Interval of the coverage, by `method`.
+    pub interval: Option<[f64; 2]>,
+    /// Origin of the interval.
+    pub method: Method,
+    /// Sources, in the order of the file.
+    pub sources: Vec<Source>,
+    /// Correlations that are not 0.
+    pub correlations: Vec<Correlation>,
+    /// Result of the draws, if they were asked for.
+    pub mcm: Option<MonteCarloResult>,
+    /// Effects that no source covers.
+    pub missing: Vec<Missing>,
+    /// The certificate of the reference.
+    pub traceability: Option<Traceability>,
+    /// Sentences that every output repeats.
+    pub warnings: Vec<String>,
+}
+
+/// Origin of an interval. It gets no further variant: there are two ways.
+///
+/// ```
+/// use taceva_metrology::budget::Method;
+/// assert_eq!(Method::FirstOrder.to_string(), "first order");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Method {
+    /// Law of propagation and a coverage factor.
+    FirstOrder,
+    /// Symmetric interval of the draws.
+    MonteCarlo,
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Method::FirstOrder => "first order",
+            Method::MonteCarlo => "Monte Carlo",
+        })
+    }
+}
+
+/// A row of a budget.
+///
+/// ```
+/// # use taceva_metrology::budget::{BudgetText, Evidence};
+/// # let text = "budget_version = 1\nmeasurand = \"Fz\"\nat = [\"1 N\"]\n[[source]]\nname = \"lamp\"\nhalf_width = \"1 %\"\nenters = \"relative\"\n";
+/// let source = &BudgetText::parse(text)?.budgets(&Evidence::default(), None)?[0].sources[0];
+/// assert_eq!((source.shape.as_str(), source.c, source.share), ("rectangular", 1.0, Some(1.0)));
+/// # Ok::<(), taceva_metrology::budget::BudgetError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Source {
+    /// Name.
+    pub name: String,
+    /// `A`, from statistics, or `B`, from other knowledge.
+    #[serde(rename = "type")]
+    pub kind: char,
+    /// Shape of the distribution.
+    pub shape: String,
+    /// Estimate, in the unit of the source.
+    pub value: f64,
+    /// Standard uncertainty, in the unit of the source.
+    pub u: f64,
+    /// Degrees of freedom of `u`.
+    pub nu: Freedom,
+    /// Sensitivity, unit of the measurand over that of the source.
+    pub c: f64,
+    /// c u, signed.
+    pub contribution: f64,
+    /// (c u)² over the square of the combined uncertainty; the sum is 1 without correlation. `None` if that is 0.
+    pub share: Option<f64>,
+    /// Measured figure.
+    pub from: Option<String>,
+    /// Number of rows behind it.
+    pub n: Option<u64>,
+    /// Number of clusters behind it.
+    pub clusters: Option<u64>,
+    /// Digest of the file it was read from.
+    pub digest: Option<String>,
+}
+
+/// Correlation of two sources. It gets no further field.
+///
+/// ```
+/// let one: taceva_metrology::budget::Correlation = serde_json::from_str(r#"{"between": ["a", "b"], "r": -0.5}"#)?;
+/// assert_eq!(one.r, -0.5);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Correlation {
+    /// Names of the sources.
+    pub between: [String; 2],
+    /// Correlation coefficient.
+    pub r: f64,
+}
+
+/// An effect without a source.
+///
+/// ```
+/// let one: taceva_metrology::budget::Missing =
+///     serde_json::from_str(r#"{"source": "drift", "reason": "other days: not in this recording"}"#)?;
+/// assert_eq!(one.source, "drift");
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Missing {
+    /// Figure that would cover it.
+    pub source: String,
+    /// Effect, and reason.
+    pub reason: String,
+}
+
+impl Missing {
+    pub(super) fn new(source: &str, reason: &str) -> Missing {
+        Missing {
+            source: source.to_owned(),
+            reason: reason.to_owned(),
+        }
+    }
+}
+
+/// The certificate that a budget rests on.
+///
+/// ```
+/// # use taceva_metrology::budget::Traceability;
+/// let one: Traceability =
+///     serde_json::from_str(r#"{"number": "D-K-1", "laboratory": "a laboratory", "serial": "42", "valid_until": null}"#)?;
+/// assert_eq!(one.number, "D-K-1");
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Traceability {
+    /// Number of the certificate.
+    pub number: String,
+    /// Laboratory.
+    pub laboratory: String,
+    /// Serial number of the instrument.
+    pub serial: String,
+    /// Last day of validity.
+    pub valid_until: Option<String>,
+}
+
+impl Budget {
+    /// The expanded uncertainty in two digits.
+    pub fn rounded(&self) -> Option<f64> {
+        self.expanded.map(two_digits)
+    }
+
+    /// Correlation of the values of two budgets of the same sources; `None` if either has no uncertainty.
+    ///
+    /// # Reference
+    /// GUM H.2.3: r = ΣΣ cᵢuᵢ cⱼ′uⱼ′ rᵢⱼ / (u u′).
+    pub fn correlation_with(&self, other: &Budget) -> Option<f64> {
+        let r = |one: &str, two: &str| {
+            let pair = |of: &&Correlation| of.between == [one, two] || of.between == [two, one];
+            let stated = self.correlations.iter().find(pair).map(|of| of.r);
+            stated.unwrap_or(if one == two { 1.0 } else { 0.0 })
+        };
+        let others = || other.sources.iter();
+        let pairs = self
+            .sources
+            .iter()
+            .flat_map(|one| others().map(move |two| (one, two)));
+        let covariance: f64 = pairs
+            .map(|(one, two)| one.contribution * two.contribution * r(&one.name, &two.name))
+            .sum();
+        let scale = self.u * other.u;
+        (scale > 0.0).then(|| covariance / scale)
+    }
+}
+
+impl fmt::Display for Budget {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (unit, name) = (shown(&self.unit), shown(&self.measurand));
+        let wide = self.expanded.filter(|expanded| *expanded > 0.0);
+        let scale = wide.unwrap_or(self.u);
+        for warning in &self.warnings {
+            writeln!(f, "warning: {warning}")?;
+        }
+        write!(f, "{name} = {} {unit}, ", beside(self.value, scale))?;
+        match (self.rounded(), self.k) {
+            (Some(expanded), Some(k)) => {
+                write!(f, "U = {} {unit} (k = {k:.3}", beside(expanded, expanded))?
+            }
+            (Some(expanded), None) => write!(f, "U = {expanded} {unit} (no k")?,
+            _ => write!(f, "u = {} {unit} (no U", beside(self.u, self.u))?,
+        }
+        writeln!(f, ", p = {} %, nu_eff {})", self.p * 100.0, self.nu_eff)?;
+        if let Some([low, high]) = self.interval {
+            let (low, high) = (beside(low, scale), beside(high, scale));
+            writeln!(f, "interval {low} to {high} {unit}, {}", self.method)?;
+        }
+        for source in &self.sources {
+            let (kind, name, shape, nu) =
+                (source.kind, shown(&source.name), &source.shape, source.nu);
+            let contribution = beside(source.contribution, self.u);
+            write!(f, "  {kind} {name}: {contribution} {unit}, ")?;
+            match source.share {
+                Some(share) => writeln!(f, "{:.1} %, {shape}, nu {nu}", share * 100.0)?,
+                None => writeln!(f, "-, {shape}, nu {nu}")?,
+            }
+        }
+        if !self.correlations.is_empty() {
+            writeln!(f, "  shares do not add up to 100 %: sources are correlated")?;
+        }
+        for Missing { source, reason } in &self.missing {
+            writeln!(f, "  missing: {} ({reason})", shown(source))?;
+        }
+        Ok(())
+    }
+}

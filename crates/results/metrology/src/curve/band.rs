@@ -1,0 +1,158 @@
+//! Bands about a curve.
+
+use super::fit::{Clustered, CurveFit};
+use super::squares::{Square, form};
+use super::undefined::{CurveUndefined, probability};
+use taceva_metrics::distributions::{f_ratio, student_t};
+
+/// Origin of a covariance. It gets no further variant: rows are independent or clustered.
+///
+/// ```
+/// use taceva_metrology::curve::CovarianceOf;
+/// assert_eq!(CovarianceOf::Points { clusters: 60 }.to_string(), "jackknife over 60 points");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CovarianceOf {
+    /// Residuals of independent rows, s²(XᵀX)⁻¹.
+    Rows,
+    /// Fits without one contact point each.
+    Points {
+        /// Number of points.
+        clusters: usize,
+    },
+}
+
+impl std::fmt::Display for CovarianceOf {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            CovarianceOf::Rows => f.write_str("independent rows"),
+            CovarianceOf::Points { clusters } => write!(f, "jackknife over {clusters} points"),
+        }
+    }
+}
+
+/// Value of a curve with the ends of a band, in the unit of y. If both covariances are defined, the wider band is given and named.
+///
+/// ```
+/// use taceva_metrology::curve::{CovarianceOf, CurveFit, CurveRow};
+/// let rows: Vec<CurveRow> = [(0.0, 1.0), (1.0, 3.1), (2.0, 4.9), (3.0, 7.0)].map(|(x, y)| CurveRow::new(x, y)).into();
+/// let band = CurveFit::of(&rows, 1)?.confidence(1.5, 0.95)?;
+/// assert_eq!(band.covariance, CovarianceOf::Rows);
+/// assert!(band.low < 4.0 && 4.0 < band.high);
+/// # Ok::<(), taceva_metrology::curve::CurveUndefined>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Band {
+    /// y(x).
+    pub value: f64,
+    /// Lower end.
+    pub low: f64,
+    /// Upper end.
+    pub high: f64,
+    /// Standard uncertainty of which the half-width is a multiple.
+    pub u: f64,
+    /// Degrees of freedom.
+    pub freedom: f64,
+    /// Origin of the covariance.
+    pub covariance: CovarianceOf,
+}
+
+/// A covariance of the coefficients of z with its degrees of freedom.
+pub(super) struct Spread {
+    pub(super) covariance: Square,
+    pub(super) freedom: f64,
+    pub(super) of: CovarianceOf,
+}
+
+impl CurveFit {
+    /// Covariance of independent rows.
+    pub(super) fn of_rows(&self) -> Spread {
+        let square = self.residual_deviation().powi(2);
+        let inverse = self.solution.inverse;
+        Spread {
+            covariance: inverse.map(|row| row.map(|cell| cell * square)),
+            freedom: self.freedom(),
+            of: CovarianceOf::Rows,
+        }
+    }
+
+    /// Covariance between points, if it is defined.
+    pub(super) fn of_points(&self) -> Option<Spread> {
+        let Clustered {
+            covariance,
+            clusters,
+        } = *self.clustered.as_ref()?;
+        Some(Spread {
+            covariance,
+            freedom: (clusters - 1) as f64,
+            of: CovarianceOf::Points { clusters },
+        })
+    }
+
+    /// The widest of the bands factor(ν) √(extra + z₀ᵀ cov z₀).
+    fn widest(&self, x: f64, extra: f64, factor: impl Fn(f64) -> f64) -> Band {
+        let (value, powers) = (self.value(x), self.axis.powers(x));
+        let band = |spread: Spread| {
+            let variance = form(&powers, &spread.covariance, &powers).max(0.0);
+            let u = (extra + variance).sqrt();
+            let half = factor(spread.freedom) * u;
+            Band {
+                value,
+                low: value - half,
+                high: value + half,
+                u,
+                freedom: spread.freedom,
+                covariance: spread.of,
+            }
+        };
+        let rows = band(self.of_rows());
+        match self.of_points().map(band) {
+            Some(points) if points.high > rows.high => points,
+            _ => rows,
+        }
+    }
+
+    /// Confidence band of the curve at one x: y ± t u(y).
+    ///
+    /// # Errors
+    /// [`CurveUndefined::Probability`].
+    pub fn confidence(&self, x: f64, p: f64) -> Result<Band, CurveUndefined> {
+        let p = probability(p)?;
+        Ok(self.widest(x, 0.0, |freedom| {
+            student_t::quantile(f64::midpoint(1.0, p), freedom)
+        }))
+    }
+
+    /// Band of the mean of `readings` new readings at one x: y ± t √(s²/m + u²(y)).
+    ///
+    /// # Errors
+    /// [`CurveUndefined::Probability`]; [`CurveUndefined::NotPositive`] for no reading.
+    pub fn prediction(&self, x: f64, p: f64, readings: u32) -> Result<Band, CurveUndefined> {
+        let (p, extra) = (probability(p)?, self.reading_variance(readings)?);
+        Ok(self.widest(x, extra, |freedom| {
+            student_t::quantile(f64::midpoint(1.0, p), freedom)
+        }))
+    }
+
+    /// Simultaneous confidence band of the curve at all x: y ± √(q F(q, ν)) u(y) for q coefficients.
+    ///
+    /// # Errors
+    /// [`CurveUndefined::Probability`].
+    ///
+    /// # Reference
+    /// Scheffé, The Analysis of Variance (1959), 3.5.
+    pub fn simultaneous(&self, x: f64, p: f64) -> Result<Band, CurveUndefined> {
+        let p = probability(p)?;
+        let q = self.count as f64;
+        Ok(self.widest(x, 0.0, |freedom| {
+            (q * f_ratio::quantile(p, q, freedom)).sqrt()
+        }))
+    }
+
+    /// s²/m.
+    pub(super) fn reading_variance(&self, readings: u32) -> Result<f64, CurveUndefined> {
+        let readings = super::undefined::positive("the number of readings", f64::from(readings))?;
+        Ok(self.residual_deviation().powi(2) / readings)
+    }
+}

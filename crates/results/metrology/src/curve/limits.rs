@@ -1,0 +1,144 @@
+//! Limits of relative errors like those of a standard, and the place of measured figures among them.
+
+use std::fmt;
+
+/// Multiples of the row of class 1 that are not a standard's.
+const MULTIPLES: [u32; 6] = [5, 10, 20, 50, 100, 200];
+
+/// A table of limits in %.
+pub(super) struct Table {
+    pub(super) standard: &'static str,
+    /// Names of the figures.
+    pub(super) figures: &'static [&'static str],
+    /// Name of each row and the ends of its figures, from the strictest.
+    pub(super) rows: &'static [(&'static str, &'static [f64])],
+}
+
+/// A figure with its magnitude in %, or the series it lacks.
+pub(super) type Figure = Result<f64, &'static str>;
+
+/// Place of figures among limits like a standard's. No class is given: neither the procedure nor the limits are the standard's own.
+///
+/// It gets no further variant: figures are within a row, beyond all, or incomplete.
+///
+/// ```
+/// use taceva_metrology::curve::{Indication, IndicationLevel};
+/// let level = IndicationLevel::new(&[Indication::new(100.0, 100.0), Indication::new(100.0, 98.0), Indication::new(100.0, 100.0)]);
+/// let place = level.figures(200.0)?.standing();
+/// assert_eq!(place.to_string(), "unknown: a downward series, zero readings and the resolution are missing");
+/// # Ok::<(), taceva_metrology::curve::CurveUndefined>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub enum Standing {
+    /// All figures are within this row.
+    Within {
+        /// Name of the row.
+        row: &'static str,
+        /// Standard whose limits these are like.
+        standard: &'static str,
+    },
+    /// A figure is beyond the last row.
+    Beyond {
+        /// Name of the figure that exceeds its limit most.
+        figure: &'static str,
+        /// Its magnitude, %.
+        value: f64,
+        /// Name of the last row.
+        row: &'static str,
+        /// End of that row, %.
+        end: f64,
+        /// Least multiple of the row of class 1 that holds all figures, of 5 to 200.
+        multiple: Option<u32>,
+        /// Standard whose limits these are like.
+        standard: &'static str,
+    },
+    /// Series are missing, and no figure that there is is beyond the last row.
+    Unknown {
+        /// The missing series.
+        missing: Vec<&'static str>,
+    },
+}
+
+impl fmt::Display for Standing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Standing::Within { row, standard } => {
+                write!(
+                    f,
+                    "within the row {row} of limits like {standard}, which is no class"
+                )
+            }
+            Standing::Beyond {
+                figure,
+                value,
+                row,
+                end,
+                multiple,
+                standard,
+            } => {
+                write!(
+                    f,
+                    "none: {figure} = {value:.1} %, class {row} ends at {end:.2} %"
+                )?;
+                match multiple {
+                    Some(multiple) => write!(f, "; within class 1 x {multiple}, not {standard}"),
+                    None => write!(f, "; beyond class 1 x 200, not {standard}"),
+                }
+            }
+            Standing::Unknown { missing } => {
+                let (last, first) = missing.split_last().unwrap_or((&"", &[]));
+                let is = taceva_core::by_count(missing.len(), "is", "are");
+                match first {
+                    [] => write!(f, "unknown: {last} {is} missing"),
+                    _ => write!(f, "unknown: {} and {last} {is} missing", first.join(", ")),
+                }
+            }
+        }
+    }
+}
+
+impl Table {
+    /// Place of `figures`, in the order of the table; `may_have` leaves out rows that other conditions exclude.
+    pub(super) fn standing(&self, figures: &[Figure], may_have: impl Fn(&str) -> bool) -> Standing {
+        let places = || figures.iter().enumerate();
+        let known = || places().filter_map(|(at, figure)| Some((at, figure.ok()?)));
+        let is_within =
+            |ends: &[f64], times: f64| known().all(|(at, value)| value <= ends[at] * times);
+        let Some((last, ends)) = self.rows.last() else {
+            let missing = Vec::new();
+            return Standing::Unknown { missing };
+        };
+        let beyond = known().map(|(at, value)| (at, value, value / ends[at]));
+        let beyond = beyond.filter(|(at, value, _)| *value > ends[*at]);
+        if let Some((at, value, _)) = beyond.max_by(|one, other| one.2.total_cmp(&other.2)) {
+            let first = self.rows.iter().find(|(name, _)| *name == "1");
+            let holds =
+                |times: &u32| first.is_some_and(|(_, ends)| is_within(ends, f64::from(*times)));
+            return Standing::Beyond {
+                figure: self.figures[at],
+                value,
+                row: last,
+                end: ends[at],
+                multiple: MULTIPLES.into_iter().find(holds),
+                standard: self.standard,
+            };
+        }
+        let mut missing: Vec<&'static str> =
+            figures.iter().filter_map(|figure| figure.err()).collect();
+        missing.dedup();
+        let row = self
+            .rows
+            .iter()
+            .find(|(name, ends)| may_have(name) && is_within(ends, 1.0));
+        match row {
+            Some((row, _)) if missing.is_empty() => Standing::Within {
+                row,
+                standard: self.standard,
+            },
+            None if missing.is_empty() => Standing::Unknown {
+                missing: vec!["a force of 500 resolutions or more"],
+            },
+            _ => Standing::Unknown { missing },
+        }
+    }
+}

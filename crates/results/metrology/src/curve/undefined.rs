@@ -1,0 +1,103 @@
+//! Reasons why a curve, or a figure of it, has no value.
+
+/// Reason for a missing curve or figure.
+///
+/// ```
+/// use taceva_metrology::curve::CurveUndefined;
+/// assert_eq!(CurveUndefined::EqualX.to_string(), "all x are equal, expected two different ones or more");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CurveUndefined {
+    /// The order is not 1, 2 or 3.
+    #[error("order {0} is found, expected 1, 2 or 3")]
+    Order(usize),
+    /// No degree of freedom is left.
+    #[error("{}, expected {least} or more", taceva_core::counted(*have, "row"))]
+    TooFewRows {
+        /// Number of rows.
+        have: usize,
+        /// Least number.
+        least: usize,
+    },
+    /// All x are equal.
+    #[error("all x are equal, expected two different ones or more")]
+    EqualX,
+    /// Fewer different x than coefficients.
+    #[error("{have} different x, expected {least} or more")]
+    TooFewX {
+        /// Number of different x.
+        have: usize,
+        /// Least number.
+        least: usize,
+    },
+    /// A row has a number that is not finite.
+    #[error("row {row} has a number that is not finite")]
+    NotFinite {
+        /// Row, from 1.
+        row: usize,
+    },
+    /// A probability outside 0..1.
+    #[error("probability {0} is found, expected a number between 0 and 1")]
+    Probability(f64),
+    /// The slope does not differ from 0, so that an inverse has no end: Fieller's g is 1 or more.
+    #[error("the slope is not shown to differ from 0: Fieller's g is {g:.3}, expected below 1")]
+    SlopeNotShown {
+        /// Fieller's g, (t u(b)/b)².
+        g: f64,
+    },
+    /// The figure is defined for a straight line alone.
+    #[error("order {0} is found, expected 1: the figure is defined for a straight line")]
+    NotALine(usize),
+    /// A force, a reading or a resolution that must be above 0.
+    #[error("{what} {value} is found, expected a number above 0")]
+    NotPositive {
+        /// Quantity.
+        what: &'static str,
+        /// Value.
+        value: f64,
+    },
+    /// A series that has another number of levels than the forces.
+    #[error("series {series} has {}, expected {expected}", taceva_core::counted(*have, "level"))]
+    Levels {
+        /// Name of the series.
+        series: &'static str,
+        /// Number of its levels.
+        have: usize,
+        /// Number of forces.
+        expected: usize,
+    },
+    /// A series that a figure needs.
+    #[error("series {0} is missing")]
+    MissingSeries(&'static str),
+}
+
+/// `p` if it is in 0..1.
+pub(super) fn probability(p: f64) -> Result<f64, CurveUndefined> {
+    (p > 0.0 && p < 1.0)
+        .then_some(p)
+        .ok_or(CurveUndefined::Probability(p))
+}
+
+/// All of `values` are above 0 and finite.
+pub(super) fn all_positive<'a>(
+    what: &'static str,
+    values: impl IntoIterator<Item = &'a f64>,
+) -> Result<(), CurveUndefined> {
+    let mut values = values.into_iter();
+    values.try_for_each(|value| positive(what, *value).map(|_| ()))
+}
+
+/// Greatest less least of `values`.
+pub(super) fn range(values: &[f64]) -> f64 {
+    let greatest = values.iter().copied().fold(f64::MIN, f64::max);
+    greatest - values.iter().copied().fold(f64::MAX, f64::min)
+}
+
+/// `value` if it is above 0 and finite.
+pub(super) fn positive(what: &'static str, value: f64) -> Result<f64, CurveUndefined> {
+    let is_right = value > 0.0 && value.is_finite();
+    is_right
+        .then_some(value)
+        .ok_or(CurveUndefined::NotPositive { what, value })
+}
