@@ -2,9 +2,6 @@
 
 mod factor;
 mod response;
-mod tolerance;
-
-use std::collections::BTreeSet;
 
 use anyhow::anyhow;
 use taceva_core::shown;
@@ -13,21 +10,19 @@ use taceva_import::CsvTable;
 use taceva_metrology::gauge::{Design, GaugeError, GaugeSettings, GaugeStudy, Method};
 use taceva_report::{ChannelGauge, GaugeColumns, GaugeStudies};
 
-use super::{Context, Usage, results};
+use super::quantity::Quantity;
+use super::{Context, Usage, origin, results};
 use crate::args::{Format, Gauge, GaugeMethod};
 use crate::{exit, output};
 use factor::Factors;
 use response::Response;
-use tolerance::Tolerance;
-
-/// Column with the origin of each sample.
-const SOURCE: &str = "source";
 
 pub(crate) fn run(args: &Gauge, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.output.path {
         output::check_free(path, args.output.force)?;
     }
-    let tolerance = args.tolerance.as_deref().map(Tolerance::read);
+    let tolerance = args.tolerance.as_deref();
+    let tolerance = tolerance.map(|written| Quantity::read("--tolerance", written));
     let tolerance = tolerance.transpose()?;
     let (table, digest) = read_table(&args.table, context.jobs)?;
     let readings = Readings {
@@ -51,7 +46,7 @@ pub(crate) fn run(args: &Gauge, context: &Context) -> anyhow::Result<u8> {
             trial: args.trial.clone(),
         },
         channels: channels.collect::<anyhow::Result<_>>()?,
-        sources: sources(&table)?,
+        sources: origin::of(&table)?,
         digest: digest.to_string(),
     };
     let written = match args.output.format {
@@ -65,7 +60,7 @@ pub(crate) fn run(args: &Gauge, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-fn settings(args: &Gauge, tolerance: Option<&Tolerance>) -> GaugeSettings {
+fn settings(args: &Gauge, tolerance: Option<&Quantity>) -> GaugeSettings {
     let mut settings = GaugeSettings::default();
     settings.design = match args.nested {
         true => Design::Nested,
@@ -76,22 +71,9 @@ fn settings(args: &Gauge, tolerance: Option<&Tolerance>) -> GaugeSettings {
         GaugeMethod::Range => Method::Range,
     };
     settings.pool = args.pool;
-    settings.tolerance = tolerance.map(|of| of.width);
+    settings.tolerance = tolerance.map(|of| of.value);
     settings.drop_incomplete = args.drop_incomplete;
     settings
-}
-
-/// Origins of the samples, by the column `source` or the result beside the table.
-fn sources(table: &CsvTable) -> anyhow::Result<Vec<String>> {
-    const UNKNOWN: &str = "unknown";
-    if !table.has(SOURCE) {
-        let source = results::source_of(table.path())?;
-        return Ok(vec![source.unwrap_or_else(|| UNKNOWN.to_owned())]);
-    }
-    let stated = table.text(SOURCE)?.into_iter();
-    let stated = stated.map(|source| if source.is_empty() { UNKNOWN } else { source });
-    let distinct: BTreeSet<&str> = stated.collect();
-    Ok(distinct.into_iter().map(str::to_owned).collect())
 }
 
 /// Table of readings with the columns that name parts, operators and trials.

@@ -5,6 +5,7 @@
 mod bench_models;
 mod cache;
 mod cache_list;
+mod curve;
 mod directions;
 mod division;
 mod exported;

@@ -5,6 +5,7 @@ mod bench;
 pub mod catalogue;
 mod choose;
 mod compare;
+mod curve;
 mod escape;
 mod figure;
 mod figures;
@@ -39,6 +40,7 @@ pub use compare::{
     Answer, COMPARISON_SCHEMA, CompareRequest, Comparison, Decision, OVERVIEW_LINES,
     OVERVIEW_WIDTH, RequestError, compare, ties,
 };
+pub use curve::{CURVE_SCHEMA, CalibrationCurve, CurveAxis, CurveFigure, CurveRequest};
 pub use escape::{latex as escape_latex, markdown as escape_markdown, terminal as escape_terminal};
 pub use figure::{DARK, Figure, FigureStyle, LIGHT, SERIES, STYLE};
 pub use figures::{

@@ -1,11 +1,11 @@
 //! Readings of a channel: its predictions, or their errors.
 
-use taceva_core::{Channel, Unit, shown};
+use taceva_core::{Unit, shown};
 use taceva_import::{CsvTable, ImportError};
 
-use super::Tolerance;
 use crate::args::{Gauge, GaugeResponse};
 use crate::cmd::Usage;
+use crate::cmd::quantity::{self, Quantity};
 
 /// Suffix of columns with predictions.
 const PREDICTED: &str = "_predicted";
@@ -23,7 +23,7 @@ pub(super) struct Response {
 pub(super) fn of(
     table: &CsvTable,
     args: &Gauge,
-    tolerance: Option<&Tolerance>,
+    tolerance: Option<&Quantity>,
 ) -> anyhow::Result<Vec<Response>> {
     let names = match args.channels.is_empty() {
         true => usual(table, tolerance)?,
@@ -40,7 +40,7 @@ fn checked(
     table: &CsvTable,
     name: &str,
     args: &Gauge,
-    tolerance: Option<&Tolerance>,
+    tolerance: Option<&Quantity>,
 ) -> anyhow::Result<Response> {
     let response = Response::of(table, name, args.response, tolerance)?;
     match (tolerance, response.unit) {
@@ -55,9 +55,9 @@ fn checked(
 }
 
 /// Channels with a prediction, else those of the six in the table, in the unit of the tolerance.
-fn usual(table: &CsvTable, tolerance: Option<&Tolerance>) -> anyhow::Result<Vec<String>> {
+fn usual(table: &CsvTable, tolerance: Option<&Quantity>) -> anyhow::Result<Vec<String>> {
     let names = || table.names().iter().map(String::as_str);
-    let is_of_six = |name: &&str| six(name).is_some();
+    let is_of_six = |name: &&str| quantity::unit_of_six(name).is_some();
     let mut found: Vec<&str> = names()
         .filter_map(|of| of.strip_suffix(PREDICTED))
         .collect();
@@ -65,7 +65,7 @@ fn usual(table: &CsvTable, tolerance: Option<&Tolerance>) -> anyhow::Result<Vec<
         found = names().filter(is_of_six).collect();
     }
     if let Some(tolerance) = tolerance {
-        found.retain(|name| six(name).is_none_or(|unit| unit == tolerance.unit));
+        found.retain(|name| quantity::unit_of_six(name).is_none_or(|unit| unit == tolerance.unit));
     }
     if found.is_empty() {
         let known: Vec<String> = names().map(|name| shown(name).to_string()).collect();
@@ -79,20 +79,13 @@ fn usual(table: &CsvTable, tolerance: Option<&Tolerance>) -> anyhow::Result<Vec<
     Ok(found.into_iter().map(str::to_owned).collect())
 }
 
-/// Unit of one of the six channels.
-fn six(name: &str) -> Option<Unit> {
-    let mut six = Channel::SIX.into_iter();
-    let channel = six.find(|channel| channel.name() == name);
-    channel.map(|channel| channel.unit())
-}
-
 impl Response {
     /// The readings of the channel called `name`. One that is not of the six is in the unit of the tolerance.
     fn of(
         table: &CsvTable,
         name: &str,
         kind: Option<GaugeResponse>,
-        tolerance: Option<&Tolerance>,
+        tolerance: Option<&Quantity>,
     ) -> Result<Response, ImportError> {
         let predicted = format!("{name}{PREDICTED}");
         let is_predicted = table.has(&predicted);
@@ -106,7 +99,7 @@ impl Response {
         };
         Ok(Response {
             channel: name.to_owned(),
-            unit: six(name).or(tolerance.map(|of| of.unit)),
+            unit: quantity::unit_of_six(name).or(tolerance.map(|of| of.unit)),
             prediction: table.position(readings)?,
             truth: is_error.then(|| table.position(name)).transpose()?,
         })
