@@ -42,6 +42,9 @@ pub(crate) struct Curve {
     /// Also give the critical and the detectable reference value
     #[arg(long)]
     pub(crate) detect: bool,
+    /// Also give relative errors like those of ISO 7500-1, from a fifth of the greatest reference value on; they give no class
+    #[arg(long)]
+    pub(crate) iso7500: bool,
     /// The number of new readings that are averaged
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) readings: u32,

@@ -6,7 +6,7 @@ use anyhow::anyhow;
 use taceva_core::{Unit, shown};
 use taceva_evaluate::read_table;
 use taceva_import::{CsvTable, ImportError};
-use taceva_metrology::curve::{CurveFit, CurveRow, CurveUndefined};
+use taceva_metrology::curve::{CurveFit, CurveRow, CurveUndefined, Indication};
 use taceva_report::{CalibrationCurve, CurveAxis, CurveRequest};
 
 use super::quantity::{Quantity, unit_of_six};
@@ -18,6 +18,8 @@ use crate::{exit, output};
 const POINT: &str = "point_id";
 /// Suffix of columns with predictions.
 const PREDICTED: &str = "_predicted";
+/// Least reference value of relative errors, as a share of the greatest.
+const LEAST_SHARE: f64 = 0.2;
 /// Number of bands without `--at`.
 const BANDS: u8 = 5;
 
@@ -37,6 +39,7 @@ pub(crate) fn run(args: &Curve, context: &Context) -> anyhow::Result<u8> {
         is_simultaneous: args.simultaneous,
         inverted: inverted(args, &y)?,
         detects: args.detect,
+        indications: args.iso7500.then(|| indications(&read.rows)),
     };
     let curve = CalibrationCurve {
         x: x.named(&table),
@@ -136,6 +139,13 @@ fn places(args: &Curve, rows: &[CurveRow]) -> Vec<f64> {
     let share = |step: u8| f64::from(step) / f64::from(BANDS - 1);
     let place = |step: u8| low + share(step) * (high - low);
     (0..BANDS).map(place).collect()
+}
+
+/// Presses from a fifth of the greatest reference value on.
+fn indications(rows: &[CurveRow]) -> Vec<Indication> {
+    let greatest = rows.iter().map(|row| row.x).fold(0.0, f64::max);
+    let pressed = rows.iter().filter(|row| row.x >= LEAST_SHARE * greatest);
+    pressed.map(|row| Indication::new(row.y, row.x)).collect()
 }
 
 /// Readings to invert, in the unit of y.

@@ -161,6 +161,26 @@ fn a_slope_of_chance_has_no_inverse_and_the_reason_is_stated() {
 }
 
 #[test]
+fn relative_errors_from_a_fifth_of_full_scale_on_are_summed_up_without_a_class() {
+    let bench = Bench::new();
+    // The first press is below a fifth of the greatest force.
+    bench.write(
+        "unit.csv",
+        "Fz,Fz_predicted\n1,9\n100,101\n100,102\n100,104\n100,108\n",
+    );
+    let curve = bench.json("curve unit.csv --x Fz --y Fz_predicted --iso7500");
+    crate::schema::check("curve", &curve);
+    let median = figure(&curve, "relative_error_median");
+    near(&median["value"], &3.0.into(), 1e-12);
+    assert_eq!(median["remark"], "like ISO 7500-1, of 4 presses; no class");
+    near(
+        &figure(&curve, "share_within_class_3")["value"],
+        &50.0.into(),
+        1e-12,
+    );
+}
+
+#[test]
 fn wrong_tables_and_options_are_refused_by_their_place() {
     let bench = points();
     let words = "curve unit.csv --x Fz --y Fz_predicted";

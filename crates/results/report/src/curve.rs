@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 use taceva_core::counted;
-use taceva_metrology::curve::{Band, CurveFit, CurveUndefined, DetectionRisks};
+use taceva_metrology::curve::{
+    Band, CurveFit, CurveUndefined, DetectionRisks, Indication, IndicationSummary,
+};
 use taceva_results::not_measured;
 
 use crate::number::FormattedValue;
@@ -35,6 +37,8 @@ pub struct CurveRequest {
     pub inverted: Vec<f64>,
     /// True if limits of detection are wanted.
     pub detects: bool,
+    /// Presses whose relative errors are wanted, like those of ISO 7500-1.
+    pub indications: Option<Vec<Indication>>,
 }
 
 /// Fitted curve with the facts of its table.
@@ -152,7 +156,31 @@ impl CalibrationCurve {
                 });
             }
         }
+        if let Some(presses) = &request.indications {
+            figures.extend(self.of_indications(presses));
+        }
         Ok(figures)
+    }
+
+    /// Magnitudes of the relative errors of presses.
+    fn of_indications(&self, presses: &[Indication]) -> [CurveFigure; 3] {
+        let found = IndicationSummary::of(presses);
+        let figure = |quantity: &str, value: fn(&IndicationSummary) -> f64| CurveFigure {
+            value: found.as_ref().ok().map(value),
+            remark: match &found {
+                Ok(found) => format!(
+                    "like ISO 7500-1, of {}; no class",
+                    counted(found.n, "press")
+                ),
+                Err(reason) => reason.to_string(),
+            },
+            ..self.figure(quantity, "%")
+        };
+        [
+            figure("relative_error_median", |of| of.median_abs),
+            figure("relative_error_p95", |of| of.p95_abs),
+            figure("share_within_class_3", |of| 100.0 * of.share_within_3),
+        ]
     }
 
     /// Coefficients, residual deviation, and lack of fit where readings repeat.
