@@ -8,7 +8,7 @@ use taceva_metrology::curve::{
 use taceva_results::not_measured;
 
 use crate::number::FormattedValue;
-use crate::table::{Cell, Column, Estimate, Table};
+use crate::table::{Cell, Estimate, Table};
 
 /// Schema of a calibration curve as JSON.
 pub const CURVE_SCHEMA: &str = "taceva.curve/1";
@@ -274,7 +274,7 @@ impl CalibrationCurve {
             };
             table.push([
                 Cell::text(figure.quantity.as_str()),
-                Cell::from(figure.at.map_or_else(String::new, |at| at.to_string())),
+                Cell::from(number(figure.at)),
                 estimate(figure),
                 Cell::text(figure.unit.as_str()),
                 Cell::from(number(figure.u)),
