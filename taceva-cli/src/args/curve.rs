@@ -45,6 +45,9 @@ pub(crate) struct Curve {
     /// Also give relative errors like those of ISO 7500-1, from a fifth of the greatest reference value on; they give no class
     #[arg(long)]
     pub(crate) iso7500: bool,
+    /// Also give relative errors like those of ISO 376, of series X1, X2, X3, X4', X5 and X6' that the cells of this column name; they give no class
+    #[arg(long, value_name = "COLUMN")]
+    pub(crate) iso376: Option<String>,
     /// The number of new readings that are averaged
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) readings: u32,

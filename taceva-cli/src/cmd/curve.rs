@@ -1,5 +1,7 @@
 //! `taceva curve`.
 
+mod proving;
+
 use std::collections::HashMap;
 
 use anyhow::anyhow;
@@ -32,6 +34,8 @@ pub(crate) fn run(args: &Curve, context: &Context) -> anyhow::Result<u8> {
     let read = readings(&table, [&x, &y], args)?;
     let fit = CurveFit::of(&read.rows, usize::from(args.order));
     let fit = fit.map_err(|error| refused(error, &table, args))?;
+    let series = args.iso376.as_deref();
+    let series = series.map(|column| proving::of(&table, [&x, &y], column));
     let request = CurveRequest {
         p: args.band,
         at: places(args, &read.rows),
@@ -39,6 +43,7 @@ pub(crate) fn run(args: &Curve, context: &Context) -> anyhow::Result<u8> {
         is_simultaneous: args.simultaneous,
         inverted: inverted(args, &y)?,
         detects: args.detect,
+        proving: series.transpose()?,
         indications: args.iso7500.then(|| indications(&read.rows)),
     };
     let curve = CalibrationCurve {

@@ -181,6 +181,43 @@ fn relative_errors_from_a_fifth_of_full_scale_on_are_summed_up_without_a_class()
 }
 
 #[test]
+fn series_of_a_proving_instrument_have_relative_errors_and_no_class() {
+    let bench = Bench::new();
+    let series = |name: &str, first: f64| {
+        let readings = [first, 2.0, 3.0, 4.0].into_iter().zip([1, 2, 3, 4]);
+        let rows = readings.map(|(reading, force)| format!("{name},{force},{reading:?}\n"));
+        rows.collect::<String>()
+    };
+    let head = "series,force,reading\n";
+    let [x1, x2, x3] = [series("X1", 1.0), series("X2", 1.02), series("X3", 1.0)];
+    let x5 = series("X5", 1.0);
+    bench.write("proving.csv", &format!("{head}{x5}{x1}{x2}{x3}"));
+    let words = "curve proving.csv --x force --y reading --iso376 series";
+    let curve = bench.json(words);
+    crate::schema::check("curve", &curve);
+    let repeat = figure(&curve, "proving_b_prime");
+    near(&repeat["value"], &(2.0 / 1.01).into(), 1e-9);
+    let place = "none: b' = 2.0 %, class 2 ends at 0.20 %; within class 1 x 20, not ISO 376";
+    assert_eq!(repeat["remark"], format!("like ISO 376: {place}"));
+    assert_eq!(repeat["at"], 1.0);
+    let reversed = figure(&curve, "proving_v");
+    assert_eq!(reversed["value"], Value::Null);
+    assert_eq!(reversed["remark"], "series X4' or X6' is missing");
+    bench.write("proving.csv", &format!("{head}{x1}{x2}{x5}"));
+    bench.refused(
+        words,
+        3,
+        "proving.csv, reading over force: series X3 is missing",
+    );
+    bench.write("proving.csv", &format!("{head}{x1}{x3}{x5}X9,1,1\n"));
+    bench.refused(
+        words,
+        3,
+        "line 14, column `series`: `X9`: expected X1, X2, X3",
+    );
+}
+
+#[test]
 fn wrong_tables_and_options_are_refused_by_their_place() {
     let bench = points();
     let words = "curve unit.csv --x Fz --y Fz_predicted";
