@@ -2,9 +2,11 @@
 
 mod bench;
 mod cache;
+mod curve;
 mod dataset;
 mod examples;
 mod figure;
+mod gauge;
 mod init;
 mod live;
 mod model;
@@ -21,8 +23,10 @@ use clap::{Args, CommandFactory as _, Parser, Subcommand};
 
 pub(crate) use self::bench::{Bench, BenchKernels, BenchModels, BenchSubject};
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
+pub(crate) use self::curve::Curve;
 pub(crate) use self::dataset::{Check, Export, Import, Reseal};
 pub(crate) use self::figure::FigureArgs;
+pub(crate) use self::gauge::{Gauge, GaugeMethod, GaugeResponse};
 pub(crate) use self::init::{Init, InitSubject, InitTarget};
 pub(crate) use self::live::{Capture, LiveArgs, Preview};
 pub(crate) use self::model::{Evaluate, Fit, Merge, Predict, Score};
@@ -129,6 +133,10 @@ pub(crate) enum Command {
     Choose(Choose),
     /// Test a result against limits, and write its data sheet
     Accept(Accept),
+    /// Study a measuring system: how much of what differs between readings comes from units, gels, days or persons
+    Gauge(Gauge),
+    /// Fit a calibration curve: bands, the reference value of a reading, limits of detection
+    Curve(Curve),
     /// Published numbers of sensors, each with its source
     Catalogue(CatalogueArgs),
     /// List the results kept for later runs, or remove old ones

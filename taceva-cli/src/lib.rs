@@ -100,6 +100,8 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Compare(args) => cmd::compare::run(args, context),
         Command::Choose(args) => cmd::choose::run(args),
         Command::Accept(args) => cmd::accept::run(args, context),
+        Command::Gauge(args) => cmd::gauge::run(args, context),
+        Command::Curve(args) => cmd::curve::run(args, context),
         Command::Catalogue(args) => cmd::catalogue::run(args, context),
         Command::Cache(args) => cmd::cache::run(args, context),
         Command::Bench(args) => cmd::bench::run(args, context),

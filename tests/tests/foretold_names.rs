@@ -17,7 +17,7 @@ const SOME: usize = 8;
 const MOST: usize = 24;
 
 /// Commands, each in a folder `work` in which only they create names. Inputs are in `given` beside it.
-const COMMANDS: [(&str, &str); 25] = [
+const COMMANDS: [(&str, &str); 27] = [
     (
         "import",
         "import ../given/lab --map ../given/map.toml --out set",
@@ -76,6 +76,14 @@ const COMMANDS: [(&str, &str); 25] = [
         "accept",
         "accept ../given/ridge.json --limits ../given/limits.toml --html sheet.html --format csv --out accepted.csv",
     ),
+    (
+        "gauge",
+        "gauge ../given/study.csv --part part --by unit --trial trial --channels Fz --format json --out gauge.json",
+    ),
+    (
+        "curve",
+        "curve ../given/study.csv --x trial --y Fz --format csv --out curve.csv",
+    ),
     ("catalogue site", "catalogue site --out pages"),
     (
         "capture",
@@ -119,6 +127,7 @@ impl Bench {
             ("which.toml", SWEEP),
             ("scene.toml", SCENE),
             ("limits.toml", LIMITS),
+            ("study.csv", STUDY),
         ] {
             std::fs::write(given.join(name), text).expect("room");
         }
@@ -213,6 +222,9 @@ impl Bench {
 
 const SWEEP: &str =
     "sweep_version = 1\ndatasets = [\"data\"]\nmodels = [\"ridge\"]\nmetrics = [\"accuracy\"]\n";
+
+/// Two parts, measured twice by two units.
+const STUDY: &str = "part,unit,trial,Fz\na,1,1,0.1\na,1,2,0.11\na,2,1,0.13\na,2,2,0.12\nb,1,1,0.5\nb,1,2,0.52\nb,2,1,0.53\nb,2,2,0.55\n";
 
 const LIMITS: &str = "[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 1000\n";
 

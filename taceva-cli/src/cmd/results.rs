@@ -16,6 +16,8 @@ use super::Usage;
 use crate::args::{Format, Output};
 use crate::output;
 
+pub(super) use samples::source_of;
+
 /// The file of all results in the folder of a run.
 pub(super) const RESULTS: &str = "results.json";
 /// Header of a dataset.

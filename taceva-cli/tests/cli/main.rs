@@ -5,12 +5,14 @@
 mod bench_models;
 mod cache;
 mod cache_list;
+mod curve;
 mod directions;
 mod division;
 mod exported;
 mod extended;
 mod features;
 mod foreign_forms;
+mod gauge;
 mod grasps;
 mod gratings;
 mod guide;

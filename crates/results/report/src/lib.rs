@@ -5,9 +5,11 @@ mod bench;
 pub mod catalogue;
 mod choose;
 mod compare;
+mod curve;
 mod escape;
 mod figure;
 mod figures;
+mod gauge;
 mod html;
 mod light;
 mod markup;
@@ -38,11 +40,13 @@ pub use compare::{
     Answer, COMPARISON_SCHEMA, CompareRequest, Comparison, Decision, OVERVIEW_LINES,
     OVERVIEW_WIDTH, RequestError, compare, ties,
 };
+pub use curve::{CURVE_SCHEMA, CalibrationCurve, CurveAxis, CurveFigure, CurveRequest};
 pub use escape::{latex as escape_latex, markdown as escape_markdown, terminal as escape_terminal};
 pub use figure::{DARK, Figure, FigureStyle, LIGHT, SERIES, STYLE};
 pub use figures::{
     Race, RacePoint, StudyFigures, figures, figures_for, model_bench, race, study_figures, undrawn,
 };
+pub use gauge::{ChannelGauge, GaugeColumns, GaugeStudies};
 pub use html::{Pick, Picture, ReportPage, Triple, picks, report};
 pub use names::names;
 pub use number::{FormattedValue, spaced, with_interval};

@@ -72,7 +72,7 @@ pub use rows::{DataPart, Divided, Need, require_samples, usable};
 pub use run_layout::{PLANS, RECORDINGS};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
-    Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError,
+    Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, read_table,
     score_in_one_pass,
 };
 pub use skill::{skill, with_skill};

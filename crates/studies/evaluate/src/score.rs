@@ -51,6 +51,7 @@ pub use request::ScoreRequest;
 pub use row_key::RowKey;
 pub use shard::{Shard, ShardError};
 pub use shard_scores::ScoreTables;
+pub use tables::read_table;
 
 /// Finished scores of two tables.
 #[derive(Debug)]

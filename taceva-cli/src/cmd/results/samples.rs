@@ -121,12 +121,39 @@ fn of_run(reports: &Path, number: u32) -> anyhow::Result<Option<PathBuf>> {
 /// Reads the table of samples at `path`, which must have the digest in the results of `study`.
 fn read(path: &Path, study: &Study) -> anyhow::Result<Samples> {
     let table = fs::read_to_string(path).with_context(|| format!("cannot read {}", shown(path)))?;
-    let found = taceva_files::seal::digest_of_bytes(table.as_bytes());
+    check(path, table.as_bytes(), study)?;
+    Samples::read(&table).with_context(|| shown(path).to_string())
+}
+
+/// Refuses the bytes of the table at `path` if the results of `study` have another digest.
+fn check(path: &Path, table: &[u8], study: &Study) -> anyhow::Result<()> {
+    let found = taceva_files::seal::digest_of_bytes(table);
     if let Some(expected) = digest(study).filter(|expected| *expected != found) {
         bail!(
             "{}: damaged or of other results: expected digest {expected}, found {found}",
             shown(path)
         );
     }
-    Samples::read(&table).with_context(|| shown(path).to_string())
+    Ok(())
+}
+
+/// Origin of the samples in the table `<name>.samples.csv`, by the result `<name>.json` beside it; `None` without a result of one sensor.
+pub(in crate::cmd) fn source_of(table: &Path) -> anyhow::Result<Option<String>> {
+    let name = table.file_name().and_then(|name| name.to_str());
+    let Some(name) = name.and_then(|name| name.strip_suffix(SAMPLES)) else {
+        return Ok(None);
+    };
+    let result = table.with_file_name(format!("{name}json"));
+    if !result.is_file() {
+        return Ok(None);
+    }
+    let text =
+        fs::read_to_string(&result).with_context(|| format!("cannot read {}", shown(&result)))?;
+    let studies = Study::read(&text).with_context(|| shown(&result).to_string())?;
+    let [study] = studies.as_slice() else {
+        return Ok(None);
+    };
+    let bytes = fs::read(table).with_context(|| format!("cannot read {}", shown(table)))?;
+    check(table, &bytes, study)?;
+    Ok(Some(study.source.clone()))
 }

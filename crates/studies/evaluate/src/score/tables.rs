@@ -27,21 +27,35 @@ pub(super) enum Pairing {
     ByKey(Vec<usize>),
 }
 
+/// Reads the table at `path`, CSV or Parquet, on `jobs` threads, with the digest of its content.
+///
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("study.csv");
+/// std::fs::write(&path, "part,Fz\na,0.5\n")?;
+/// let (table, _) = taceva_evaluate::read_table(&path, std::num::NonZeroUsize::MIN)?;
+/// assert_eq!((table.rows(), table.cell(0, 1)), (1, "0.5"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`EvaluateError`] if it is not a table, or cannot be read.
+pub fn read_table(path: &Path, jobs: NonZeroUsize) -> Result<(CsvTable, Digest), EvaluateError> {
+    if parquet_parts::is_parquet(path) {
+        let parts = TableParts::scan(path)?;
+        return Ok((parts.reader()?.whole(parts.rows())?, parts.digest()));
+    }
+    let table = CsvTable::read_with(path, jobs)?;
+    let digest = table.digest();
+    Ok((table, digest))
+}
+
 /// Reads both tables with their digests, in parallel if two threads are allowed.
 ///
 /// Both take about equally long, so this divides the work better than threads within each.
 pub(super) fn read_both(request: &ScoreRequest) -> Result<[(CsvTable, Digest); 2], EvaluateError> {
     let share = NonZeroUsize::new(request.jobs.get() / 2).unwrap_or(NonZeroUsize::MIN);
-    let read = |path: &Path| -> Result<(CsvTable, Digest), EvaluateError> {
-        if parquet_parts::is_parquet(path) {
-            let parts = TableParts::scan(path)?;
-            return Ok((parts.reader()?.whole(parts.rows())?, parts.digest()));
-        }
-        let table = CsvTable::read_with(path, share)?;
-        let digest = table.digest();
-        Ok((table, digest))
-    };
-    both_at_once(request, read)
+    both_at_once(request, |path| read_table(path, share))
 }
 
 /// Both tables by `read`, in parallel if two threads are allowed.

@@ -1,0 +1,225 @@
+//! Calibration curve of a table, as a table for people and for programs.
+
+mod figures;
+
+use serde::Serialize;
+use taceva_core::counted;
+use taceva_metrology::curve::{CurveFit, Indication, ProvingSeries};
+use taceva_results::not_measured;
+
+use crate::number::FormattedValue;
+use crate::table::{Cell, Estimate, Table};
+
+/// Schema of a calibration curve as JSON.
+pub const CURVE_SCHEMA: &str = "taceva.curve/1";
+
+/// Column of a table, and the unit of its numbers.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct CurveAxis {
+    /// Name of the column.
+    pub column: String,
+    /// Unit; empty if it is not known.
+    pub unit: String,
+}
+
+/// Figures wanted of a curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CurveRequest {
+    /// Probability of bands and of inverse predictions.
+    pub p: f64,
+    /// Reference values of the bands.
+    pub at: Vec<f64>,
+    /// New readings that are averaged.
+    pub readings: u32,
+    /// True for a confidence band that holds at all reference values together.
+    pub is_simultaneous: bool,
+    /// Readings whose reference values are wanted.
+    pub inverted: Vec<f64>,
+    /// True if limits of detection are wanted.
+    pub detects: bool,
+    /// Presses whose relative errors are wanted, like those of ISO 7500-1.
+    pub indications: Option<Vec<Indication>>,
+    /// Series whose relative errors are wanted, like those of ISO 376.
+    pub proving: Option<ProvingSeries>,
+}
+
+/// Fitted curve with the facts of its table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CalibrationCurve {
+    /// Reference values.
+    pub x: CurveAxis,
+    /// Readings.
+    pub y: CurveAxis,
+    /// Fit.
+    pub fit: CurveFit,
+    /// Number of rows.
+    pub rows: usize,
+    /// Number of contact points of these rows; `None` for independent rows.
+    pub points: Option<usize>,
+    /// Rows without a number or without a point.
+    pub rows_left_out: usize,
+    /// Origins of the samples, such as `recorded` and `simulated`.
+    pub sources: Vec<String>,
+    /// Digest of the table.
+    pub digest: String,
+}
+
+/// Figure of a curve.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct CurveFigure {
+    /// Name, such as `prediction`.
+    pub quantity: String,
+    /// Argument: a reference value, or the reading of an inverse prediction.
+    pub at: Option<f64>,
+    /// Value; none if it is undefined.
+    pub value: Option<f64>,
+    /// Ends of the band or the interval.
+    pub ends: Option<[f64; 2]>,
+    /// Standard uncertainty.
+    pub u: Option<f64>,
+    /// Degrees of freedom.
+    pub freedom: Option<f64>,
+    /// Unit of the value.
+    pub unit: String,
+    /// Origin of the covariance, or the reason for a missing value.
+    pub remark: String,
+}
+
+/// JSON of a curve.
+#[derive(Serialize)]
+struct Document<'a> {
+    schema: &'a str,
+    x: &'a CurveAxis,
+    y: &'a CurveAxis,
+    order: usize,
+    n: usize,
+    points: Option<usize>,
+    rows_left_out: usize,
+    p: f64,
+    readings: u32,
+    covariance: Vec<Vec<f64>>,
+    figures: &'a [CurveFigure],
+    digest: &'a str,
+    sources: &'a [String],
+    not_measured: Option<String>,
+}
+
+impl CalibrationCurve {
+    /// Table for people with one row for each figure.
+    pub fn table(&self, figures: &[CurveFigure], request: &CurveRequest) -> Table {
+        let points = self.points.map_or_else(String::new, |points| {
+            format!(" of {}", counted(points, "point"))
+        });
+        let caption = format!(
+            "Calibration curve of order {}: {} over {}, {}{points}; bands of {} %",
+            self.fit.order(),
+            self.y.column,
+            self.x.column,
+            counted(self.rows, "row"),
+            100.0 * request.p,
+        );
+        let columns = ["quantity", "at", "value", "unit", "u", "ν", "remark"];
+        let mut table = Table::new(caption, columns);
+        for figure in figures {
+            let number = |value: Option<f64>| {
+                value.map_or_else(String::new, |value| {
+                    FormattedValue::number(value, None).value
+                })
+            };
+            table.push([
+                Cell::text(figure.quantity.as_str()),
+                Cell::from(number(figure.at)),
+                estimate(figure),
+                Cell::text(figure.unit.as_str()),
+                Cell::from(number(figure.u)),
+                Cell::from(figure.freedom.map_or_else(String::new, |of| of.to_string())),
+                Cell::text(figure.remark.as_str()),
+            ]);
+        }
+        if self.rows_left_out > 0 {
+            table.note(format!(
+                "{} left out, without a number or without a point.",
+                counted(self.rows_left_out, "row")
+            ));
+        }
+        if let Some(words) = self.not_measured() {
+            table.note(words);
+        }
+        table
+    }
+
+    /// Table for programs with one row for each figure, and numbers in shortest round-trip form.
+    pub fn numbers(&self, figures: &[CurveFigure]) -> Table {
+        let columns = [
+            "quantity",
+            "at",
+            "value",
+            "unit",
+            "low",
+            "high",
+            "u",
+            "degrees_of_freedom",
+            "remark",
+            "source",
+        ];
+        let mut table = Table::new("Calibration curve", columns);
+        let number = |value: Option<f64>| {
+            Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
+        };
+        for figure in figures {
+            table.push([
+                Cell::text(figure.quantity.as_str()),
+                number(figure.at),
+                number(figure.value),
+                Cell::text(figure.unit.as_str()),
+                number(figure.ends.map(|[low, _]| low)),
+                number(figure.ends.map(|[_, high]| high)),
+                number(figure.u),
+                number(figure.freedom),
+                Cell::text(figure.remark.as_str()),
+                Cell::text(self.sources.join(" ")),
+            ]);
+        }
+        table
+    }
+
+    /// JSON of [`CURVE_SCHEMA`].
+    pub fn json(&self, figures: &[CurveFigure], request: &CurveRequest) -> String {
+        let document = Document {
+            schema: CURVE_SCHEMA,
+            x: &self.x,
+            y: &self.y,
+            order: self.fit.order(),
+            n: self.rows,
+            points: self.points,
+            rows_left_out: self.rows_left_out,
+            p: request.p,
+            readings: request.readings,
+            covariance: self.fit.covariance(),
+            figures,
+            digest: &self.digest,
+            sources: &self.sources,
+            not_measured: self.not_measured(),
+        };
+        let text = serde_json::to_string_pretty(&document);
+        format!("{}\n", text.expect("names are texts"))
+    }
+
+    fn not_measured(&self) -> Option<String> {
+        not_measured(self.sources.iter().map(String::as_str))
+    }
+}
+
+fn estimate(figure: &CurveFigure) -> Cell {
+    let formatted = match figure.value {
+        Some(value) => FormattedValue::number(value, figure.ends),
+        None => FormattedValue {
+            reason: Some("–".to_owned()),
+            ..FormattedValue::default()
+        },
+    };
+    Cell::Estimate(Estimate {
+        formatted,
+        ..Estimate::default()
+    })
+}

@@ -1,0 +1,196 @@
+//! Figures of a calibration curve.
+
+use taceva_core::counted;
+use taceva_metrology::curve::{
+    Band, CurveUndefined, DetectionRisks, Indication, IndicationSummary, ProvingFigures,
+};
+
+use super::{CalibrationCurve, CurveFigure, CurveRequest};
+
+impl CalibrationCurve {
+    /// Figures that `request` names. An inverse or a limit of detection without a value has the reason as its remark.
+    ///
+    /// # Errors
+    /// [`CurveUndefined::Probability`] and [`CurveUndefined::NotPositive`] of the request; the reason of series without figures.
+    pub fn figures(&self, request: &CurveRequest) -> Result<Vec<CurveFigure>, CurveUndefined> {
+        let mut figures = self.of_fit();
+        for &x in &request.at {
+            let (name, band) = match request.is_simultaneous {
+                true => ("simultaneous", self.fit.simultaneous(x, request.p)?),
+                false => ("confidence", self.fit.confidence(x, request.p)?),
+            };
+            figures.push(self.of_band(name, x, &band));
+        }
+        for &x in &request.at {
+            let band = self.fit.prediction(x, request.p, request.readings)?;
+            figures.push(self.of_band("prediction", x, &band));
+        }
+        for &y in &request.inverted {
+            let figure = CurveFigure {
+                at: Some(y),
+                ..self.figure("inverse", &self.x.unit)
+            };
+            figures.push(match self.fit.invert(y, request.p, request.readings) {
+                Ok(found) => CurveFigure {
+                    value: Some(found.x),
+                    ends: Some([found.low, found.high]),
+                    remark: found.covariance.to_string(),
+                    ..figure
+                },
+                Err(reason) => undefined(figure, reason)?,
+            });
+        }
+        if request.detects {
+            let risks = DetectionRisks {
+                readings: request.readings,
+                ..DetectionRisks::default()
+            };
+            let found = self.fit.detection(risks);
+            for name in ["critical", "detectable"] {
+                let figure = self.figure(name, &self.x.unit);
+                figures.push(match found {
+                    Ok(found) => CurveFigure {
+                        value: Some(match name {
+                            "critical" => found.critical,
+                            _ => found.detectable,
+                        }),
+                        remark: "independent rows".to_owned(),
+                        ..figure
+                    },
+                    Err(reason) => undefined(figure, reason)?,
+                });
+            }
+        }
+        if let Some(series) = &request.proving {
+            figures.extend(self.of_proving(&series.figures()?));
+        }
+        if let Some(presses) = &request.indications {
+            figures.extend(self.of_indications(presses));
+        }
+        Ok(figures)
+    }
+
+    /// Relative errors at each force, with its place among limits.
+    fn of_proving(&self, found: &ProvingFigures) -> Vec<CurveFigure> {
+        let mut figures = Vec::new();
+        for (at, level) in found.levels.iter().enumerate() {
+            let place = format!("like ISO 376: {}", found.standing(at));
+            let all = [
+                ("proving_b", Some(level.b), ""),
+                ("proving_b_prime", level.b_prime, "series X2 is missing"),
+                ("proving_f_c", Some(level.f_c), ""),
+                ("proving_v", level.v, "series X4' or X6' is missing"),
+            ];
+            figures.extend(all.map(|(quantity, value, missing)| CurveFigure {
+                at: Some(level.force),
+                value,
+                remark: match value {
+                    Some(_) => place.clone(),
+                    None => missing.to_owned(),
+                },
+                ..self.figure(quantity, "%")
+            }));
+        }
+        figures
+    }
+
+    /// Magnitudes of the relative errors of presses.
+    fn of_indications(&self, presses: &[Indication]) -> [CurveFigure; 3] {
+        let found = IndicationSummary::of(presses);
+        let figure = |quantity: &str, value: fn(&IndicationSummary) -> f64| CurveFigure {
+            value: found.as_ref().ok().map(value),
+            remark: match &found {
+                Ok(found) => format!(
+                    "like ISO 7500-1, of {}; no class",
+                    counted(found.n, "press")
+                ),
+                Err(reason) => reason.to_string(),
+            },
+            ..self.figure(quantity, "%")
+        };
+        [
+            figure("relative_error_median", |of| of.median_abs),
+            figure("relative_error_p95", |of| of.p95_abs),
+            figure("share_within_class_3", |of| 100.0 * of.share_within_3),
+        ]
+    }
+
+    /// Coefficients, residual deviation, and lack of fit where readings repeat.
+    fn of_fit(&self) -> Vec<CurveFigure> {
+        let freedom = Some(self.fit.freedom());
+        let covariance = self.fit.covariance();
+        let coefficients = self.fit.coefficients().into_iter().enumerate();
+        let mut figures: Vec<CurveFigure> = coefficients
+            .map(|(power, value)| CurveFigure {
+                value: Some(value),
+                u: Some(covariance[power][power].max(0.0).sqrt()),
+                freedom,
+                ..self.figure(&format!("coefficient_{power}"), &self.unit_of(power))
+            })
+            .collect();
+        figures.push(CurveFigure {
+            value: Some(self.fit.residual_deviation()),
+            freedom,
+            ..self.figure("residual_deviation", &self.y.unit)
+        });
+        if let Some(test) = self.fit.lack_of_fit() {
+            let [above, below] = test.freedoms;
+            figures.push(CurveFigure {
+                value: Some(test.f),
+                remark: format!("F of {above} and {below} degrees of freedom"),
+                ..self.figure("lack_of_fit_f", "1")
+            });
+            figures.push(CurveFigure {
+                value: Some(test.p),
+                ..self.figure("lack_of_fit_p", "1")
+            });
+        }
+        figures
+    }
+
+    fn of_band(&self, name: &str, x: f64, band: &Band) -> CurveFigure {
+        CurveFigure {
+            at: Some(x),
+            value: Some(band.value),
+            ends: Some([band.low, band.high]),
+            u: Some(band.u),
+            freedom: Some(band.freedom),
+            remark: band.covariance.to_string(),
+            ..self.figure(name, &self.y.unit)
+        }
+    }
+
+    fn figure(&self, quantity: &str, unit: &str) -> CurveFigure {
+        CurveFigure {
+            quantity: quantity.to_owned(),
+            unit: unit.to_owned(),
+            ..CurveFigure::default()
+        }
+    }
+
+    /// Unit of the coefficient of x to this power.
+    fn unit_of(&self, power: usize) -> String {
+        let [x, y] = [&self.x.unit, &self.y.unit];
+        let power = match power {
+            0 => return y.clone(),
+            1 => "",
+            2 => "²",
+            _ => "³",
+        };
+        match x.is_empty() || y.is_empty() {
+            true => String::new(),
+            false => format!("{y}/{x}{power}"),
+        }
+    }
+}
+
+/// The figure without a value, unless the request itself is wrong.
+fn undefined(figure: CurveFigure, reason: CurveUndefined) -> Result<CurveFigure, CurveUndefined> {
+    match reason {
+        CurveUndefined::Probability(_) | CurveUndefined::NotPositive { .. } => Err(reason),
+        _ => Ok(CurveFigure {
+            remark: reason.to_string(),
+            ..figure
+        }),
+    }
+}

@@ -1,0 +1,67 @@
+//! A number with its unit, as an option states it.
+
+use taceva_core::{Channel, SourceUnit, Unit, shown};
+
+use super::Usage;
+
+/// A number in the unit of a channel.
+pub(super) struct Quantity {
+    pub(super) value: f64,
+    pub(super) unit: Unit,
+    /// The number with its unit as the user wrote them.
+    pub(super) written: String,
+}
+
+impl Quantity {
+    /// Reads `0.1N` or `100 mN`, the value of `option`.
+    pub(super) fn read(option: &str, written: &str) -> anyhow::Result<Quantity> {
+        let refused =
+            |problem: &str| Usage::error(format!("{option} `{}`: {problem}", shown(written)));
+        let is_of_number = |letter: char| letter.is_ascii_digit() || "+-.".contains(letter);
+        let end = written.find(|letter: char| !is_of_number(letter));
+        let (number, symbol) = written.split_at(end.unwrap_or(written.len()));
+        let number = number.parse::<f64>().ok();
+        let Some(number) = number.filter(|number| number.is_finite()) else {
+            return Err(refused("expected a number with its unit, such as 0.1N"));
+        };
+        let symbol = symbol.trim();
+        if symbol.is_empty() {
+            return Err(refused("expected a unit after the number, such as 0.1N"));
+        }
+        let unit = SourceUnit::parse(symbol).map_err(|error| refused(&error.to_string()))?;
+        Ok(Quantity {
+            value: unit.convert(number),
+            unit: unit.unit(),
+            written: written.to_owned(),
+        })
+    }
+}
+
+/// Unit of one of the six channels.
+pub(super) fn unit_of_six(name: &str) -> Option<Unit> {
+    let mut six = Channel::SIX.into_iter();
+    let channel = six.find(|channel| channel.name() == name);
+    channel.map(|channel| channel.unit())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_converted_to_the_unit_of_its_channel() {
+        let read = |written: &str| {
+            let quantity = Quantity::read("--tolerance", written).ok()?;
+            Some((quantity.value.to_bits(), quantity.unit))
+        };
+        assert_eq!(read("0.1N"), Some((0.1_f64.to_bits(), Unit::Newton)));
+        assert_eq!(read("100 mN"), Some((0.1_f64.to_bits(), Unit::Newton)));
+        assert_eq!(
+            read("-0.5mm"),
+            Some(((-0.5_f64).to_bits(), Unit::Millimetre))
+        );
+        for wrong in ["0.1", "N", "", "1 furlong", "1e400N", "nanN"] {
+            assert_eq!(read(wrong), None, "{wrong}");
+        }
+    }
+}
