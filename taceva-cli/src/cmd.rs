@@ -23,7 +23,6 @@ mod live_predictions;
 pub(crate) mod man;
 pub(crate) mod merge;
 mod on_page;
-mod open_places;
 mod operator;
 pub(crate) mod plan;
 pub(crate) mod plugin;
