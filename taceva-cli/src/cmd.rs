@@ -25,7 +25,6 @@ mod live_predictions;
 pub(crate) mod man;
 pub(crate) mod merge;
 mod on_page;
-mod open_places;
 mod operator;
 mod origin;
 pub(crate) mod plan;

@@ -6,12 +6,12 @@ use taceva_core::{by_count, counted, shown};
 use taceva_dataset::internal::quoted;
 use taceva_dataset::settle;
 use taceva_files::parent_of;
+use taceva_import::internal::open_places;
 use taceva_import::{
     Addition, Decoders, ImportError, ImportMap, ImportPlan, MapDraft, Preset, SourceSums,
     UnpackedArchive,
 };
 
-use super::open_places::open_places;
 use super::{Context, Usage};
 use crate::args::Import;
 use crate::date::today;

@@ -1,5 +1,6 @@
 //! `taceva init`: the files that people write, by questions with defaults.
 
+mod answers;
 mod interview;
 mod recording;
 mod rig;

@@ -181,6 +181,46 @@ fn answers_that_end_are_refused_with_the_question_and_the_earlier_ones_are_kept(
     assert!(!bench.path("second.toml").exists());
 }
 
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_the_questions_and_the_earlier_answers_are_kept() {
+    use std::io::{Read as _, Write as _};
+    use std::process::{Command, Stdio};
+    let bench = lab();
+    let mut child = bench
+        .command("init recording lab --out first.toml")
+        .stdin(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("starts");
+    let mut answers = child.stdin.take().expect("a pipe");
+    answers.write_all(b"mm\n").expect("written");
+    let mut questions = child.stderr.take().expect("a pipe");
+    let mut asked = Vec::new();
+    while !String::from_utf8_lossy(&asked).contains("unit of Fz") {
+        let mut byte = [0];
+        questions.read_exact(&mut byte).expect("a question");
+        asked.extend(byte);
+    }
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(kill.is_ok(), "kill is there");
+    questions.read_to_end(&mut asked).expect("read");
+    let status = child.wait().expect("ended");
+    let asked = String::from_utf8_lossy(&asked);
+    assert_eq!(status.code(), Some(5), "{asked}");
+    assert!(
+        asked.contains("stopped before an answer to: unit of Fz"),
+        "{asked}"
+    );
+    let map = read(&bench, "first.toml");
+    assert!(
+        map.contains("Px = { from = \"Px\", unit = \"mm\" }"),
+        "{map}"
+    );
+}
+
 #[test]
 fn a_scene_of_defaults_is_planned_and_of_two_sensors_has_a_study_each() {
     let bench = Bench::new();

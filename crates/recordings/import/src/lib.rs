@@ -10,6 +10,7 @@ mod frame_names;
 mod import;
 mod instant;
 mod layouts;
+mod open_places;
 mod preset;
 mod source_folder;
 mod source_sums;
@@ -31,3 +32,9 @@ pub use import::{
 pub use layouts::Preset;
 pub use source_sums::{SourceDifference, SourceSums};
 pub use taceva_video::Decoders;
+
+/// Parts that the program `taceva` shares with the importer. Their interface is not stable.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::open_places::{OPEN, code, open_places};
+}

@@ -1,13 +1,15 @@
 //! Questions at the terminal, and answers to them.
 
-use std::io::BufRead;
+use std::io;
 
 use super::Usage;
+use super::answers::Answers;
 use crate::args::InitTarget;
+use crate::progress::is_stopped;
 use crate::stderr;
 
 /// Asks questions on standard error and reads answers from standard input.
-pub(super) struct Interview<R = std::io::StdinLock<'static>> {
+pub(super) struct Interview<R = Answers> {
     answers: R,
     takes_defaults: bool,
 }
@@ -16,13 +18,13 @@ impl Interview {
     /// Reads from standard input; with `--yes` nothing is asked.
     pub(super) fn new(args: &InitTarget) -> Interview {
         Interview {
-            answers: std::io::stdin().lock(),
+            answers: Answers::default(),
             takes_defaults: args.yes,
         }
     }
 }
 
-impl<R: BufRead> Interview<R> {
+impl<R: Iterator<Item = io::Result<String>>> Interview<R> {
     /// Prints a line that explains the next questions.
     pub(super) fn say(&self, words: &str) {
         if !self.takes_defaults {
@@ -38,7 +40,7 @@ impl<R: BufRead> Interview<R> {
     /// Asks `question` until `check` accepts the answer. An empty line selects the default.
     ///
     /// # Errors
-    /// [`Usage`] if answers end, or if `--yes` meets a question without default.
+    /// [`Usage`] if answers end, also by a signal, or if `--yes` meets a question without default.
     pub(super) fn ask(
         &mut self,
         question: &str,
@@ -53,14 +55,18 @@ impl<R: BufRead> Interview<R> {
         loop {
             let offered = default.map_or_else(String::new, |default| format!(" [{default}]"));
             stderr::write(&format!("{question}{offered}: "));
-            let mut line = String::new();
-            if self.answers.read_line(&mut line)? == 0 {
+            let Some(line) = self.answers.next() else {
                 stderr::write("\n");
+                let ended = match is_stopped() {
+                    true => "stopped",
+                    false => "standard input ended",
+                };
                 let remedy = default.map_or("", |_| "; --yes takes defaults");
                 return Err(Usage::error(format!(
-                    "standard input ended before an answer to: {question}{remedy}"
+                    "{ended} before an answer to: {question}{remedy}"
                 )));
-            }
+            };
+            let line = line?;
             let typed = line.trim();
             let answer = match (typed, default) {
                 ("", Some(default)) => default,
@@ -147,11 +153,13 @@ impl<R: BufRead> Interview<R> {
 
 #[cfg(test)]
 mod tests {
+    use std::io::{BufRead, Lines};
+
     use super::Interview;
 
-    fn interview(answers: &'static str, takes_defaults: bool) -> Interview<&'static [u8]> {
+    fn interview(answers: &'static str, takes_defaults: bool) -> Interview<Lines<&'static [u8]>> {
         Interview {
-            answers: answers.as_bytes(),
+            answers: answers.as_bytes().lines(),
             takes_defaults,
         }
     }

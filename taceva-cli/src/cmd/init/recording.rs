@@ -5,13 +5,13 @@ use std::path::Path;
 
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::quoted;
+use taceva_import::internal::{OPEN, code, open_places};
 use taceva_import::{ImportError, ImportMap, MapDraft, UnpackedArchive};
 
 use super::{Interview, finish, target};
 use crate::args::InitTarget;
 use crate::cmd::Usage;
 use crate::cmd::import::folder_of;
-use crate::cmd::open_places::{OPEN, code, open_places};
 use crate::output;
 
 pub(super) fn write(

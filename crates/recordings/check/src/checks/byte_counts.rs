@@ -8,8 +8,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC045",
     name: "byte-counts",
-    looks_for: "forces in at most 256 whole counts that change slowly, but jump by more than 200 counts between neighbouring samples: one \
-        byte, which begins anew above its greatest count",
+    looks_for: "forces in at most 256 whole counts that change slowly, but jump by more than 200 counts between neighbouring samples and go on \
+        in the direction before the jump: one byte, which begins anew above its greatest count",
     hint: "read both bytes of each force, or keep forces below 255 counts; drop the presses with such a jump",
     reads: None,
     find,
@@ -19,8 +19,12 @@ pub(super) static CHECK: Check = Check {
 const LEAST: usize = 20;
 /// Greatest count of one byte, from its least count, with room for rounding.
 const BYTE: f64 = 255.5;
+/// Number of counts of one byte.
+const COUNTS: f64 = 256.0;
 /// Minimum jump, in counts.
 const JUMP: f64 = 200.0;
+/// Number of changes before and behind a jump that show that the force goes on without it. A release or a new staircase does not go on.
+const NEAR: usize = 3;
 /// Greatest change of a slow force between neighbours, in counts. At most one change in `SHARE` may exceed it.
 const SLOW: f64 = 64.0;
 const SHARE: usize = 8;
@@ -46,15 +50,28 @@ fn of_channel(evidence: &Evidence<'_>, position: usize, channel: &Channel) -> Op
     let count = count_of(&values)?;
     let points = evidence.table.labels(Field::Point, 0..column.len())?;
     // The next press begins where it likes.
-    let pairs = rows
-        .windows(2)
-        .filter(|pair| points.get(pair[0].0) == points.get(pair[1].0));
-    let changes: Vec<(usize, f64)> = pairs
-        .map(|pair| (pair[1].0, (pair[1].1 - pair[0].1).abs() / count))
-        .collect();
-    let fast = changes.iter().filter(|(_, change)| *change > SLOW).count();
-    let jumps = changes.iter().filter(|(_, change)| *change > JUMP);
-    let behind: Vec<usize> = jumps.map(|(row, _)| *row).collect();
+    let is_of_one_press =
+        |one: usize, other: usize| points.get(rows[one].0) == points.get(rows[other].0);
+    let change = |from: usize, to: usize| (values[to] - values[from]) / count;
+    let pairs = (1..rows.len()).filter(|at| is_of_one_press(at - 1, *at));
+    let changes: Vec<(usize, f64)> = pairs.map(|at| (at, change(at - 1, at))).collect();
+    let fast = changes.iter().filter(|(_, step)| step.abs() > SLOW);
+    let fast = fast.count();
+    let goes_on = |at: usize, jump: f64| {
+        let mut earlier = at.saturating_sub(NEAR + 1)..at;
+        let first = earlier.find(|first| is_of_one_press(*first, at));
+        let mut later = (at..rows.len().min(at + NEAR + 1)).rev();
+        let last = later.find(|last| is_of_one_press(*last, at));
+        let before = first.map_or(0.0, |first| change(first, at - 1));
+        let behind = last.map_or(0.0, |last| change(at, last));
+        let without_jump = jump + COUNTS.copysign(-jump);
+        before * jump < 0.0
+            && behind * jump < 0.0
+            && without_jump.abs() <= before.abs().min(behind.abs())
+    };
+    let jumps = changes.iter().filter(|(_, step)| step.abs() > JUMP);
+    let jumps = jumps.filter(|(at, jump)| goes_on(*at, *jump));
+    let behind: Vec<usize> = jumps.map(|(at, _)| rows[*at].0).collect();
     let first = behind.first()?;
     if fast * SHARE > changes.len() {
         return None;

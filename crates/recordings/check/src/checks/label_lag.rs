@@ -26,9 +26,10 @@ const SHARE: usize = 4;
 /// Minimum correlation of pictures and forces at the lag, and minimum factor by which the lag reduces the unexplained variance.
 const CLEAR: f64 = 0.6;
 const BETTER: f64 = 1.5;
-/// Parts of the recording, and the minimum number of parts that show the lag too. A drift favours another lag only in the whole.
+/// Parts of the recording. Most of those with a varying force must show the lag too, since a drift favours another lag only in the whole.
 const PARTS: usize = 3;
-const AGREEING: usize = 2;
+/// Minimum variance of the force of such a part, as a share of the greatest one.
+const LOADED: f64 = 0.1;
 /// Maximum lag that a gel which recovers slowly explains, s.
 const SLOW_GEL_S: f64 = 0.1;
 
@@ -224,18 +225,34 @@ impl Lag {
         })
     }
 
-    /// True if the lag is clear in most parts of the recording.
+    /// True if the lag is clear in most parts of the recording whose force varies.
     fn holds_in_parts(&self, streams: &[Vec<Instant>]) -> bool {
-        let holds = |number: &usize| {
+        let part = |number: usize| -> Vec<Vec<Instant>> {
             let part = streams.iter().map(|stream| {
                 let end = |parts: usize| stream.len() * parts / PARTS;
-                stream[end(*number)..end(number + 1)].to_vec()
+                stream[end(number)..end(number + 1)].to_vec()
             });
-            let part: Vec<Vec<Instant>> = part.collect();
-            is_clear(correlation_at(&part, self.steps), correlation_at(&part, 0))
+            part.collect()
         };
-        (0..PARTS).filter(holds).count() >= AGREEING
+        let parts: Vec<Vec<Vec<Instant>>> = (0..PARTS).map(part).collect();
+        let variances: Vec<f64> = parts.iter().map(|part| variance_of_forces(part)).collect();
+        let greatest = variances.iter().copied().fold(0.0, f64::max);
+        let parts = parts.iter().zip(variances);
+        let loaded = parts.filter(|(_, variance)| *variance > LOADED * greatest);
+        let loaded: Vec<bool> = loaded
+            .map(|(part, _)| is_clear(correlation_at(part, self.steps), correlation_at(part, 0)))
+            .collect();
+        2 * loaded.iter().filter(|holds| **holds).count() > loaded.len()
     }
+}
+
+/// Variance of the forces of all `streams` together; 0 without any.
+fn variance_of_forces(streams: &[Vec<Instant>]) -> f64 {
+    let forces = || streams.iter().flatten().map(|(_, _, force)| *force);
+    #[expect(clippy::cast_precision_loss, reason = "counts of rows")]
+    let count = forces().count().max(1) as f64;
+    let mean = forces().sum::<f64>() / count;
+    forces().map(|force| (force - mean).powi(2)).sum::<f64>() / count
 }
 
 /// Pearson's correlation; 0 if one of them does not vary.
@@ -319,6 +336,23 @@ mod tests {
         let mut one = presses(0);
         one[..130].clone_from_slice(&presses(5)[..130]);
         assert!(!lag.holds_in_parts(&[one]));
+    }
+
+    #[test]
+    fn a_recording_that_is_pressed_in_its_middle_third_alone_has_its_lag() {
+        let mut middle = presses(5);
+        for (number, (_, light, force)) in middle.iter_mut().enumerate() {
+            if !(155..235).contains(&number) {
+                *light = 0.001;
+            }
+            if !(160..240).contains(&number) {
+                *force = 0.01 * (number % 2) as f64;
+            }
+        }
+        let streams = [middle];
+        let lag = Lag::of(&streams).expect("a stream");
+        assert_eq!(lag.steps, 5);
+        assert!(lag.holds_in_parts(&streams), "{lag:?}");
     }
 
     #[test]

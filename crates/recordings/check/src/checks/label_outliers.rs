@@ -1,5 +1,7 @@
 //! TAC013: single labels far from all others.
 
+use taceva_core::shown;
+
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
 
@@ -42,7 +44,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
                 outliers.rows.len(),
                 column.len(),
                 sign * outliers.least,
-                table.samples()[first],
+                shown(&table.samples()[first]),
                 sign * outliers.next,
                 drop_line(evidence, &outliers.rows),
             );
@@ -52,33 +54,61 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Maximum number of pictures in a line for the map.
-const LISTED: usize = 5;
+/// Maximum number of pictures or rows in a line for the map.
+const LISTED: usize = 20;
 
-/// Line of the map that leaves out `rows`; empty if their pictures are not files that a map names.
+/// Line of the map that leaves out `rows`; empty if they were not imported.
 fn drop_line(evidence: &Evidence<'_>, rows: &[usize]) -> String {
+    let line = match pictures_of(evidence, rows) {
+        Some(names) => Some(("frames_named", names)),
+        None => numbers_of(evidence, rows).map(|numbers| ("rows", numbers)),
+    };
+    let Some((key, values)) = line else {
+        return String::new();
+    };
+    let first = match values.len() > LISTED {
+        true => format!("the first {LISTED} of "),
+        false => String::new(),
+    };
+    let listed = values.into_iter().take(LISTED);
+    format!(
+        "; to leave {first}them out, write under [drop] of the map: {key} = [{}]",
+        listed.collect::<Vec<_>>().join(", ")
+    )
+}
+
+/// Pictures of `rows` as a map names them; `None` if they are not files. A row with several pictures has none that a finding on labels names.
+fn pictures_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
     let header = evidence.header;
     let pictures = header.mapping().pictures;
     let are_files = pictures
         .iter()
         .any(|own| matches!(own.by.as_str(), "column" | "pattern"));
-    let sources = evidence.table.source_frame();
-    let names: Option<Vec<String>> = rows
-        .iter()
-        .map(|row| sources[*row].as_ref().map(|name| format!("{name:?}")))
-        .collect();
-    // A row with several pictures is left out by one of them, which no finding on labels names.
-    match names.filter(|_| are_files && header.views.is_empty()) {
-        Some(names) => {
-            let more = if names.len() > LISTED { ", …" } else { "" };
-            let names = &names[..names.len().min(LISTED)];
-            format!(
-                "; to leave them out, write under [drop] of the map: frames_named = [{}{more}]",
-                names.join(", ")
-            )
-        }
-        None => String::new(),
+    if !are_files || !header.views.is_empty() {
+        return None;
     }
+    let sources = evidence.table.source_frame();
+    let names = rows.iter().map(|row| sources[*row].as_ref());
+    names
+        .map(|name| name.map(|name| format!("{name:?}")))
+        .collect()
+}
+
+/// Numbers of `rows` in their tables as a map names them, with the table if there are several.
+fn numbers_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
+    let (tables, numbers) = (evidence.table.source_table(), evidence.table.source_row());
+    let are_several = tables.windows(2).any(|pair| pair[0] != pair[1]);
+    let number = |row: &usize| {
+        let number = numbers[*row]? + 1;
+        match are_several {
+            true => {
+                let table = tables[*row].as_ref()?;
+                Some(format!("{{ row = {number}, table = {table:?} }}"))
+            }
+            false => Some(number.to_string()),
+        }
+    };
+    rows.iter().map(number).collect()
 }
 
 /// Values far above all others.

@@ -36,8 +36,9 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     }
     // Another unit of the sensor is another recording with its own clock.
     let mut pairs = by_clock(table, timed.iter().copied());
-    if pairs.is_empty() {
-        // Files of which each is a row have no order but that of their times.
+    let is_of_one_clock = !pairs.is_empty();
+    if !is_of_one_clock {
+        // Files of which each is a row have no order but that of their times, and each may begin its own clock.
         pairs = by_time(table, &timed);
     }
     let steps: Vec<(usize, f64)> = pairs
@@ -84,7 +85,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             &backwards,
         ));
     }
-    if !repeated.is_empty() {
+    if is_of_one_clock && !repeated.is_empty() {
         found.push(warn(
             "samples have the time of the one before them",
             &repeated,

@@ -134,7 +134,70 @@ fn a_slow_force_that_begins_anew_above_one_byte_is_named_with_its_row() {
 fn forces_of_two_bytes_fast_ones_and_those_of_other_presses_do_not_begin_anew() {
     says_nothing(&in_counts(|row| 3 * row, false), "TAC045");
     says_nothing(&in_counts(|row| 97 * row % 256, false), "TAC045");
-    let ramps = |row: i32| row % 40 * 6 + row / 40;
-    assert!(message(&in_counts(ramps, false), "TAC045").contains("2 pairs"));
+    let ramps = |row: i32| {
+        row % 40 * 6
+            + match row / 40 {
+                0 => 16,
+                1 => 0,
+                _ => 1,
+            }
+    };
+    assert!(message(&in_counts(ramps, false), "TAC045").contains("1 pair"));
     says_nothing(&in_counts(ramps, true), "TAC045");
+}
+
+#[test]
+fn a_sudden_release_and_a_repeated_staircase_do_not_begin_anew() {
+    let still = |row: i32| {
+        if row < 84 { 3 * row + row % 2 } else { 0 }
+    };
+    says_nothing(&in_counts(still, false), "TAC045");
+    let noisy = |row: i32| if row < 84 { 3 * row } else { row % 2 };
+    says_nothing(&in_counts(noisy, false), "TAC045");
+    let staircase = |row: i32| row % 40 * 6 + row / 40;
+    says_nothing(&in_counts(staircase, false), "TAC045");
+    // A force that falls below zero begins anew, too.
+    let falling = |row: i32| (300 - 3 * row).rem_euclid(256);
+    message(&in_counts(falling, false), "TAC045");
+}
+
+/// A check of tables `names` of 500 forces, of which those from row `far` of the last table, from 0, are far from the others.
+fn with_far_forces(names: &[&str], far: u32) -> CheckReport {
+    let table = |is_last: bool| {
+        let force = |row: u32| match is_last && row >= far {
+            true => 60.0 + 0.001 * f64::from(row),
+            false => 0.01 * f64::from(row),
+        };
+        let rows = (0..500).map(|row| format!("{}\n", force(row)));
+        format!("Fz\n{}", rows.collect::<String>()).into_bytes()
+    };
+    let last = names.last();
+    let files = names.iter().map(|name| (*name, table(Some(name) == last)));
+    let files: Vec<(&str, Vec<u8>)> = files.collect();
+    let map = format!(
+        "map_version = 2\ntable = \"*.csv\"\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n[time]\nclock = \"unknown\"\n{SENSOR}"
+    );
+    imported(&files, &map, &["TAC013"])
+}
+
+#[test]
+fn far_labels_without_files_of_pictures_are_left_out_by_their_rows() {
+    let line = |report: &CheckReport| {
+        let found = message(report, "TAC013").split_once("; to leave ");
+        found.expect("a line").1.to_owned()
+    };
+    assert_eq!(
+        line(&with_far_forces(&["a.csv"], 498)),
+        "them out, write under [drop] of the map: rows = [499, 500]"
+    );
+    assert_eq!(
+        line(&with_far_forces(&["a.csv", "b.csv"], 499)),
+        "them out, write under [drop] of the map: rows = [{ row = 500, table = \"b.csv\" }]"
+    );
+    // Of many, the first are in a line that a map takes.
+    let many = line(&with_far_forces(&["a.csv"], 479));
+    assert!(
+        many.starts_with("the first 20 of them out") && many.ends_with(", 498, 499]"),
+        "{many}"
+    );
 }

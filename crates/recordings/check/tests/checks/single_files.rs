@@ -1,6 +1,6 @@
 //! Recordings in which each picture is a file and a row of its own, joined to a log.
 
-use taceva_check::CheckReport;
+use taceva_check::{CheckReport, Severity};
 
 use super::lab::{SENSOR, imported};
 
@@ -70,4 +70,14 @@ fn a_label_far_from_all_others_is_given_with_its_sample_and_the_line_that_leaves
     assert_eq!(line, "frames_named = [\"g_07.jpg\"]");
     let left = checked(shuffled, one_far, &format!("[drop]\n{line}\n"), &["TAC013"]);
     assert_eq!((left.samples, left.findings.len()), (24, 0));
+}
+
+#[test]
+fn files_of_which_each_begins_its_own_clock_have_no_repeated_times() {
+    let two_sessions = |number: u32| 1.76e9 + 4.3 * f64::from(number % 13);
+    let report = checked(two_sessions, one_far, "", &["TAC008"]);
+    let [finding] = report.findings.as_slice() else {
+        panic!("{:#?}", report.findings);
+    };
+    assert_eq!(finding.severity, Severity::Note, "{finding:#?}");
 }

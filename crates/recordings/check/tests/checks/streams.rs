@@ -213,9 +213,27 @@ fn rows_that_a_join_left_out_are_repeated_by_the_check_and_a_whole_import_says_n
     says_nothing(&imported(&whole, &map(""), &["TAC021"]), "TAC021");
 }
 
+/// Map of a table and a log, joined by time.
+const LOG_MAP: &str = "table = \"run.csv\"\n[[join]]\nname = \"ft\"\ntable = \"ft.csv\"\ntime = { column = \"t\", unit = \"s\" }\ntolerance_ms = 20\nlag_ms = 0\nunmatched = \"drop\"\n[columns]\nFz = { from = \"ft.Fz\", unit = \"N\" }\n[time]\nclock = \"monotonic\"\ncolumn = \"t\"\nunit = \"s\"\n";
+
+#[test]
+fn unused_rows_of_a_slow_log_are_noted_although_few_rows_are_kept() {
+    let run: String = (0..10).map(|row| format!("{row}\n")).collect();
+    let ft: String = (7..16).map(|row| format!("{row},{row}\n")).collect();
+    let (run, ft) = (format!("t\n{run}"), format!("t,Fz\n{ft}"));
+    let files = [("run.csv", run.as_str()), ("ft.csv", ft.as_str())];
+    let report = imported(&files, LOG_MAP, &["TAC021"]);
+    let notes = report.findings.iter();
+    let mut notes = notes.filter(|finding| finding.severity == Severity::Note);
+    let said = &notes.next().expect("a note").message;
+    assert!(
+        said.starts_with("6 rows of joined tables match no row"),
+        "{said}"
+    );
+}
+
 #[test]
 fn unused_rows_of_a_log_are_noted_unless_it_is_faster_than_the_table() {
-    let map = "table = \"run.csv\"\n[[join]]\nname = \"ft\"\ntable = \"ft.csv\"\ntime = { column = \"t\", unit = \"s\" }\ntolerance_ms = 20\nlag_ms = 0\n[columns]\nFz = { from = \"ft.Fz\", unit = \"N\" }\n[time]\nclock = \"monotonic\"\ncolumn = \"t\"\nunit = \"s\"\n";
     let run: String = (0..10).map(|row| format!("{row}\n")).collect();
     for (rows, expected) in [
         (91, None),
@@ -231,7 +249,7 @@ fn unused_rows_of_a_log_are_noted_unless_it_is_faster_than_the_table() {
             (files[0].0, files[0].1.as_str()),
             (files[1].0, files[1].1.as_str()),
         ];
-        let report = imported(&files, map, &["TAC021"]);
+        let report = imported(&files, LOG_MAP, &["TAC021"]);
         match expected {
             None => says_nothing(&report, "TAC021"),
             Some(expected) => {

@@ -21,8 +21,8 @@ impl Offered<'_> {
         self.candidate.unit.map_or("?", |(unit, _)| unit)
     }
 
-    /// Rank among the candidates of a channel; the lowest is the best. If a unit of one of them `is_stated`, numbers without a scale come
-    /// after it.
+    /// Rank among the candidates of a channel; the lowest is the best. If the best of them with a scale states its unit (`is_stated`),
+    /// numbers without a scale come after it.
     fn rank(&self, is_stated: bool) -> (bool, bool, Reason, bool, u32) {
         (
             self.candidate.open.is_some(),
@@ -68,7 +68,9 @@ pub(super) fn lines(offered: &[Offered<'_>]) -> String {
             .iter()
             .filter(|one| one.candidate.channel == channel);
         let mut ranked: Vec<&Offered<'_>> = of_channel.collect();
-        let is_stated = ranked.iter().any(|one| one.candidate.unit.is_some());
+        // A unit counts only if its column would come first.
+        let best = ranked.iter().min_by_key(|one| one.rank(true));
+        let is_stated = best.is_some_and(|best| best.candidate.unit.is_some());
         ranked.sort_by_key(|one| one.rank(is_stated));
         let Some((first, others)) = ranked.split_first() else {
             continue;
@@ -154,6 +156,20 @@ mod tests {
             let other = format!("# or: Fz = {{ from = {raw:?}, unit = \"?\" }}");
             assert!(text.contains(&other), "{text}");
         }
+    }
+
+    #[test]
+    fn a_weaker_candidate_with_a_unit_leaves_two_of_one_rank_open() {
+        let text = drafted(&["fz_raw", "fz_filtered", "load_cell_N"]);
+        let first = text.lines().next().expect("a line");
+        assert!(first.starts_with("Fz = { from = \"?\""), "{text}");
+        for name in ["fz_raw", "fz_filtered"] {
+            assert!(first.contains(&format!("{name:?}")), "{text}");
+        }
+        assert!(
+            text.contains("\n# or: Fz = { from = \"load_cell_N\""),
+            "{text}"
+        );
     }
 
     #[test]

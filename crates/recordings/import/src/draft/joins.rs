@@ -151,7 +151,7 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
         ),
         _ => (spacing_ms, "the time between two of its rows"),
     };
-    Some(vec![
+    let mut lines = vec![
         format!(
             "time = {{ column = {:?}, unit = {unit:?} }}{}",
             there.name,
@@ -162,9 +162,18 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
             "tolerance_ms = {:.3}   # {tolerance}",
             tolerance_ms.max(0.001)
         ),
+    ];
+    if rates.is_some_and(|(own, other)| is_slower(own, other) && is_of_presses(other)) {
+        lines.push(format!(
+            "# or, if its rows are a slow stream and no presses: {LINEAR} and tolerance_ms = {:.3}",
+            2.0 * spacing_ms
+        ));
+    }
+    lines.extend([
         "lag_ms = 0   # how far its clock is ahead: the files do not state it".to_owned(),
         "unmatched = \"drop\"".to_owned(),
-    ])
+    ]);
+    Some(lines)
 }
 
 /// Time between two rows from which they are single presses and no stream, ms.
@@ -207,11 +216,21 @@ fn rate_hz(cells: &[String], unit: &str) -> Option<f64> {
 /// Least rate of a joined table, relative to the main table, at which each row has a near one.
 const NEAR_RATE: f64 = 0.9;
 
+/// True if several rows of the main table share a row of a table of the rate `other`, Hz.
+fn is_slower(own: f64, other: f64) -> bool {
+    other < NEAR_RATE * own
+}
+
+/// True if rows of this rate, Hz, are taken for single presses.
+fn is_of_presses(rate: f64) -> bool {
+    1e3 / rate > PRESSES_MS
+}
+
 /// Line with the pick that suits the rates of the main and the joined table, Hz.
 fn pick_by_rates(own: f64, other: f64) -> String {
     let both = format!("{} beside {} of the main table", in_hz(other), in_hz(own));
-    match other < NEAR_RATE * own {
-        true if 1e3 / other > PRESSES_MS => format!(
+    match is_slower(own, other) {
+        true if is_of_presses(other) => format!(
             "pick = \"nearest\"   # {both}: its rows are single presses, and only rows at such a press are kept"
         ),
         true => format!(

@@ -88,7 +88,7 @@ fn parts(pattern: &str, table: &ResolvedTable) -> Result<Vec<PatternPart>, Impor
             .split_once('}')
             .ok_or_else(|| ImportError::path(pattern, "a `{` is never closed"))?;
         parts.push(PatternPart::Text(text.to_owned()));
-        let column = PatternColumn::parse(column);
+        let column = PatternColumn::parse(column, |name| table.find(name).is_some());
         parts.push(PatternPart::Cell(table.position(column.name)?, column.form));
         rest = after;
     }

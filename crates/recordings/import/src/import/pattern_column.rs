@@ -20,8 +20,14 @@ pub(super) struct NumberForm {
 }
 
 impl<'p> PatternColumn<'p> {
-    /// Parses the text within `{}`.
-    pub(super) fn parse(text: &'p str) -> PatternColumn<'p> {
+    /// Parses the text within `{}`. A column with exactly this name comes first, if the table `has` it.
+    pub(super) fn parse(text: &'p str, has: impl Fn(&str) -> bool) -> PatternColumn<'p> {
+        if has(text) {
+            return PatternColumn {
+                name: text,
+                form: NumberForm::default(),
+            };
+        }
         let padded = text.rsplit_once(":0").and_then(|(name, digits)| {
             let digits: usize = digits.parse().ok()?;
             (1..=DIGITS_MAX).contains(&digits).then_some((name, digits))
@@ -43,11 +49,14 @@ impl<'p> PatternColumn<'p> {
         }
     }
 
-    /// Columns of `pattern`, in order.
-    pub(super) fn all(pattern: &'p str) -> impl Iterator<Item = PatternColumn<'p>> {
+    /// Columns of `pattern` in a table that `has` some, in order.
+    pub(super) fn all(
+        pattern: &'p str,
+        has: impl Fn(&str) -> bool,
+    ) -> impl Iterator<Item = PatternColumn<'p>> {
         let parts = pattern.split('{').skip(1);
         let parts = parts.filter_map(|part| part.split_once('}'));
-        parts.map(|(text, _)| PatternColumn::parse(text))
+        parts.map(move |(text, _)| PatternColumn::parse(text, &has))
     }
 }
 
@@ -83,7 +92,7 @@ mod tests {
     #[test]
     fn a_column_is_padded_with_zeros_and_a_row_is_counted_from_another_number() {
         let written = |text: &str, cell: &str| {
-            let column = PatternColumn::parse(text);
+            let column = PatternColumn::parse(text, |_| false);
             (column.name.to_owned(), column.form.write(cell))
         };
         let of = |name: &str, text: &str| (name.to_owned(), text.to_owned());
@@ -96,13 +105,21 @@ mod tests {
         assert_eq!(written("row+1:04", "8"), of("row", "0009"));
         // Names that have another meaning are kept.
         for name in ["n:5", "n:0", "n:099", "a+1", "t:00x"] {
-            assert_eq!(PatternColumn::parse(name).name, name);
+            assert_eq!(PatternColumn::parse(name, |_| false).name, name);
+        }
+    }
+
+    #[test]
+    fn a_column_with_the_name_of_a_form_comes_first() {
+        for name in ["n:05", "row+1"] {
+            let column = PatternColumn::parse(name, |known| known == name);
+            assert_eq!((column.name, column.form.write("7").as_str()), (name, "7"));
         }
     }
 
     #[test]
     fn all_columns_of_a_pattern_are_found() {
-        let names: Vec<&str> = PatternColumn::all("{path.run}/x{n:05}_{row}.png")
+        let names: Vec<&str> = PatternColumn::all("{path.run}/x{n:05}_{row}.png", |_| false)
             .map(|column| column.name)
             .collect();
         assert_eq!(names, ["path.run", "n", "row"]);

@@ -19,6 +19,7 @@ use std::path::Path;
 use taceva_core::Clock;
 
 use super::map::{FrameNames, ImportMap, OWN_ROW};
+use super::pattern_column::PatternColumn;
 use super::warning::ImportWarning;
 use crate::error::{ImportError, Place, table_error};
 use crate::foreign::{BeforeCut, ForeignTable, TableForm};
@@ -100,7 +101,7 @@ pub(super) fn resolve(
         warnings: Vec::new(),
         decoders,
     };
-    let names = mentioned(map);
+    let names = mentioned(map, &sources.main);
     let of_signals = map.signals.iter().flat_map(|signals| signals.columns());
     let bases = names.iter().chain(of_signals).map(|name| base_of(name));
     let mut bases: Vec<&str> = bases.collect();
@@ -335,16 +336,18 @@ impl Sources<'_> {
         }
     }
 
-    /// Replaces `{path.PART}` in `text`.
+    /// Replaces `{path.PART}` and `{path.PART:05}` in `text`.
     fn filled(&self, row: usize, text: &str) -> Result<String, ImportError> {
         let mut filled = String::new();
         let mut rest = text;
-        while let Some((before, behind)) = rest.split_once("{path.") {
-            let Some((part, after)) = behind.split_once('}') else {
+        while let Some(start) = rest.find("{path.") {
+            let Some((column, after)) = rest[start + 1..].split_once('}') else {
                 break;
             };
-            filled += before;
-            filled += &self.part(row, part)?;
+            let column = PatternColumn::parse(column, |_| false);
+            let part = column.name.strip_prefix("path.").unwrap_or(column.name);
+            filled += &rest[..start];
+            filled += &column.form.write(&self.part(row, part)?);
             rest = after;
         }
         Ok(filled + rest)

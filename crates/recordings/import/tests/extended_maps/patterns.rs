@@ -1,6 +1,6 @@
 //! File names with numbers that a pattern pads with zeros, or counts from another number.
 
-use super::{NO_TIME, imported_from, lab, planned};
+use super::{NO_TIME, imported, imported_from, lab, planned};
 
 const COLUMNS: &str = "[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n";
 
@@ -69,4 +69,27 @@ fn rows_are_left_out_by_the_picture_that_a_pattern_or_a_folder_gives() {
         let summary = plan.summary();
         assert_eq!((summary.rows_read, summary.rows_kept), (3, 2), "{frames}");
     }
+}
+
+#[test]
+fn a_column_that_is_called_like_a_form_of_numbers_is_taken_by_its_exact_name() {
+    let folder = presses();
+    let table = "n,n:05,Fz\n1,gel_00002,2.5\n2,gel_00001,1.5\n";
+    std::fs::write(folder.path().join("log.csv"), table).expect("written");
+    let map = map("pattern = \"cam/{n:05}.png\"", "");
+    let (_, cells) = imported_from(folder.path(), &map, &["source_frame"]);
+    assert_eq!(cells.concat(), ["cam/gel_00002.png", "cam/gel_00001.png"]);
+}
+
+#[test]
+fn the_name_of_a_joined_table_pads_a_part_of_the_path_with_zeros() {
+    let tables = [
+        ("run7.csv", "k\n1\n2\n"),
+        ("ft_00007.csv", "Fz\n1.5\n2.5\n"),
+    ];
+    let map = format!(
+        "table = \"run*.csv\"\n[path]\npattern = \"run{{n:digits}}.csv\"\n[[join]]\nname = \"ft\"\ntable = \"ft_{{path.n:05}}.csv\"\non = \"row\"\n[columns]\nFz = {{ from = \"ft.Fz\", unit = \"N\" }}\n{NO_TIME}"
+    );
+    let (_, found) = imported(&tables, &map, &["Fz"]);
+    assert_eq!(found[0], ["1.5", "2.5"]);
 }

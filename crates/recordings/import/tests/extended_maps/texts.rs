@@ -93,3 +93,13 @@ fn points_of_other_cells_are_other_points() {
     let (_, found) = imported(&[("t.csv", text)], &map, &["point_id"]);
     assert_eq!(found[0], ["a\\:b:c", "a:b\\:c", "1.5:x"]);
 }
+
+#[test]
+fn an_open_unit_behind_the_name_of_a_column_with_a_number_sign_is_refused_as_open() {
+    let columns = "[columns]\nFz = { from = \"a#b\", unit = \"?\" }\n";
+    let problem = refused(&[("t.csv", "a#b\n1\n")], &map("\"t.csv\"", columns));
+    assert!(
+        problem.contains("is a value that a draft leaves open"),
+        "{problem}"
+    );
+}

@@ -58,7 +58,7 @@ fn a_table_without_a_used_column_is_named_and_not_joined() {
 }
 
 #[test]
-fn a_join_of_single_presses_takes_no_row_of_another_press() {
+fn a_join_of_single_presses_takes_no_row_of_another_press_and_offers_that_of_a_slow_stream() {
     let rows =
         (0..200).map(|row| format!("{:.3},{:.3}\n", f64::from(row) * 0.05, f64::from(row % 7)));
     let forces = format!("t_s,Fz_N\n{}", rows.collect::<String>());
@@ -77,6 +77,11 @@ fn a_join_of_single_presses_takes_no_row_of_another_press() {
     let tolerance = line(&text, "tolerance_ms = ");
     assert!(
         tolerance.starts_with("tolerance_ms = 50.000   # at most a tenth"),
+        "{text}"
+    );
+    // Only the lab knows that such rows are a slow stream.
+    assert!(
+        text.contains("# or, if its rows are a slow stream and no presses: pick = \"linear\" and tolerance_ms = 4000.000"),
         "{text}"
     );
 }

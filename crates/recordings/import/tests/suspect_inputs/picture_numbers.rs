@@ -137,6 +137,55 @@ fn two_series_that_are_no_views_leave_the_pattern_open() {
 }
 
 #[test]
+fn numbers_in_another_order_than_the_rows_are_drafted_with_the_order_of_rows_beside_them() {
+    let table = "n,Fz_N\n2,1.5\n3,2.5\n1,0.5\n";
+    let folder = with_pictures(&[("log.csv", table)], &CAMERA);
+    let text = draft(folder.path());
+    assert!(
+        line(&text, "pattern = ").starts_with("pattern = \"cam/gel_{n:05}.png\""),
+        "{text}"
+    );
+    assert!(
+        line(&text, "# or: pattern = ")
+            .starts_with("# or: pattern = \"cam/gel_{row+1:05}.png\"   # a guess: "),
+        "{text}"
+    );
+    let counted = "n,Fz_N\n1,1.5\n2,2.5\n3,0.5\n";
+    let folder = with_pictures(&[("log.csv", counted)], &CAMERA);
+    assert!(!draft(folder.path()).contains("# or: pattern"));
+}
+
+#[test]
+fn shuffled_numbers_that_are_those_of_no_picture_forbid_the_order_of_rows() {
+    let table = "n,Fz_N\n1,1.5\n2,2.5\n0,0.5\n";
+    let folder = with_pictures(&[("log.csv", table)], &CAMERA);
+    let text = draft(folder.path());
+    assert!(!text.contains("pattern = "), "{text}");
+    assert!(text.contains("Not joined: 3 pictures"), "{text}");
+}
+
+#[test]
+fn numbered_folders_are_no_views() {
+    let names = [
+        "day1/g_1.png",
+        "day1/g_2.png",
+        "day2/g_1.png",
+        "day2/g_2.png",
+    ];
+    let folder = with_pictures(&[("log.csv", "n,Fz_N\n1,1.5\n2,0.5\n")], &names);
+    let text = draft(folder.path());
+    assert!(
+        line(&text, "pattern = ").starts_with("pattern = \"?\""),
+        "{text}"
+    );
+    for day in ["day1", "day2"] {
+        let other = format!("# or: pattern = \"{day}/g_{{n}}.png\"");
+        assert!(text.contains(&other), "{text}");
+    }
+    assert!(!text.contains("name = \"day1\""), "{text}");
+}
+
+#[test]
 fn pictures_that_no_line_joins_are_named_in_the_draft_and_in_a_warning_of_the_import() {
     let folder = with_pictures(&[("log.csv", "Fz_N\n1.5\n0.5\n")], &CAMERA);
     let text = draft(folder.path());

@@ -192,17 +192,39 @@ fn parts(path: &str) -> Option<(&str, [&str; 2], &str)> {
 fn column_of<'t>(series: &Series<'_>, main: &'t SeenTable<'_>) -> Option<&'t SeenColumn> {
     let columns = main.columns.iter();
     let columns = columns.filter(|column| series.is_numbered_by(column, main.rows));
-    let is_counting = |column: &&SeenColumn| {
-        let numbers: Vec<u64> = filled(column).filter_map(whole_number).collect();
-        let mut pairs = numbers.windows(2);
-        pairs.all(|pair| pair[1].checked_sub(pair[0]) == Some(1))
-    };
-    let (counting, others): (Vec<_>, Vec<_>) = columns.partition(is_counting);
+    let (counting, others): (Vec<_>, Vec<_>) = columns.partition(|column| is_counting(column));
     counting.into_iter().chain(others).next()
 }
 
-/// True unless the times of the rows show that they were sorted after the recording.
+/// True if the numbers of `column` count its rows.
+fn is_counting(column: &SeenColumn) -> bool {
+    let numbers: Vec<u64> = filled(column).filter_map(whole_number).collect();
+    let mut pairs = numbers.windows(2);
+    pairs.all(|pair| pair[1].checked_sub(pair[0]) == Some(1))
+}
+
+/// True if `column` has other whole numbers in each of `rows` rows, without a gap and in another order. Pictures may follow these numbers, though
+/// from another first one.
+fn is_shuffled(column: &SeenColumn, rows: usize) -> bool {
+    let numbers: Option<Vec<u64>> = filled(column).map(whole_number).collect();
+    let numbers = numbers.filter(|numbers| may_name(column) && !numbers.is_sorted());
+    numbers.is_some_and(|numbers| {
+        let different: BTreeSet<u64> = numbers.iter().copied().collect();
+        let ends = different.last().zip(different.first());
+        let span = ends.map(|(last, first)| last - first);
+        different.len() == numbers.len() && span.is_some_and(|span| span < rows as u64)
+    })
+}
+
+/// True unless the times or numbers of the rows show that they were sorted after the recording.
 fn is_in_order(main: &SeenTable<'_>) -> bool {
+    let mut columns = main.columns.iter();
+    let is_sorted = !columns.any(|column| is_shuffled(column, main.rows));
+    is_sorted && are_times_in_order(main)
+}
+
+/// True unless the times of the rows decrease.
+fn are_times_in_order(main: &SeenTable<'_>) -> bool {
     main.time().is_none_or(|time| {
         let times = time.column.cells.iter();
         times
@@ -232,7 +254,13 @@ pub(super) fn of(
     let all = Series::all(groups);
     let numbered = all.iter().filter_map(|series| {
         let column = column_of(series, main)?;
-        Some((series, series.of_column(main, column)))
+        let mut lines = series.of_column(main, column);
+        // Numbers in another order, such as those of random points, may count no pictures.
+        if !is_counting(column) && series.counts(main.rows) && are_times_in_order(main) {
+            let in_order = series.of_rows(main).into_iter().take(1);
+            lines.extend(in_order.map(|line| format!("# or: {line}")));
+        }
+        Some((series, lines))
     });
     let mut found: Vec<(&Series<'_>, Vec<String>)> = numbered.collect();
     if found.is_empty() && is_in_order(main) {
@@ -250,7 +278,16 @@ pub(super) fn of(
     let names: Vec<String> = found.iter().map(|(series, _)| series.glob()).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let views = of_views(&names, lines);
-    if !views.is_empty() || found.is_empty() {
+    // Folders with numbers may be sessions, and pictures of another session belong to no row.
+    let is_numbered = |own: &FrameLines| {
+        let view = own.view.as_deref().unwrap_or_default();
+        view.ends_with(|letter: char| letter.is_ascii_digit())
+    };
+    let are_folders = found
+        .windows(2)
+        .any(|pair| pair[0].0.base != pair[1].0.base);
+    let are_sessions = are_folders && views.iter().any(is_numbered);
+    if (!views.is_empty() && !are_sessions) || found.is_empty() {
         return views;
     }
     let mut first = lines(0);
@@ -269,8 +306,7 @@ pub(super) fn of(
 }
 
 /// Open line for several series that are no views, such as colour and depth.
-const SEVERAL: &str =
-    "pattern = \"?\"   # several series belong to the rows: name that of the sensor";
+const SEVERAL: &str = "pattern = \"?\"   # several series fit the rows: name that of the sensor";
 
 /// Comment for a table without pictures, with the pictures of the folder that no line joins.
 pub(in crate::draft) fn none_found(groups: &[FileGroup], main: &SeenTable<'_>) -> String {

@@ -16,6 +16,7 @@ use super::signals::WrittenSignals;
 use super::table_schema::WrittenTable;
 use super::zero::{WrittenGravity, WrittenZero};
 use crate::instant::zone_seconds;
+use crate::open_places::open_places;
 
 use super::{ColumnMap, IdMap, ImportMap, MatrixMap, OriginMap, TimeMap};
 use taceva_dataset::internal::{RESERVED, is_attribute_name, parse_toml, shown, toml_error};
@@ -84,13 +85,9 @@ fn positive() -> i64 {
 
 /// First line, from 1, with a value that a draft left open.
 fn first_open(text: &str) -> Option<u64> {
-    let is_open = |line: &str| {
-        let said = line.split('#').next().unwrap_or_default();
-        said.contains("\"?\"")
-    };
     (1..)
         .zip(text.lines())
-        .find_map(|(number, line)| is_open(line).then_some(number))
+        .find_map(|(number, line)| (open_places(line) > 0).then_some(number))
 }
 
 /// Keys of [ids].

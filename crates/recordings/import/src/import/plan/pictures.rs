@@ -102,7 +102,7 @@ impl Reading<'_> {
         let own = &mut self.views[view];
         let is_by_row = match &own.map.names {
             FrameNames::Pattern(pattern) => {
-                PatternColumn::all(pattern).any(|column| column.name == "row")
+                PatternColumn::all(pattern, |_| false).any(|column| column.name == "row")
             }
             _ => false,
         };

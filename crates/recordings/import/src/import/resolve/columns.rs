@@ -1,5 +1,6 @@
 //! Column names in a map.
 
+use crate::foreign::ForeignTable;
 use crate::import::map::{FrameNames, ImportMap};
 use crate::import::pattern_column::PatternColumn;
 
@@ -15,8 +16,8 @@ pub(super) fn base_of(name: &str) -> &str {
     indexed(name).map_or(name, |(base, _)| base)
 }
 
-/// Distinct columns that the map names, without the results of matrices.
-pub(super) fn mentioned(map: &ImportMap) -> Vec<String> {
+/// Distinct columns that the map of the table `main` names, without the results of matrices.
+pub(super) fn mentioned(map: &ImportMap, main: &ForeignTable) -> Vec<String> {
     let ids = &map.ids;
     let given = |name: &String| {
         let mut matrices = map.matrices.iter();
@@ -59,7 +60,7 @@ pub(super) fn mentioned(map: &ImportMap) -> Vec<String> {
         names.push(map.drop.flag_column.clone());
     }
     let of_pattern = |pattern: &str| -> Vec<String> {
-        let columns = PatternColumn::all(pattern);
+        let columns = PatternColumn::all(pattern, |name| main.has(name));
         columns.map(|column| column.name.to_owned()).collect()
     };
     for frame in &map.frames {

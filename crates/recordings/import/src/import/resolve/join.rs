@@ -76,7 +76,7 @@ impl<'a> Joined<'a> {
                         true => Vec::new(),
                         false => coordinate_frame::columns(&table),
                     };
-                    let names = mentioned(sources.map);
+                    let names = mentioned(sources.map, &sources.main);
                     let mut ahead = own_columns(&names, &map.name);
                     ahead.extend(of_frames.iter().map(String::as_str));
                     table.read_ahead(&ahead)?;

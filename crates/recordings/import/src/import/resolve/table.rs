@@ -89,7 +89,7 @@ impl ResolvedTable {
     }
 
     /// Position of the column called `name`. Every column of the map exists.
-    pub(super) fn find(&self, name: &str) -> Option<usize> {
+    pub(in crate::import) fn find(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| known == name)
     }
 

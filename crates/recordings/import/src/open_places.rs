@@ -1,20 +1,21 @@
 //! Places that a draft of a map leaves open.
 
 /// A value that a draft leaves open.
-pub(super) const OPEN: &str = "\"?\"";
+pub const OPEN: &str = "\"?\"";
 
 /// `line` without its comment; a `#` within quotes begins none.
-pub(super) fn code(line: &str) -> &str {
-    let mut is_quoted = false;
+pub fn code(line: &str) -> &str {
+    let (mut is_quoted, mut is_escaped) = (false, false);
     let end = line.char_indices().find(|(_, letter)| {
-        is_quoted ^= *letter == '"';
+        is_quoted ^= *letter == '"' && !is_escaped;
+        is_escaped = is_quoted && *letter == '\\' && !is_escaped;
         *letter == '#' && !is_quoted
     });
     end.map_or(line, |(at, _)| &line[..at])
 }
 
 /// Number of open places in `map`, without its comments.
-pub(super) fn open_places(map: &str) -> usize {
+pub fn open_places(map: &str) -> usize {
     map.lines()
         .map(|line| code(line).matches(OPEN).count())
         .sum()
@@ -34,5 +35,6 @@ mod tests {
             2
         );
         assert_eq!(code("a = \"#\" # b"), "a = \"#\" ");
+        assert_eq!(code(r#"a = "\"" # b"#), r#"a = "\"" "#);
     }
 }
