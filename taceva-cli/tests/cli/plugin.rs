@@ -274,6 +274,14 @@ fn a_plugin_in_python_cannot_run_without_an_interpreter() {
     assert!(!doctor.out.contains("--trust"), "{}", doctor.out);
 }
 
+#[test]
+fn the_help_says_where_a_trusted_plugin_runs() {
+    let help = Bench::new().ok("plugin list --help");
+    let words: Vec<&str> = help.split_whitespace().collect();
+    let said = "without confinement, a library in this process and Python in a process of its own";
+    assert!(words.join(" ").contains(said), "{help}");
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn an_interpreter_that_was_named_and_cannot_run_a_plugin_is_named_with_the_reason() {
