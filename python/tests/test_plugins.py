@@ -470,6 +470,34 @@ def test_complex_predictions_of_a_plugin_are_refused_as_those_of_any_model(tmp_p
     assert "what the model predicted: expected numbers, found an array of complex128" in "\n".join(done["failed"]), done
 
 
+@pytest.mark.parametrize(
+    ("instead", "said"),
+    [
+        ("np.einsum(", "ValueError: `predict` returned None, expected an array ["),
+        ("return self.columns(features)\n        np.einsum(", "ValueError: the model predicted an array of the shape ["),
+    ],
+)
+def test_predictions_that_do_not_fit_name_the_line_of_predict(
+    instead: str, said: str, tmp_path: Path, program: Program
+) -> None:
+    made = new(tmp_path, "estimator", "my-plane")
+    code = made / "__init__.py"
+    text = code.read_text().replace("return np.einsum(", instead)
+    code.write_text(text)
+    line = 1 + next(number for number, line in enumerate(text.splitlines()) if "def predict" in line)
+    why = "\n".join(program.check("org.example.my-plane", made, "--only", "estimator/fits-and")["failed"])
+    assert said in why and f"__init__.py, line {line})" in why, why
+    assert "_predictions.py" not in why and "_arrays.py" not in why, why
+
+
+def test_a_syntax_error_names_its_file_and_line_once(tmp_path: Path, program: Program) -> None:
+    made = package(tmp_path, SCALE + "x = (\n")
+    why = failure(program, made, "library/loads")
+    line = 1 + (HEAD + SCALE).count("\n")
+    assert f"SyntaxError: '(' was never closed ({made / '__init__.py'}, line {line})" in why, why
+    assert why.count(", line ") == 1 and "frozen" not in why, why
+
+
 @pytest.mark.parametrize("before", ["", "import sys; sys.setrecursionlimit(10**9); "])
 def test_an_estimator_that_calls_itself_without_end_fails_with_its_line_whatever_limit_it_sets(
     before: str, tmp_path: Path, program: Program

@@ -257,7 +257,7 @@ fn a_model_of_other_outputs_or_of_components_is_refused() {
 }
 
 #[test]
-fn settings_and_names_of_a_plugin_are_checked_with_what_would_be_accepted() {
+fn settings_and_names_of_a_plugin_are_checked_with_what_would_be_accepted_or_where_it_is_found() {
     let models = First::models(Way::Right);
     let chosen = models.find(KEY.as_str()).expect("offered");
     let settings = ModelSettings::parse(["add=12"]).expect("well formed");
@@ -276,5 +276,18 @@ fn settings_and_names_of_a_plugin_are_checked_with_what_would_be_accepted() {
         error.contains("did you mean `org.example.first/first`?"),
         "{error}"
     );
+    for (name, said) in [
+        (
+            "first",
+            "no model is called `first`, did you mean `org.example.first/first`?",
+        ),
+        (
+            "org.elsewhere.median/median",
+            "no available plugin has the model `org.elsewhere.median/median`: give the folder of its plugin.toml by `--plugin-dir`; `taceva plugin list` shows the plugins that are found",
+        ),
+    ] {
+        let error = models.find(name).map(drop).expect_err("no such name");
+        assert_eq!(error.to_string(), said);
+    }
     assert_eq!(models.find("ridge").expect("built in").name(), "ridge");
 }

@@ -1,16 +1,16 @@
 """Draws a small folder of each layout that `taceva import --presets` lists, in its own file names, columns and formats.
 
-    python make.py [FOLDER]        # numpy, pillow, h5py, zarr 3
+    python make.py [FOLDER] [--only LAYOUT]        # numpy, pillow, h5py, zarr 3
 
 Nothing is taken from the data of others: pictures are one colour, whose red is 40 + 10 * n of picture n; forces and places of sample n are those
 of `force` and `place`. lerobot-v3 and rosbag lie in tests/recordings already (lerobot-v3-h264, mcap-none), written by libraries of other people.
 """
 
+import argparse
 import csv
 import io
 import json
 import pickle
-import sys
 import tarfile
 from pathlib import Path
 
@@ -106,14 +106,14 @@ def allsight(to):
             "contact_px": [240, 240, 20],
         }
     data = to / f"markers/rrrgggbbb/data/sphere3/data_{session}"
-    data.mkdir(parents=True)
+    data.mkdir(parents=True, exist_ok=True)
     (data / f"data_{session}_transformed_annotated.json").write_text(json.dumps(members))
     (data / "summary.json").write_text(json.dumps({"sensor_id": 2, "indenter": "sphere3"}))
 
 
 def sparsh_force(to):
     batch = to / "sphere/batch_1"
-    batch.mkdir(parents=True)
+    batch.mkdir(parents=True, exist_ok=True)
     pictures = [encoded(n) for n in range(6)]
     for number, part in enumerate((pictures[:4], pictures[4:])):
         with open(batch / f"dataset_digit_{number:02}.pkl", "wb") as file:
@@ -183,7 +183,7 @@ def tool_force(to):
 
 
 def univtac(to):
-    to.mkdir(parents=True)
+    to.mkdir(parents=True, exist_ok=True)
     pictures = [encoded(n, "JPEG") for n in range(SAMPLES)]
     width = max(map(len, pictures))
     with h5py.File(to / "0.hdf5", "w") as file:
@@ -205,7 +205,7 @@ def gelsight_live(to):
 
 
 def fota(to):
-    to.mkdir(parents=True)
+    to.mkdir(parents=True, exist_ok=True)
     for shard in range(2):
         with tarfile.open(to / f"data-{shard:06}.tar", "w", format=tarfile.PAX_FORMAT) as tar:
             for n in range(SAMPLES):
@@ -222,7 +222,7 @@ def fota(to):
 
 
 def diffusion_zarr(to):
-    to.mkdir(parents=True)
+    to.mkdir(parents=True, exist_ok=True)
     root = zarr.open_group(to / "data.zarr", mode="w", zarr_format=2)
     frames = np.stack([np.asarray(picture(n)) for n in range(SAMPLES)])
     for name, values in {
@@ -241,6 +241,9 @@ LAYOUTS = {
 }
 
 if __name__ == "__main__":
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent)
-    for name, layout in LAYOUTS.items():
-        layout(folder / name)
+    parser = argparse.ArgumentParser()
+    parser.add_argument("folder", nargs="?", type=Path, default=Path(__file__).parent)
+    parser.add_argument("--only", choices=LAYOUTS, help="draw this layout alone")
+    given = parser.parse_args()
+    for name in [given.only] if given.only else LAYOUTS:
+        LAYOUTS[name](given.folder / name)

@@ -4,9 +4,11 @@
 //! A check runs in the child, in the plugin's process. It calls the functions of the plugin's tables as a host would, and as no host should. The
 //! other checks continue even if it damages its process. A trusted plugin is checked in an unconfined process, as in normal use.
 
+mod attempt;
 mod changer_table;
 mod driver;
 mod estimator;
+mod hangs;
 mod library;
 mod lighting_table;
 mod probe;
@@ -19,27 +21,22 @@ mod surroundings;
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
-use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
 use taceva_core::{
-    Changer, DriverError, DriverKey, DriverKind, ErrorKind, ForceTransducer, Lighting, Robot,
-    Sensor,
+    Changer, DriverError, DriverKey, DriverKind, ForceTransducer, Lighting, Robot, Sensor,
 };
-use taceva_host::bare::CALL;
-use taceva_host::{
-    ChildError, Examination, ExaminationError, ExaminationOrder, Fate, InProcess, Linked, Log,
-    ModuleToImport, NOT_ALLOWED, Plugin, PluginHost, Provided, Session,
-};
+use taceva_host::{InProcess, Linked, ModuleToImport, Plugin, PluginHost, Provided, Session};
 
+use self::hangs::Hangs;
 use self::probe::Probe;
 use self::run::run;
 use self::shared_process::held_together;
 use self::subject::Subject;
 use crate::promise::Unmet;
 use crate::report::Outcome;
-use crate::trial::{NO_DEVICE, Promise, Tried};
+use crate::trial::{Promise, Tried};
 use crate::{changer, force, lighting, robot, sensor};
 
 /// One promise of a plugin.
@@ -188,9 +185,6 @@ impl Default for CheckRequest {
     }
 }
 
-/// Part of the message of a device that did not open.
-const NOT_OPENED: &str = ": cannot open the device: ";
-
 /// Result of a check.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CheckResult {
@@ -206,7 +200,7 @@ pub struct CheckResult {
     pub took_s: f64,
 }
 
-/// Runs the checks of `request` on `plugin`. Calls `tell` with each result.
+/// Runs the checks of `request` on `plugin`. Calls `begin` with the name of each check that starts, and `tell` with each result.
 ///
 /// # Errors
 /// [`DriverError`] if the plugin's library cannot be read.
@@ -214,6 +208,7 @@ pub fn check(
     host: &PluginHost,
     plugin: &Plugin,
     request: &CheckRequest,
+    begin: &mut dyn FnMut(&str),
     tell: &mut dyn FnMut(CheckResult),
 ) -> Result<(), DriverError> {
     // A plugin that cannot run at all breaks no promise. Its user gets the reason once.
@@ -225,15 +220,17 @@ pub fn check(
     // First failed check by driver and cause, so each cause fails only one check.
     let mut causes: BTreeMap<(Option<String>, String), &'static str> = BTreeMap::new();
     let wanted: Vec<Check> = checks().into_iter().filter(is_wanted).collect();
-    let held = held_together(&examination, request, &wanted, plugin);
+    let held = held_together(&examination, request, &wanted, plugin, begin);
+    let mut hangs = Hangs::default();
     for check in wanted {
         for key in subjects(&check, plugin) {
             let begun = Instant::now();
             let (mut outcome, took_s) = match held.get(&(key, check.name)) {
                 Some(took_s) => (Outcome::Passed, *took_s),
                 None => {
+                    begin(check.name);
                     let probe = Probe::of(request, check.name, key);
-                    let outcome = made(&examination, &probe, request.limit);
+                    let outcome = hangs.check(&examination, &probe, check.name, request.limit);
                     (outcome, begun.elapsed().as_secs_f64())
                 }
             };
@@ -257,102 +254,6 @@ pub fn check(
         }
     }
     Ok(())
-}
-
-/// Runs one check in a child.
-fn made(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> Outcome {
-    let call = Arc::new(Mutex::new(String::new()));
-    let order = ExaminationOrder {
-        driver: &probe.driver,
-        arguments: &probe.arguments,
-        limit,
-        log: noting(&call),
-    };
-    let printed = examination.run(order, |arguments| {
-        let probe = Probe {
-            arguments,
-            ..probe.clone()
-        };
-        serde_json::to_vec(&probe).expect("texts and numbers")
-    });
-    let (error, withheld, lacks_bound) = match printed {
-        Ok(printed) if probe.check == library::QUIET && !printed.is_empty() => {
-            return Outcome::Failed(format!("it printed {printed:?}"));
-        }
-        Ok(_) => return Outcome::Passed,
-        Err(ExaminationError::Unready(why)) => return Outcome::Failed(why),
-        Err(ExaminationError::Child {
-            error,
-            withheld,
-            lacks_bound,
-        }) => (error, withheld, lacks_bound),
-    };
-    let call = call.lock().unwrap_or_else(PoisonError::into_inner);
-    let outcome = ended(hung_in(*error, &call));
-    // A plugin may report a withheld resource as missing, which would not count as a failure.
-    match &outcome {
-        // Its arguments name a resource without permission, so host names were not resolved either. This counts as one cause, for any report of the
-        // plugin.
-        Outcome::Failed(why) | Outcome::Skipped(why)
-            if lacks_bound && (why.starts_with(NO_DEVICE) || why.contains(NOT_OPENED)) =>
-        {
-            Outcome::Failed(format!("{NOT_ALLOWED}; {withheld}"))
-        }
-        Outcome::Failed(why) | Outcome::Skipped(why) => {
-            let explained = withheld.explain(why);
-            explained.map_or(outcome, Outcome::Failed)
-        }
-        Outcome::Passed => outcome,
-    }
-}
-
-/// Log that stores the pending call of a check in `call`.
-fn noting(call: &Arc<Mutex<String>>) -> Log {
-    let call = Arc::clone(call);
-    Box::new(move |_, target, message| {
-        if target == CALL {
-            message.clone_into(&mut call.lock().unwrap_or_else(PoisonError::into_inner));
-        }
-    })
-}
-
-/// Error of a check that was killed. Names the hanging call, if known.
-fn hung_in(error: ChildError, call: &str) -> ChildError {
-    match error {
-        ChildError::Gone {
-            plugin,
-            fate: Fate::Late { after, .. },
-            printed,
-        } if !call.is_empty() => ChildError::Gone {
-            plugin,
-            fate: Fate::Late {
-                doing: call.to_owned(),
-                after,
-            },
-            printed,
-        },
-        other => other,
-    }
-}
-
-fn ended(error: ChildError) -> Outcome {
-    match error {
-        ChildError::Refused {
-            kind: ErrorKind::Unsupported,
-            why,
-            ..
-        } if why.starts_with(run::SKIPPED) => {
-            Outcome::Skipped(why[run::SKIPPED.len()..].to_owned())
-        }
-        ChildError::Refused { why, .. } => Outcome::Failed(why),
-        ChildError::Gone { fate, printed, .. } if printed.is_empty() => {
-            Outcome::Failed(format!("the process ended: {fate}"))
-        }
-        ChildError::Gone { fate, printed, .. } => {
-            Outcome::Failed(format!("the process ended: {fate}; it printed {printed:?}"))
-        }
-        other => Outcome::Failed(other.to_string()),
-    }
 }
 
 /// Driver or estimator keys of a check; a single `None` for the plugin as a whole.

@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use taceva_core::{ArgSpec, Args, Descriptor, Facts};
+use taceva_core::{ArgSpec, Args, Descriptor, Facts, Presence};
 
 /// True if `args` set an argument of `descriptor` that may change its facts.
 pub(crate) fn changes_facts(descriptor: &Descriptor, args: &Args) -> bool {
@@ -38,14 +38,37 @@ pub(crate) fn difference(manifest: &Descriptor, library: &Descriptor) -> Option<
 
 /// First difference between two lists of arguments, apart from help texts.
 pub(crate) fn arguments([manifest, library]: [&[ArgSpec]; 2]) -> Option<[String; 3]> {
-    let number = [manifest.len(), library.len()];
-    differ("the number of arguments", number).or_else(|| {
-        manifest.iter().zip(library).find_map(|(promised, said)| {
-            let name = format!("argument `{}`", promised.key);
-            let said = said.clone().help(&promised.help);
-            differ(&name, [promised, &said])
-        })
+    let keys = |specs: &[ArgSpec]| {
+        let keys: Vec<String> = specs.iter().map(|spec| format!("`{}`", spec.key)).collect();
+        match keys.is_empty() {
+            true => "none".to_owned(),
+            false => keys.join(", "),
+        }
+    };
+    let [promised, said] = [manifest, library].map(keys);
+    if promised != said {
+        return Some(["arguments".to_owned(), promised, said]);
+    }
+    manifest.iter().zip(library).find_map(|(promised, said)| {
+        let is_alike = *promised == said.clone().help(&promised.help);
+        let name = format!("argument `{}`", promised.key);
+        (!is_alike).then(|| [name, declared(promised), declared(said)])
     })
+}
+
+/// Declaration of an argument in words, without its help.
+fn declared(spec: &ArgSpec) -> String {
+    let presence = match &spec.presence {
+        Presence::Required => "required".to_owned(),
+        Presence::Optional => "optional".to_owned(),
+        Presence::Default(value) => format!("`{value}` by default"),
+    };
+    let changes = if spec.changes_facts {
+        ", changes facts"
+    } else {
+        ""
+    };
+    format!("{}, {presence}{changes}", spec.expected())
 }
 
 fn differ<T: PartialEq + Debug>(name: &str, [manifest, library]: [T; 2]) -> Option<[String; 3]> {
@@ -121,6 +144,31 @@ mod tests {
         let simulated = with(60.0, DriverSource::Simulated);
         let found = difference(&simulated, "speed=2");
         assert_eq!(found.as_deref(), Some("source"));
+    }
+
+    #[test]
+    fn other_arguments_are_named_in_words_and_other_helps_are_no_difference() {
+        let strength = || ArgSpec::number("strength", 0.0, 9.0).help("of the penalty");
+        let quantile = ArgSpec::number("quantile", 0.0, 1.0).help("of the labels");
+        let found = |one: &[ArgSpec], other: &[ArgSpec]| arguments([one, other]);
+        let said = |words: [&str; 3]| Some(words.map(str::to_owned));
+        assert_eq!(
+            found(&[strength()], &[quantile]),
+            said(["arguments", "`strength`", "`quantile`"])
+        );
+        assert_eq!(
+            found(&[], &[strength()]),
+            said(["arguments", "none", "`strength`"])
+        );
+        assert_eq!(
+            found(&[strength()], &[strength().unit("mm").optional()]),
+            said([
+                "argument `strength`",
+                "a number from 0 to 9, required",
+                "a number from 0 to 9 mm, optional"
+            ])
+        );
+        assert_eq!(found(&[strength()], &[strength().help("other")]), None);
     }
 
     #[test]

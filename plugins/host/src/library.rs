@@ -310,6 +310,7 @@ fn identity(
                 what: what.to_owned(),
                 manifest: format!("`{expected}`"),
                 library: format!("`{}`", crate::text::shown(said)),
+                module: manifest.module().map(|module| module.name.clone()),
             });
         }
     }

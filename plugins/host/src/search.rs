@@ -39,6 +39,8 @@ pub struct Plugin {
     pub code: Code,
     /// For a Python module: the interpreter of its environment, or the first known one. `None` for a library.
     pub interpreter: Option<Interpreter>,
+    /// Interpreters that were named but rejected, with the reasons.
+    rejected_interpreters: Vec<String>,
 }
 
 /// Code of a plugin.
@@ -71,6 +73,14 @@ impl Plugin {
     /// Id of the plugin.
     pub fn id(&self) -> &PluginId {
         &self.manifest.id
+    }
+
+    /// Error for a Python module without an interpreter.
+    #[cfg(target_os = "linux")]
+    pub(crate) fn no_interpreter(&self) -> crate::python::PythonError {
+        crate::python::PythonError::NoInterpreter {
+            rejected: self.rejected_interpreters.clone(),
+        }
     }
 }
 
@@ -197,6 +207,7 @@ struct Searching {
     rejections: Vec<Rejection>,
     seen: BTreeSet<PathBuf>,
     interpreters: Vec<Interpreter>,
+    rejected_interpreters: Vec<String>,
     writable: Writable,
 }
 
@@ -299,6 +310,7 @@ impl Searching {
             place,
             code,
             interpreter: None,
+            rejected_interpreters: self.rejected_interpreters.clone(),
         })
     }
 

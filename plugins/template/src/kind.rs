@@ -74,6 +74,22 @@ impl Kind {
         format!("{} {noun}", if is_vowel { "An" } else { "A" })
     }
 
+    /// First step of its author, in words before a colon.
+    pub(crate) const fn introduction(self) -> &'static str {
+        match self {
+            Kind::Estimator => "Replace its fit and its predictions by your own",
+            _ => "It is a simulation until you connect a device",
+        }
+    }
+
+    /// Arguments of `taceva` that list or use it, with the name left to be filled in.
+    pub(crate) const fn usage(self) -> &'static str {
+        match self {
+            Kind::Estimator => "evaluate RECORDING --model org.example.@name@/@name@",
+            _ => "devices",
+        }
+    }
+
     pub(crate) const fn files(self) -> Files {
         match self {
             Kind::Sensor => files!("sensor"),

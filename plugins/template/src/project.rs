@@ -50,7 +50,9 @@ pub struct File {
 pub fn project(kind: Kind, name: &Name, sources: Sources) -> Vec<File> {
     let of_kind = kind.files();
     let fill = |text: &str| {
-        text.replace("@name@", name.as_str())
+        text.replace("@introduction@", kind.introduction())
+            .replace("@use@", kind.usage())
+            .replace("@name@", name.as_str())
             .replace("@crate@", &name.as_crate())
             .replace("@kind@.rs", &format!("{}.rs", kind.name()))
             .replace("@A kind@", &kind.noun_with_article())

@@ -42,7 +42,9 @@ pub fn torch_project(name: &Name) -> Vec<File> {
 /// Files of a package with this module and manifest.
 fn files(kind: Kind, name: &Name, module: &str, manifest: &str, dependencies: &str) -> Vec<File> {
     let fill = |text: &str| {
-        text.replace("@name@", name.as_str())
+        text.replace("@introduction@", kind.introduction())
+            .replace("@use@", kind.usage())
+            .replace("@name@", name.as_str())
             .replace("@crate@", &name.as_crate())
             .replace("@A kind@", &kind.noun_with_article())
             .replace("@kind@", kind.noun())
@@ -88,6 +90,26 @@ mod tests {
                 for left in ["@name@", "@crate@", "kind@", "@dependencies@"] {
                     assert!(!file.text.contains(left), "{}: {left}", file.path);
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn the_readme_evaluates_an_estimator_and_lists_a_device() {
+        let name: Name = "my-device".parse().expect("a name");
+        for kind in Kind::ALL {
+            let in_rust = project(kind, &name, Sources::Registry);
+            let files = in_rust.into_iter().chain(python_project(kind, &name));
+            for readme in files.filter(|file| file.path == "README.md") {
+                let evaluates = "taceva evaluate RECORDING --model org.example.my-device/my-device";
+                let is_estimator = kind == Kind::Estimator;
+                assert_eq!(readme.text.contains(evaluates), is_estimator, "{kind}");
+                assert_eq!(
+                    readme.text.contains("taceva devices"),
+                    !is_estimator,
+                    "{kind}"
+                );
+                assert_eq!(readme.text.contains("a device"), !is_estimator, "{kind}");
             }
         }
     }

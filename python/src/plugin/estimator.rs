@@ -8,7 +8,7 @@ use taceva_core::{
 };
 use taceva_host::EstimatorInfo;
 
-use super::failure::{kind, short_words};
+use super::failure::{kind, line_of, short_words};
 use super::objects::keywords;
 use super::training::{Training, watched};
 use crate::arrays::Table;
@@ -144,15 +144,42 @@ impl Fitted {
         let numpy = py.import("numpy")?;
         let seen = numpy.call_method1("asarray", (features(py, given)?,))?;
         let said = self.object.call_method1(py, "predict", (seen,))?;
+        if said.is_none(py) {
+            let why = format!(
+                "`predict` returned None, expected an array {:?}: one row per sample, one column per channel",
+                [given.samples(), self.channels.len()]
+            );
+            return Err(self.at_predict(py, value_error(why)));
+        }
         // Applies the same checks as to models outside of plugins: rejects complex numbers and matches named columns by name.
         let names = self.channels.iter().map(|channel| channel.name());
         let names: Vec<&str> = names.collect();
         let rows = py.import("taceva._predictions")?.call_method1(
             "prediction_rows",
             (said, "the model", given.samples(), names),
-        )?;
+        );
+        let rows = rows.map_err(|error| self.at_predict(py, error))?;
         let table = Table::of(&rows, "the prediction", self.channels.len())?;
         Ok(table.row_by_row(py))
+    }
+
+    /// `error` about predictions with the line where the author defines `predict`, which has returned.
+    fn at_predict(&self, py: Python<'_>, error: PyErr) -> PyErr {
+        let line = || -> PyResult<String> {
+            let code = self
+                .object
+                .bind(py)
+                .getattr("predict")?
+                .getattr("__code__")?;
+            let file: String = code.getattr("co_filename")?.extract()?;
+            Ok(line_of(&file, code.getattr("co_firstlineno")?.extract()?))
+        };
+        match line() {
+            Ok(line) => {
+                PyErr::from_type(error.get_type(py), format!("{} ({line})", error.value(py)))
+            }
+            Err(_) => error,
+        }
     }
 }
 

@@ -2,8 +2,8 @@
 
 use pyo3::exceptions::{
     PyConnectionError, PyEOFError, PyFileNotFoundError, PyModuleNotFoundError,
-    PyNotImplementedError, PyPermissionError, PyRecursionError, PyTimeoutError, PyTypeError,
-    PyValueError,
+    PyNotImplementedError, PyPermissionError, PyRecursionError, PySyntaxError, PyTimeoutError,
+    PyTypeError, PyValueError,
 };
 use pyo3::prelude::*;
 use taceva_core::{DriverError, DriverKey, ErrorKind, Fault};
@@ -103,6 +103,10 @@ fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
     let name = name.map_or_else(|_| "an exception".to_owned(), |name| name.to_string());
     let message = error.value(py).str();
     let message = message.map_or_else(|_| String::new(), |message| message.to_string());
+    let unread = unread_line(py, error);
+    let message = unread
+        .as_ref()
+        .map_or(message, |(message, _)| message.clone());
     let (said, mut behind) = match message.trim() {
         "" => (name, String::new()),
         // Message of the dynamic loader for a library that is loaded too late.
@@ -124,7 +128,8 @@ fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
     if error.is_instance_of::<PyRecursionError>(py) {
         behind.push_str("; it recurses too deeply");
     }
-    if let Some(place) = place(py, error) {
+    let place = unread.map(|(_, place)| place);
+    if let Some(place) = place.or_else(|| self::place(py, error)) {
         behind.push_str(&format!(" ({place})"));
     }
     // A path that fills the space is shortened like the message.
@@ -168,21 +173,49 @@ fn library(message: &str) -> &str {
     path.rsplit('/').next().unwrap_or(path)
 }
 
-/// Innermost file and line of the traceback of the exception.
+/// Message of a syntax error, and the line that could not be read. The text of the error has the name of the file without its folder.
+fn unread_line(py: Python<'_>, error: &PyErr) -> Option<(String, String)> {
+    if !error.is_instance_of::<PySyntaxError>(py) {
+        return None;
+    }
+    let error = error.value(py);
+    let message: String = error.getattr("msg").ok()?.extract().ok()?;
+    let file: String = error.getattr("filename").ok()?.extract().ok()?;
+    let line: u32 = error.getattr("lineno").ok()?.extract().ok()?;
+    Some((message, line_of(&file, line)))
+}
+
+/// A line of a file, for messages.
+pub(super) fn line_of(file: &str, line: u32) -> String {
+    format!("{file}, line {line}")
+}
+
+/// Innermost file and line of the traceback of the exception, in the code of the plugin if there is one.
 fn place(py: Python<'_>, error: &PyErr) -> Option<String> {
+    let own = own_folder(py);
     let mut trace = error.traceback(py)?.into_any();
     let mut innermost = None;
     loop {
         let line: u32 = trace.getattr("tb_lineno").ok()?.extract().ok()?;
         let code = trace.getattr("tb_frame").ok()?.getattr("f_code").ok()?;
         let file: String = code.getattr("co_filename").ok()?.extract().ok()?;
-        // The functions that it puts in place of others are no code of the plugin.
-        if innermost.is_none() || !file.ends_with("/plugin_child.py") {
-            innermost = Some(format!("{file}, line {line}"));
+        // Functions of this package and of the interpreter itself are no code of the plugin.
+        let is_own =
+            file.starts_with("<frozen ") || own.as_deref().is_some_and(|own| file.starts_with(own));
+        if innermost.is_none() || !is_own {
+            innermost = Some(line_of(&file, line));
         }
         match trace.getattr("tb_next") {
             Ok(next) if !next.is_none() => trace = next,
             _ => return innermost,
         }
     }
+}
+
+/// Folder of the package `taceva`, with `/` at its end; `None` before its import.
+fn own_folder(py: Python<'_>) -> Option<String> {
+    let modules = py.import("sys").ok()?.getattr("modules").ok()?;
+    let package = modules.get_item("taceva").ok()?;
+    let file: String = package.getattr("__file__").ok()?.extract().ok()?;
+    file.strip_suffix("__init__.py").map(str::to_owned)
 }

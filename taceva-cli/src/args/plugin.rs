@@ -17,7 +17,7 @@ pub(crate) struct PluginArgs {
     /// Ask this Python interpreter for the plugins in its environment, and run Python plugins with it; may be repeated
     #[arg(long = "python", global = true, value_name = "FILE")]
     pub(crate) interpreters: Vec<PathBuf>,
-    /// Run the code of this plugin in this process instead of a sandboxed one; may be repeated
+    /// Run this plugin without confinement, a library in this process and Python in a process of its own; may be repeated
     #[arg(long = "trust", global = true, value_name = "ID")]
     pub(crate) trusted: Vec<PluginId>,
 }

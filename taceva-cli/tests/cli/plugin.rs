@@ -273,3 +273,25 @@ fn a_plugin_in_python_cannot_run_without_an_interpreter() {
     );
     assert!(!doctor.out.contains("--trust"), "{}", doctor.out);
 }
+
+#[test]
+fn the_help_says_where_a_trusted_plugin_runs() {
+    let help = Bench::new().ok("plugin list --help");
+    let words: Vec<&str> = help.split_whitespace().collect();
+    let said = "without confinement, a library in this process and Python in a process of its own";
+    assert!(words.join(" ").contains(said), "{help}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interpreter_that_was_named_and_cannot_run_a_plugin_is_named_with_the_reason() {
+    let bench = Bench::new();
+    bench.ok("plugin new sensor my-eye --language python");
+    let named = "--plugin-dir my-eye/src/my_eye --python /nonexistent/python";
+    let why = "no named interpreter can run it: /nonexistent/python: cannot be started: ";
+    let listed = bench.ok(&format!("plugin list {named}"));
+    assert!(listed.contains(why), "{listed}");
+    let checked = bench.run(&format!("plugin check org.example.my-eye {named}"));
+    assert_ne!(checked.code, 0, "{}", checked.out);
+    assert!(checked.err.contains(why), "{}", checked.err);
+}

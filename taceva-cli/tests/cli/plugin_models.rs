@@ -92,7 +92,7 @@ fn without_its_plugin_a_model_is_refused_by_name() {
     bench.refused(
         &format!("fit set --model {MODEL} --out other.model"),
         2,
-        "no available plugin has the model `org.example.nearest/nearest`",
+        "no available plugin has the model `org.example.nearest/nearest`: give the folder of its plugin.toml by `--plugin-dir`",
     );
     bench.refused(
         "fit set --model org.example.nearest/nearst --out other.model --plugin-dir nearest",

@@ -74,10 +74,16 @@ impl UnknownModel {
         let known: Vec<&str> = known.into_iter().collect();
         let library = library_of(name);
         let offers = |library: &str| known.iter().any(|known| library_of(known) == Some(library));
+        let whole = known
+            .iter()
+            .find(|known| known.rsplit_once('/').is_some_and(|(_, key)| key == name));
         UnknownModel {
             name: name.to_owned(),
             feature: library.filter(|library| !offers(library)),
-            suggestion: Suggestion::of(name, known),
+            suggestion: match whole {
+                Some(whole) => Suggestion::meaning(whole),
+                None => Suggestion::of(name, known),
+            },
         }
     }
 }
@@ -91,11 +97,19 @@ impl fmt::Display for UnknownModel {
                 "`{name}`: this program was built without the feature `{feature}`: build it with `--features {feature}`"
             );
         }
-        let what = match (library_of(&self.name), self.name.contains('/')) {
-            (None, true) => "no available plugin has the model",
-            _ => "no model is called",
-        };
-        write!(f, "{what} `{name}`, {}", self.suggestion)
+        let is_of_plugin = library_of(&self.name).is_none() && self.name.contains('/');
+        match (is_of_plugin, self.suggestion.nearest()) {
+            (true, None) => write!(
+                f,
+                "no available plugin has the model `{name}`: give the folder of its plugin.toml by `--plugin-dir`; `taceva plugin list` shows the plugins that are found"
+            ),
+            (true, Some(_)) => write!(
+                f,
+                "no available plugin has the model `{name}`, {}",
+                self.suggestion
+            ),
+            (false, _) => write!(f, "no model is called `{name}`, {}", self.suggestion),
+        }
     }
 }
 

@@ -18,6 +18,14 @@ impl Suggestion {
         Suggestion { nearest, known }
     }
 
+    /// Suggests `word` alone.
+    pub(crate) fn meaning(word: &str) -> Suggestion {
+        Suggestion {
+            nearest: Some(word.to_owned()),
+            known: vec![word.to_owned()],
+        }
+    }
+
     /// Most similar word. `None` if no word is similar.
     pub fn nearest(&self) -> Option<&str> {
         self.nearest.as_deref()

@@ -21,6 +21,8 @@ pub(crate) struct Case {
     pub(crate) order: Option<f64>,
     /// True for a deeper form of another model, which represents it where every model is fitted several times.
     pub(crate) deeper: bool,
+    /// True if predictions do not depend on the features, so a fit is too short to be cancelled.
+    pub(crate) is_constant: bool,
     /// True if principal components may replace pixels.
     pub(crate) components: bool,
     /// Largest root mean square error on the blobs; the labels have a standard deviation of 4.
@@ -41,6 +43,7 @@ pub(crate) const fn case(name: &'static str, words: &'static [&'static str], err
         least: 2,
         order: Some(1e-9),
         deeper: false,
+        is_constant: false,
         components: true,
         error,
         blob: BLOB,

@@ -13,7 +13,10 @@ const fn network(name: &'static str) -> Case {
 }
 
 pub(crate) const BUILT_IN: &[Case] = &[
-    case("baseline", &[], 5.0),
+    Case {
+        is_constant: true,
+        ..case("baseline", &[], 5.0)
+    },
     case("ridge", &[], 0.6),
     case("pls", &[], 0.6),
     // The path ends once a sweep changes little, for any start.

@@ -6,8 +6,9 @@ use std::time::Instant;
 use taceva_core::DriverKey;
 use taceva_host::{Examination, Plugin};
 
+use super::attempt::attempt;
 use super::probe::Probe;
-use super::{Check, CheckRequest, made, subjects};
+use super::{Check, CheckRequest, subjects};
 use crate::report::Outcome;
 
 /// Names of these checks, for the library and for estimators.
@@ -32,12 +33,13 @@ pub(super) const BETWEEN: &str = ",";
 /// single failure does not tell which other checks would pass.
 pub(super) type HeldTogether<'a> = BTreeMap<(Option<&'a DriverKey>, &'static str), f64>;
 
-/// Runs these checks of `wanted` in one process per subject.
+/// Runs these checks of `wanted` in one process per subject. Calls `begin` with their names.
 pub(super) fn held_together<'a>(
     examination: &Examination<'_>,
     request: &CheckRequest,
     wanted: &[Check],
     plugin: &'a Plugin,
+    begin: &mut dyn FnMut(&str),
 ) -> HeldTogether<'a> {
     let mut by_subject: BTreeMap<Option<&DriverKey>, Vec<&'static str>> = BTreeMap::new();
     for check in wanted.iter().filter(|check| NAMES.contains(&check.name)) {
@@ -51,8 +53,9 @@ pub(super) fn held_together<'a>(
             continue;
         };
         let probe = Probe::of(request, &names.join(BETWEEN), key);
+        begin(&names.join(", "));
         let begun = Instant::now();
-        if made(examination, &probe, request.limit) == Outcome::Passed {
+        if attempt(examination, &probe, request.limit).outcome == Outcome::Passed {
             let took_s = (begun.elapsed() / count).as_secs_f64();
             held.extend(names.into_iter().map(|name| ((key, name), took_s)));
         }

@@ -23,9 +23,13 @@ fn checked(fixture: &Fixture, only: &[&str]) -> Vec<CheckResult> {
         ..CheckRequest::default()
     };
     let mut results = Vec::new();
-    check(&host, &fixture.plugin(), &request, &mut |result| {
-        results.push(result)
-    })
+    check(
+        &host,
+        &fixture.plugin(),
+        &request,
+        &mut |_| {},
+        &mut |result| results.push(result),
+    )
     .expect("its library can be read");
     results
 }
@@ -68,6 +72,10 @@ pub(crate) const TESTS: &[Test] = &[
         what_a_library_says_that_it_needs_stands_in_its_manifest,
     ),
     (
+        "checks_that_hang_in_the_call_of_an_earlier_one_are_skipped",
+        checks_that_hang_in_the_call_of_an_earlier_one_are_skipped,
+    ),
+    (
         "readings_with_one_number_are_found_frozen",
         readings_with_one_number_are_found_frozen,
     ),
@@ -87,6 +95,22 @@ fn finds(macros: &[&str], check: &str, words: &str) {
         .iter()
         .any(|result| matches!(&result.outcome, Outcome::Failed(why) if why.contains(words)));
     assert!(found, "{macros:?}: {results:#?}");
+}
+
+fn checks_that_hang_in_the_call_of_an_earlier_one_are_skipped() {
+    let Some(fixture) = Fixture::built(&["HANGS"]) else {
+        return;
+    };
+    let results = checked(&fixture, &["driver/opens"]);
+    let failed: Vec<&str> = (results.iter())
+        .filter(|result| matches!(result.outcome, Outcome::Failed(_)))
+        .map(|result| result.check)
+        .collect();
+    assert_eq!(failed, ["driver/opens"], "{results:#?}");
+    let why = "it did not open the device, as in `driver/opens`, which failed";
+    let skipped = Outcome::Skipped(why.to_owned());
+    let skipped = results.iter().filter(|result| result.outcome == skipped);
+    assert!(skipped.count() >= 2, "{results:#?}");
 }
 
 fn every_kind_of_mistake_is_found_by_a_check() {
@@ -193,16 +217,22 @@ fn a_device_of_each_kind_in_cpp_keeps_every_promise() {
     let plugin = host.plugins().get("org.example.kinds").expect("found");
     assert_eq!(plugin.manifest.drivers().count(), 5);
     let (mut made, mut failed) = (0, Vec::new());
-    check(&host, plugin, &CheckRequest::default(), &mut |result| {
-        made += 1;
-        // A wait of at most 50 ms may take longer if other programs use the machine.
-        let is_timed = result.check.ends_with("within-50-ms");
-        if let Outcome::Failed(why) = result.outcome
-            && !is_timed
-        {
-            failed.push(format!("{} of {:?}: {why}", result.check, result.subject));
-        }
-    })
+    check(
+        &host,
+        plugin,
+        &CheckRequest::default(),
+        &mut |_| {},
+        &mut |result| {
+            made += 1;
+            // A wait of at most 50 ms may take longer if other programs use the machine.
+            let is_timed = result.check.ends_with("within-50-ms");
+            if let Outcome::Failed(why) = result.outcome
+                && !is_timed
+            {
+                failed.push(format!("{} of {:?}: {why}", result.check, result.subject));
+            }
+        },
+    )
     .expect("it can be checked");
     assert!(failed.is_empty(), "{}", failed.join("\n"));
     assert!(made > 90, "{made} checks");

@@ -79,13 +79,16 @@ impl Plugin {
                 spec
             }
             (ReadCode::Package(_), Some(module)) => {
-                let interpreter = self.interpreter.as_ref().ok_or(PythonError::NoInterpreter);
+                let interpreter = self
+                    .interpreter
+                    .as_ref()
+                    .ok_or_else(|| self.no_interpreter());
                 let spec =
                     interpreter.and_then(|interpreter| interpreter.spec(self, module, is_trusted));
                 spec.map_err(|error| error.of_driver(driver))?
             }
             (ReadCode::Package(_), None) => {
-                return Err(PythonError::NoInterpreter.of_driver(driver));
+                return Err(self.no_interpreter().of_driver(driver));
             }
         };
         spec.confinement.is_trusted = is_trusted;

@@ -6,8 +6,6 @@ use super::PluginHost;
 #[cfg(target_os = "linux")]
 use crate::child::{Child, ChildSpec};
 use crate::config::Trust;
-#[cfg(target_os = "linux")]
-use crate::python::PythonError;
 use crate::search::Plugin;
 
 /// Isolation in which a plugin's code would run.
@@ -57,7 +55,7 @@ impl PluginHost {
         let needs = self.config.allowed(plugin);
         let runs = plugin.interpreter.as_ref().zip(plugin.module());
         if plugin.module().is_some() && runs.is_none() {
-            return Keeping::Refused(PythonError::NoInterpreter.to_string());
+            return Keeping::Refused(plugin.no_interpreter().to_string());
         }
         let of =
             runs.map(|(interpreter, module)| (interpreter.program().to_owned(), module.profile));

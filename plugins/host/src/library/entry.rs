@@ -205,6 +205,7 @@ fn described(
             what: driver(),
             manifest: format!("{place}, by its factory"),
             library: said.to_string(),
+            module: None,
         });
     }
     Ok((provided, text))
@@ -233,10 +234,12 @@ fn agree(
     manifest: &Manifest,
     minor: u32,
 ) -> Result<(), LoadProblem> {
+    let module = manifest.module().map(|module| module.name.clone());
     let differs = |what: String, manifest: &str, library: &str| LoadProblem::Differs {
         what,
         manifest: manifest.to_owned(),
         library: library.to_owned(),
+        module: module.clone(),
     };
     for promised in &manifest.provides {
         let key = promised.key();

@@ -127,6 +127,8 @@ pub enum LoadProblem {
         manifest: String,
         /// Value in the library.
         library: String,
+        /// Name of the Python module that stands for the library; `None` for a library.
+        module: Option<String>,
     },
     /// A required function is NULL.
     Lacks {
@@ -221,9 +223,19 @@ impl fmt::Display for LoadProblem {
                 what,
                 manifest,
                 library,
+                module: None,
             } => write!(
                 f,
                 "{what}: the manifest says {manifest}, the library {library}"
+            ),
+            LoadProblem::Differs {
+                what,
+                manifest,
+                library,
+                module: Some(module),
+            } => write!(
+                f,
+                "{what}: the manifest says {manifest}, the module {library}; run `python -m taceva.plugin manifest {module} --write`"
             ),
             LoadProblem::Lacks { what } => write!(f, "its `{what}` is NULL"),
             LoadProblem::Init(failure) => write!(f, "its `init` failed: {failure}"),
@@ -233,5 +245,28 @@ impl fmt::Display for LoadProblem {
                 write!(f, "its description of {driver} is invalid, {source}")
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_module_that_differs_from_its_manifest_is_named_with_the_command_that_mends_it() {
+        let differs = |module: Option<&str>| LoadProblem::Differs {
+            what: "`median`, arguments".to_owned(),
+            manifest: "`strength`".to_owned(),
+            library: "`quantile`".to_owned(),
+            module: module.map(str::to_owned),
+        };
+        assert_eq!(
+            differs(Some("my_median")).to_string(),
+            "`median`, arguments: the manifest says `strength`, the module `quantile`; run `python -m taceva.plugin manifest my_median --write`"
+        );
+        assert_eq!(
+            differs(None).to_string(),
+            "`median`, arguments: the manifest says `strength`, the library `quantile`"
+        );
     }
 }

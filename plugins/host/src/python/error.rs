@@ -11,11 +11,12 @@ use crate::wire_version::WIRE;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PythonError {
-    /// No interpreter is known.
-    #[error(
-        "it is written in Python, and no interpreter is known: name one by `--python VENV/bin/python`, or for every command by `python = [\"…\"]` below `[plugins]` of ~/.config/taceva/config.toml"
-    )]
-    NoInterpreter,
+    /// No interpreter can run it.
+    #[error("it is written in Python, and {}", without_interpreter(rejected))]
+    NoInterpreter {
+        /// The named interpreters, each with the reason why it cannot.
+        rejected: Vec<String>,
+    },
     /// The interpreter is missing or cannot be started.
     #[error(
         "{}: cannot be started: {source}; expected the interpreter of an environment with `taceva`, such as .venv/bin/python",
@@ -97,7 +98,9 @@ impl PythonError {
     /// Kind of the failure.
     pub fn kind(&self) -> ErrorKind {
         match self {
-            PythonError::NoInterpreter | PythonError::NoPackage { .. } => ErrorKind::NotFound,
+            PythonError::NoInterpreter { .. } | PythonError::NoPackage { .. } => {
+                ErrorKind::NotFound
+            }
             PythonError::WorldWritable { .. } | PythonError::Closed { .. } => {
                 ErrorKind::PermissionDenied
             }
@@ -111,6 +114,14 @@ impl PythonError {
                 }
             }
         }
+    }
+}
+
+/// Reason why no interpreter runs a plugin, in words that follow "and".
+fn without_interpreter(rejected: &[String]) -> String {
+    match rejected {
+        [] => "no interpreter is known: name one by `--python VENV/bin/python`, or for every command by `python = [\"…\"]` below `[plugins]` of ~/.config/taceva/config.toml".to_owned(),
+        rejected => format!("no named interpreter can run it: {}", rejected.join("; ")),
     }
 }
 

@@ -21,7 +21,9 @@ impl Searching {
                 let said = error.to_string();
                 let why = said.strip_prefix(&own).unwrap_or(&said);
                 let reason = Reason::Python(why.to_owned());
-                self.rejections.push(reason.of(program, Place::Python));
+                let rejection = reason.of(program, Place::Python);
+                self.rejected_interpreters.push(rejection.to_string());
+                self.rejections.push(rejection);
                 return;
             }
         };

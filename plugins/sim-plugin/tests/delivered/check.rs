@@ -13,7 +13,8 @@ fn checked(host: &Arc<PluginHost>) -> (usize, Vec<String>) {
     let plugin = host.plugins().iter().next().expect("one plugin");
     let mut made = 0;
     let mut failed = Vec::new();
-    taceva_conformance::check(host, plugin, &CheckRequest::default(), &mut |result| {
+    let request = CheckRequest::default();
+    taceva_conformance::check(host, plugin, &request, &mut |_| {}, &mut |result| {
         made += 1;
         if let Outcome::Failed(why) = &result.outcome {
             failed.push(format!("{} of {:?}: {why}", result.check, result.subject));

@@ -1,6 +1,8 @@
 //! `taceva plugin check`.
 
 use std::collections::BTreeMap;
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::thread;
 use std::time::Duration;
 
 use taceva_conformance::{CheckRequest, Outcome};
@@ -9,7 +11,10 @@ use taceva_drivers::Selector;
 
 use crate::args::{ListFormat, PluginCheck};
 use crate::cmd::{Context, Usage};
-use crate::{exit, output, report};
+use crate::{exit, output, report, stderr};
+
+/// Time after which a check is named while it runs.
+const LONG: Duration = Duration::from_secs(10);
 
 pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
     let to = &args.output;
@@ -37,7 +42,15 @@ pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
     // On standard output each check is printed when it is finished; JSON and files are written at the end.
     let is_watched = to.format == ListFormat::Text && to.path.is_none();
     let mut results = Vec::new();
-    taceva_conformance::check(&host, plugin, &request, &mut |result| {
+    let (running, names) = mpsc::channel();
+    if !context.quiet {
+        // Where no thread can be started, the results alone are shown.
+        drop(thread::Builder::new().spawn(move || name_long_checks(&names)));
+    }
+    // Without a receiver nothing is named.
+    let mut begin = |name: &str| drop(running.send(Some(name.to_owned())));
+    taceva_conformance::check(&host, plugin, &request, &mut begin, &mut |result| {
+        drop(running.send(None));
         if is_watched {
             // A closed standard output is reported by the summary.
             let _ = output::write(None, |out| report::plugin_check::line(&result, out));
@@ -66,4 +79,22 @@ pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
     } else {
         exit::DONE
     })
+}
+
+/// Names each check that runs for long, until the sender is gone. It receives a name at the begin of a check, and `None` at its end.
+fn name_long_checks(names: &Receiver<Option<String>>) {
+    let mut running = None;
+    loop {
+        match names.recv_timeout(LONG) {
+            Ok(name) => running = name,
+            Err(RecvTimeoutError::Timeout) => {
+                if let Some(name) = running.take() {
+                    stderr::say(format_args!(
+                        "still checking {name}; `--limit SECONDS` sets the time that a check may take"
+                    ));
+                }
+            }
+            Err(RecvTimeoutError::Disconnected) => return,
+        }
+    }
 }

@@ -120,7 +120,7 @@ fn check(host: &PluginHost, plugin: &Plugin) -> anyhow::Result<()> {
         ..CheckRequest::default()
     };
     let mut failed = None;
-    taceva_conformance::check(host, plugin, &request, &mut |result| {
+    taceva_conformance::check(host, plugin, &request, &mut |_| {}, &mut |result| {
         if let Outcome::Failed(why) = result.outcome {
             failed.get_or_insert(format!("{}: {}: {why}", plugin.id(), result.check));
         }

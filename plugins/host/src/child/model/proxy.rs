@@ -2,7 +2,7 @@
 
 use std::os::fd::{AsFd, BorrowedFd};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use taceva_core::{
@@ -26,6 +26,23 @@ const ASKED_EVERY: Timespec = Timespec {
 
 /// Time in which a fit must end after it was cancelled.
 const ENDS_WITHIN: Duration = Duration::from_secs(5);
+
+/// Time without progress after which a fit is reported as silent.
+const SILENCE: Duration = Duration::from_secs(10);
+
+/// Time since the last progress of a fit. A long one is reported once.
+struct Silence {
+    since: Instant,
+    is_reported: bool,
+}
+
+impl Silence {
+    /// True at the first call after [`SILENCE`] without progress.
+    fn is_new(&mut self, now: Instant) -> bool {
+        let is_long = now.duration_since(self.since) >= SILENCE;
+        is_long && !std::mem::replace(&mut self.is_reported, is_long)
+    }
+}
 
 /// Maximum size of a saved model, bytes.
 const SAVED_MAX: u64 = 1 << 30;
@@ -51,6 +68,10 @@ impl ModelProxy {
     ) -> Result<ModelProxy, ModelError> {
         let mut talk = talk;
         let mut is_cancelled = None;
+        let mut silence = Silence {
+            since: Instant::now(),
+            is_reported: false,
+        };
         let failed = |failure: Failure| of_failure(&estimator, &failure);
         loop {
             if is_cancelled.is_none() && progress.is_cancelled() {
@@ -61,6 +82,12 @@ impl ModelProxy {
                 is_cancelled = Some(life.watch.begin("end a fit", after));
                 let line = format!(
                     "stopping the fit of {estimator}; its process is killed if it takes longer than {after:?}"
+                );
+                child.tell(Level::Warn, &line);
+            }
+            if is_cancelled.is_none() && silence.is_new(Instant::now()) {
+                let line = format!(
+                    "the fit of {estimator} has reported no progress for {SILENCE:?}; Ctrl-C stops it"
                 );
                 child.tell(Level::Warn, &line);
             }
@@ -76,6 +103,7 @@ impl ModelProxy {
                     continue;
                 }
                 Ok(ModelEvent::Advances { steps }) => {
+                    silence.since = Instant::now();
                     progress.advance(steps);
                     continue;
                 }
@@ -230,4 +258,20 @@ pub(crate) fn of_failure(estimator: &DriverKey, failure: &Failure) -> ModelError
 pub(crate) fn of_link(child: &Child, estimator: &DriverKey, error: LinkError) -> ModelError {
     let error = child.life().lost(error);
     ModelError::new(error.kind(), format!("{estimator}: {error}")).because(error)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fit_without_progress_is_reported_once() {
+        let since = Instant::now();
+        let mut silence = Silence {
+            since,
+            is_reported: false,
+        };
+        let after = [0, 9, 10, 11, 99].map(|s| silence.is_new(since + Duration::from_secs(s)));
+        assert_eq!(after, [false, false, true, false, false]);
+    }
 }
