@@ -62,7 +62,7 @@ pub use isa::{Isa, IsaError};
 pub use magnitude::{MAGNITUDE_MAX, is_scorable};
 pub use model::{
     Estimator, FeatureShape, Features, ModelError, Regressor, Saved, SavedRegressor, Targets,
-    TrainingSet,
+    TrainingSet, not_finite,
 };
 pub use nanometre::{Nanometre, NanometreError};
 pub use needs::Needs;

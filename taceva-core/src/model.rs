@@ -8,7 +8,7 @@ pub use error::ModelError;
 pub use features::{FeatureShape, Features};
 pub use training::{Targets, TrainingSet};
 
-use crate::channel::Channels;
+use crate::channel::{Channel, Channels};
 use crate::progress::Progress;
 
 /// A model with its settings, not fitted yet.
@@ -131,6 +131,27 @@ pub trait Regressor: Send + Sync {
     /// # Errors
     /// [`ModelError`] if a shape differs, or a prediction is not finite.
     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError>;
+}
+
+/// First prediction that is not finite, in words: its sample, its channel and its value. Each sample has a row of all `channels`.
+///
+/// ```
+/// use taceva_core::{Channel, Channels, not_finite};
+/// let channels = Channels::new([Channel::PX, Channel::FZ])?;
+/// assert_eq!(not_finite(&channels, &[0.5, 1.0]), None);
+/// let found = not_finite(&channels, &[0.5, 1.0, 0.5, f64::NAN]);
+/// assert_eq!(found.as_deref(), Some("sample 1, `Fz`: NaN, expected a number"));
+/// # Ok::<(), taceva_core::ChannelError>(())
+/// ```
+pub fn not_finite(channels: &Channels, predictions: &[f64]) -> Option<String> {
+    let place = predictions.iter().position(|value| !value.is_finite())?;
+    let width = channels.len().max(1);
+    let channel = channels.as_slice().get(place % width);
+    let channel = channel.map_or("", Channel::name);
+    let (sample, value) = (place / width, predictions[place]);
+    Some(format!(
+        "sample {sample}, `{channel}`: {value}, expected a number"
+    ))
 }
 
 /// A fitted model that can be saved as bytes in its own format, such as a plugin's format.

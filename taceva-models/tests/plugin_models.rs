@@ -224,10 +224,10 @@ fn without_its_plugin_or_against_its_will_no_model_is_loaded() {
 }
 
 #[test]
-fn predictions_that_are_no_numbers_or_left_out_are_refused_by_their_sample() {
+fn predictions_that_are_no_numbers_or_left_out_are_refused_by_their_sample_and_channel() {
     for (way, words) in [
-        (Way::NotFinite, "sample 0: inf, expected a number"),
-        (Way::LeavesOut, "sample 1: NaN, expected a number"),
+        (Way::NotFinite, "sample 0, `Fz`: inf, expected a number"),
+        (Way::LeavesOut, "sample 1, `Fz`: NaN, expected a number"),
     ] {
         let model = fit(way, &[], SPEC).expect("it learns");
         let error = model.predict(&asked()).expect_err("no numbers");

@@ -48,7 +48,8 @@ pub(crate) fn fit(
         reported: 0,
     };
     let mut regressor = EMPTY;
-    request.progress.begin(&format!("fit {key}"), Some(STEPS));
+    let stage = format!("fit {key}, in thousandths");
+    request.progress.begin(&stage, Some(STEPS));
     let training_set = training.set();
     let _under_way = pending_call::begin("fit");
     let done = call(|error| {

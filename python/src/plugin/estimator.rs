@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use taceva_core::{
     ArgSpec, Channels, DriverKey, ErrorKind, EstimatorFactory, FeatureShape, Features, FitRequest,
-    ModelError, Regressor, Saved, SavedRegressor, TrainingSet,
+    ModelError, Regressor, Saved, SavedRegressor, TrainingSet, not_finite,
 };
 use taceva_host::EstimatorInfo;
 
@@ -204,9 +204,7 @@ impl Regressor for Fitted {
             let why = format!("{} numbers for {}", predicted.len(), into.len());
             return Err(ModelError::new(ErrorKind::InvalidArgument, why));
         }
-        if let Some(place) = predicted.iter().position(|number| !number.is_finite()) {
-            let sample = place / self.channels.len().max(1);
-            let why = format!("sample {sample}: {}, expected a number", predicted[place]);
+        if let Some(why) = not_finite(&self.channels, &predicted) {
             return Err(ModelError::new(ErrorKind::DeviceFault, why));
         }
         into.copy_from_slice(&predicted);

@@ -13,7 +13,7 @@ use super::Context;
 use super::live_predictions::{LivePredictions, read_model};
 use super::on_page::OnPage;
 use crate::args::{Capture, LiveArgs};
-use crate::progress::{self, StatusLine};
+use crate::progress::{self, StatusLine, spoken};
 use crate::{exit, stderr};
 
 pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
@@ -99,7 +99,7 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
             CaptureStage::Recording(state) => {
                 if !std::mem::replace(&mut is_begun, true) {
                     stage("recording: press");
-                    context.say(format_args!("press; Ctrl-C ends it"));
+                    context.say(format_args!("{}", call_to_press(args)));
                 }
                 let predicted = shown
                     .as_ref()
@@ -155,6 +155,15 @@ pub(super) fn open(args: &LiveArgs, context: &Context) -> anyhow::Result<(LiveSp
         ));
     }
     Ok((spec, live))
+}
+
+/// Line at the begin of a recording, with what ends it: `press; Ctrl-C ends it, or 20 frames`.
+fn call_to_press(args: &Capture) -> String {
+    let frames = args.frames.map(|frames| counted(frames, "frame"));
+    let ends = frames.into_iter().chain(args.lasts.map(spoken));
+    ends.fold("press; Ctrl-C ends it".to_owned(), |line, end| {
+        format!("{line}, or {end}")
+    })
 }
 
 /// `1203 frames, 60.0 a second, 0 lost, 14 contacts, Fz 1.25 N`.

@@ -138,7 +138,10 @@ fn another_build_is_told_of_and_refused_where_the_manifest_demands_one() {
     assert_eq!(told.code, 0, "{}", told.err);
     assert!(
         told.err.contains("org.example.nearest: ")
-            && told.err.contains("the model was fitted by sha256:"),
+            && told.err.contains("the model was fitted by sha256:")
+            && told
+                .err
+                .contains("is used: the plugin changed since the fit; fit again"),
         "{}",
         told.err
     );

@@ -5,6 +5,9 @@ use taceva_core::DriverKey;
 
 use super::CheckRequest;
 
+/// Separator between the names of the checks of one process.
+pub(super) const BETWEEN: &str = ",";
+
 /// One check on one driver, or several checks with their names separated by commas.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Probe {

@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use taceva_core::{ErrorKind, caught};
 
-use super::probe::Probe;
-use super::shared_process::BETWEEN;
+use super::probe::{BETWEEN, Probe};
 use super::subject::Subject;
 use super::{Check, checks};
 use crate::promise::Unmet;

@@ -7,7 +7,7 @@ use taceva_core::DriverKey;
 use taceva_host::{Examination, Plugin};
 
 use super::attempt::attempt;
-use super::probe::Probe;
+use super::probe::{BETWEEN, Probe};
 use super::{Check, CheckRequest, subjects};
 use crate::report::Outcome;
 
@@ -25,9 +25,6 @@ const NAMES: [&str; 11] = [
     "estimator/predicts-nothing-of-nothing",
     "estimator/predicts-in-threads",
 ];
-
-/// Separator between the names of the checks of one process.
-pub(super) const BETWEEN: &str = ",";
 
 /// Time of each check that passed together with others, in seconds, by subject and name. A check that is missing here runs separately, because a
 /// single failure does not tell which other checks would pass.

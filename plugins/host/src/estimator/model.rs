@@ -9,7 +9,9 @@ use std::ffi::c_void;
 use std::sync::Arc;
 
 use taceva_abi as abi;
-use taceva_core::{Channels, DriverKey, ErrorKind, FeatureShape, Features, ModelError, Regressor};
+use taceva_core::{
+    Channels, DriverKey, ErrorKind, FeatureShape, Features, ModelError, Regressor, not_finite,
+};
 
 use super::{lacks, model_error};
 use crate::call::{Failure, call, pending_call, table};
@@ -122,13 +124,9 @@ impl Regressor for Model {
             }
         })
         .map_err(|failure| self.failed(DOING, failure))?;
-        match into.iter().position(|value| !value.is_finite()) {
+        match not_finite(&self.channels, into) {
             None => Ok(()),
-            Some(place) => {
-                let sample = place / self.channels.len().max(1);
-                let why = format!("sample {sample}: {}, expected a number", into[place]);
-                Err(refused(ErrorKind::DeviceFault, why))
-            }
+            Some(why) => Err(refused(ErrorKind::DeviceFault, why)),
         }
     }
 }

@@ -88,6 +88,10 @@ impl EstimatorFactory for PluginEstimator {
         if fitted_by == Some(build.as_str()) {
             return Ok(());
         }
+        let remedy = match fitted_by {
+            Some(_) => ": the plugin changed since the fit; fit again to use its present code",
+            None => "",
+        };
         let fitted_by =
             crate::text::shown(fitted_by.unwrap_or("a program that it was linked into"));
         let key = &self.info.key;
@@ -98,7 +102,7 @@ impl EstimatorFactory for PluginEstimator {
             );
             return Err(ModelError::new(ErrorKind::PermissionDenied, why));
         }
-        let line = format!("the model was fitted by {fitted_by}, but {build} is used");
+        let line = format!("the model was fitted by {fitted_by}, but {build} is used{remedy}");
         (self.host.log)(self.plugin.id(), Level::Warn, key.as_str(), &line);
         Ok(())
     }

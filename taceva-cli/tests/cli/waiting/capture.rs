@@ -100,6 +100,20 @@ fn a_sensor_alone_is_recorded_as_its_files_came() {
 }
 
 #[test]
+fn a_capture_says_what_ends_it() {
+    let bench = Bench::new();
+    for (name, end, said) in [
+        ("frames", "--frames 5", "press; Ctrl-C ends it, or 5 frames"),
+        ("time", "--for 1s", "press; Ctrl-C ends it, or 1 s"),
+    ] {
+        let ran = bench.run(&format!(
+            "capture {name} --sensor sim/gelsight:seed=3 {end}"
+        ));
+        assert!(ran.code == 0 && ran.err.contains(said), "{}", ran.err);
+    }
+}
+
+#[test]
 fn simulated_and_recorded_sensors_are_captured_in_their_own_time() {
     let bench = Bench::new();
     let ran = bench.run("capture drawn --sensor sim/gelsight:seed=3 --frames 5");

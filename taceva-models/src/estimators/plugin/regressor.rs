@@ -6,7 +6,7 @@ use std::sync::Arc;
 use safetensors::tensor::Dtype;
 use taceva_core::{
     Channels, ErrorKind, EstimatorFactory, FeatureShape, Features, ModelError, Regressor, Saved,
-    SavedRegressor,
+    SavedRegressor, not_finite,
 };
 
 use crate::features::Pca;
@@ -127,15 +127,8 @@ impl Regressor for PluginRegressor {
         // Values that the plugin does not write stay NaN and are rejected below.
         into.fill(f64::NAN);
         self.fitted.predict(features, into)?;
-        let wrong = into.iter().position(|value| !value.is_finite());
-        wrong.map_or(Ok(()), |place| {
-            let channels = self.channels().len().max(1);
-            let why = format!(
-                "{}: cannot predict: sample {}: {}, expected a number",
-                self.card.key,
-                place / channels,
-                into[place]
-            );
+        not_finite(self.channels(), into).map_or(Ok(()), |why| {
+            let why = format!("{}: cannot predict: {why}", self.card.key);
             Err(ModelError::new(ErrorKind::DeviceFault, why))
         })
     }

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use taceva_core::{
     Channels, DriverKey, ErrorKind, FeatureShape, Features, ModelError, Progress, Regressor,
+    not_finite,
 };
 
 use crate::child::array::{get, memory, put};
@@ -197,13 +198,9 @@ impl Regressor for ModelProxy {
         memory.copy_to(&mut copy);
         let (predictions, _) = get::<f64>(into.len(), &copy).unwrap_or_default();
         into.copy_from_slice(&predictions);
-        match into.iter().position(|value| !value.is_finite()) {
+        match not_finite(&self.channels, into) {
             None => Ok(()),
-            Some(place) => {
-                let sample = place / self.channels.len().max(1);
-                let why = format!("sample {sample}: {}, expected a number", into[place]);
-                Err(self.failed(ErrorKind::DeviceFault, DOING, &why))
-            }
+            Some(why) => Err(self.failed(ErrorKind::DeviceFault, DOING, &why)),
         }
     }
 }

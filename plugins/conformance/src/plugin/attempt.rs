@@ -1,0 +1,145 @@
+//! One attempt at a check, in a child with a time limit.
+
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use taceva_core::ErrorKind;
+use taceva_host::bare::CALL;
+use taceva_host::{
+    ChildError, Examination, ExaminationError, ExaminationOrder, Fate, Log, NOT_ALLOWED,
+};
+
+use super::probe::Probe;
+use super::{library, run};
+use crate::report::Outcome;
+use crate::trial::NO_DEVICE;
+
+/// Part of the message of a device that did not open.
+const NOT_OPENED: &str = ": cannot open the device: ";
+
+/// Outcome of an attempt.
+#[derive(Debug)]
+pub(super) struct Attempt {
+    pub(super) outcome: Outcome,
+    /// Call in which the child was killed, for it took too long.
+    pub(super) hung_in: Option<String>,
+}
+
+impl From<Outcome> for Attempt {
+    fn from(outcome: Outcome) -> Attempt {
+        Attempt {
+            outcome,
+            hung_in: None,
+        }
+    }
+}
+
+/// Runs a check, or several, in a child.
+pub(super) fn attempt(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> Attempt {
+    let call = Arc::new(Mutex::new(String::new()));
+    let order = ExaminationOrder {
+        driver: &probe.driver,
+        arguments: &probe.arguments,
+        limit,
+        log: noting(&call),
+    };
+    let printed = examination.run(order, |arguments| {
+        let probe = Probe {
+            arguments,
+            ..probe.clone()
+        };
+        serde_json::to_vec(&probe).expect("texts and numbers")
+    });
+    let (error, withheld, lacks_bound) = match printed {
+        Ok(printed) if probe.check == library::QUIET && !printed.is_empty() => {
+            return Outcome::Failed(format!("it printed {printed:?}")).into();
+        }
+        Ok(_) => return Outcome::Passed.into(),
+        Err(ExaminationError::Unready(why)) => return Outcome::Failed(why).into(),
+        Err(ExaminationError::Child {
+            error,
+            withheld,
+            lacks_bound,
+        }) => (error, withheld, lacks_bound),
+    };
+    let call = call.lock().unwrap_or_else(PoisonError::into_inner);
+    let error = with_call(*error, &call);
+    let hung_in = call_of(&error);
+    let outcome = ended(error);
+    // A plugin may report a withheld resource as missing, which would not count as a failure.
+    let outcome = match &outcome {
+        // Its arguments name a resource without permission, so host names were not resolved either. This counts as one cause, for any report of the
+        // plugin.
+        Outcome::Failed(why) | Outcome::Skipped(why)
+            if lacks_bound && (why.starts_with(NO_DEVICE) || why.contains(NOT_OPENED)) =>
+        {
+            Outcome::Failed(format!("{NOT_ALLOWED}; {withheld}"))
+        }
+        Outcome::Failed(why) | Outcome::Skipped(why) => {
+            let explained = withheld.explain(why);
+            explained.map_or(outcome, Outcome::Failed)
+        }
+        Outcome::Passed => outcome,
+    };
+    Attempt { outcome, hung_in }
+}
+
+/// Log that stores the pending call of a check in `call`.
+fn noting(call: &Arc<Mutex<String>>) -> Log {
+    let call = Arc::clone(call);
+    Box::new(move |_, target, message| {
+        if target == CALL {
+            message.clone_into(&mut call.lock().unwrap_or_else(PoisonError::into_inner));
+        }
+    })
+}
+
+/// Call in which the child was killed, for it took too long.
+fn call_of(error: &ChildError) -> Option<String> {
+    match error {
+        ChildError::Gone {
+            fate: Fate::Late { doing, .. },
+            ..
+        } => Some(doing.clone()),
+        _ => None,
+    }
+}
+
+/// Error of a check that was killed. Names the hanging call, if known.
+fn with_call(error: ChildError, call: &str) -> ChildError {
+    match error {
+        ChildError::Gone {
+            plugin,
+            fate: Fate::Late { after, .. },
+            printed,
+        } if !call.is_empty() => ChildError::Gone {
+            plugin,
+            fate: Fate::Late {
+                doing: call.to_owned(),
+                after,
+            },
+            printed,
+        },
+        other => other,
+    }
+}
+
+fn ended(error: ChildError) -> Outcome {
+    match error {
+        ChildError::Refused {
+            kind: ErrorKind::Unsupported,
+            why,
+            ..
+        } if why.starts_with(run::SKIPPED) => {
+            Outcome::Skipped(why[run::SKIPPED.len()..].to_owned())
+        }
+        ChildError::Refused { why, .. } => Outcome::Failed(why),
+        ChildError::Gone { fate, printed, .. } if printed.is_empty() => {
+            Outcome::Failed(format!("the process ended: {fate}"))
+        }
+        ChildError::Gone { fate, printed, .. } => {
+            Outcome::Failed(format!("the process ended: {fate}; it printed {printed:?}"))
+        }
+        other => Outcome::Failed(other.to_string()),
+    }
+}
