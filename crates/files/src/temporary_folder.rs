@@ -23,7 +23,7 @@ static OWN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 /// Removes the temporary folders of this process. For a program that ends while other threads still work.
 ///
 /// From then on, a thread that makes or removes a temporary folder, or puts a staged version in place, waits for the exit. A folder in which another
-/// thread writes at this moment can remain. The next process removes it.
+/// thread writes at this moment can remain. The next process removes it, unless that thread made it again after its marker was gone.
 pub fn remove_before_exit() {
     let own = own();
     for path in own.iter() {

@@ -256,6 +256,20 @@ fn a_split_by_grasps_says_that_their_objects_may_have_been_learnt() {
 }
 
 #[test]
+fn a_single_split_by_grasps_with_repeated_points_says_so_too() {
+    let bench = grasps(&["grasp", "object"]);
+    let map = fs::read_to_string(bench.path("lab/map.toml")).expect("there");
+    bench.write(
+        "lab/map.toml",
+        &format!("{map}[ids]\npoint_id = \"grasp\"\n"),
+    );
+    bench.ok("import lab --map lab/map.toml --out points -q");
+    let text = bench.ok("evaluate points --model ridge --metrics mae --split by-column:grasp");
+    let note = "10 of 10 groups of `grasp` share their `object` with others";
+    assert!(text.contains(note), "{text}");
+}
+
+#[test]
 fn few_groups_have_their_errors_in_json_text_and_page() {
     let bench = grasps(&["grasp", "object"]);
     let line = "taceva evaluate data --model ridge --metrics mae --split 'cv:5 by-column:object' --html page.html";

@@ -54,7 +54,7 @@ pub(super) fn beta_tails(a: f64, b: f64, share: Share) -> Tails {
 
 /// The continued fraction of I over xᵃ (1 − x)ᵇ / B(a, b), by Lentz's method.
 ///
-/// It has no difference of nearly equal numbers but a − (a + b) x, which is computed from the smaller of x and 1 − x.
+/// The only difference of nearly equal numbers is a − (a + b) x, computed from the smaller of x and 1 − x.
 ///
 /// # Reference
 /// Didonato and Morris, Algorithm 708, ACM Transactions on Mathematical Software 18 (1992), formula 9.

@@ -23,7 +23,7 @@ pub(crate) fn from_millionths(millionths: i64) -> f64 {
 
 /// The width of a level of a unit, in millionths of it: 0.1 mm and 0.1 N, 1 degree and 1 N mm.
 ///
-/// It is not defined for other units.
+/// Other units have none.
 pub(crate) fn step(unit: Unit) -> Option<i64> {
     match unit {
         Unit::Millimetre | Unit::Newton => Some(100_000),

@@ -43,8 +43,8 @@ pub(crate) static DETECTION_LIMIT: Metric = Metric {
                     of freedom, so δ is the factor of the noncentral t distribution, not 3.29. It stands on the forces from \
                     `least_force` to `greatest_force`: it is never below the former, and undefined above the latter, for less than ten \
                     places, or if predictions do not rise with the force. `critical` is the force that none exceeds in 5 % of cases. The \
-                    interval leaves out one place at a time; there is none if a limit reaches down to the lightest press. Untouched \
-                    pictures do not enter: see noise_equivalent_force.",
+                    interval leaves out one place at a time, above 64 places one of 32 groups of them; there is none if a limit reaches \
+                    down to the lightest press. Untouched pictures do not enter: see noise_equivalent_force.",
     needs: Needs::new(
         FieldSet::EMPTY
             .with(Field::Truth)

@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 /// A Markdown file of the workspace.
 #[derive(Clone, Debug)]
 pub struct Document {
-    /// Its path, relative to the workspace.
+    /// Path, relative to the workspace.
     pub name: String,
     /// Path of the file.
     pub path: PathBuf,
-    /// Its text.
+    /// Text of the document.
     pub text: String,
 }
 

@@ -18,9 +18,9 @@ pub struct Emulator {
 /// Identity of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Identity {
-    /// Its name.
+    /// Name of the device.
     pub name: &'static str,
-    /// Its serial number.
+    /// Serial number of the device.
     pub serial: &'static str,
     /// Vendor and product id.
     pub numbers: [u16; 2],

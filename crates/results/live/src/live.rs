@@ -93,7 +93,7 @@ impl Live {
 
     /// Sets the callback `heard` for pictures with a prediction sent to a browser. It receives the stamp of each frame once, s.
     ///
-    /// It runs on a thread of the page; only the first one is kept.
+    /// The callback runs on a thread of the page; only the first one is kept.
     pub fn on_sent(&self, heard: impl Fn(f64) + Send + Sync + 'static) {
         drop(self.shared.on_sent.set(Box::new(heard)));
     }

@@ -14,8 +14,8 @@ pub fn names(studies: &[Study]) -> Vec<String> {
         };
         let before = studies[..at].iter();
         let number = before.filter(|other| other.sensor == study.sensor).count() + 1;
-        let model = study.provenance.iter().find(|(name, _)| name == "model");
-        let model = model.and_then(|(_, text)| text.strip_prefix("name ")?.split(',').next());
+        let model = study.stated("model");
+        let model = model.and_then(|text| text.strip_prefix("name ")?.split(',').next());
         match (is_alone, model) {
             (true, _) => sensor,
             (false, Some(model)) => format!("{sensor} {number} ({})", short(model, 20)),

@@ -171,6 +171,12 @@ impl Study {
         samples.dominant(&score.channel)
     }
 
+    /// Text of the provenance under `key`.
+    pub(crate) fn stated(&self, key: &str) -> Option<&str> {
+        let found = self.provenance.iter().find(|(name, _)| name == key);
+        found.map(|(_, text)| text.as_str())
+    }
+
     /// Scores of one metric.
     pub fn of_metric<'a>(&'a self, metric: &'a str) -> impl Iterator<Item = &'a Score> {
         let scores = self.scores.iter();

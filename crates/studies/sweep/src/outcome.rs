@@ -86,7 +86,7 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
     evaluated.report.provenance.frames_decoded += fitted.frames_decoded;
     let text = sealed(&evaluated.report)?;
     result = result.with_scores(&evaluated.report);
-    result.errors = errors(&evaluated.report);
+    result.errors = errors(&evaluated.report, dataset.table().channels());
     result.evaluation = Digest::of(text.as_bytes()).to_string();
     // The evaluation is written first, so that every result has one.
     let folder = common.folder;

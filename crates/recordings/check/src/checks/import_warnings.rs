@@ -15,8 +15,11 @@ pub(super) static CHECK: Check = Check {
 };
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    // TAC036 states the same cause with its rows.
+    let is_stated = !super::repeated_stamps::find(evidence).is_empty();
     let warnings = evidence.header.warnings.iter();
     warnings
+        .filter(|warning| !(is_stated && warning.starts_with("repeated-stamps: ")))
         .map(|warning| Found::overall(Severity::Warning, shown(warning).to_string()))
         .collect()
 }

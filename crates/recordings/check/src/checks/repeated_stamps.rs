@@ -18,7 +18,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let joins = evidence.header.joins.iter();
     let by_time: Vec<&str> = joins
         .filter(|join| join.by == "time")

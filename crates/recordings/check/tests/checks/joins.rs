@@ -40,6 +40,23 @@ fn forces_that_were_joined_by_whole_seconds_are_warned_of_and_no_lag_is_sought()
 }
 
 #[test]
+fn repeated_stamps_are_one_finding_although_the_import_warned_of_them() {
+    let report = joined(
+        include_str!("../cases/12-join-whole-second-stamps/cam.csv"),
+        include_str!("../cases/12-join-whole-second-stamps/ft.csv"),
+        "nearest",
+        &["TAC036", "TAC043"],
+    );
+    message(&report, "TAC036");
+    let mut findings = report.findings.iter();
+    assert!(
+        !findings.any(|finding| finding.message.starts_with("repeated-stamps")),
+        "{:#?}",
+        report.findings
+    );
+}
+
+#[test]
 fn stamps_that_are_all_zero_and_stamps_of_tenths_are_warned_of_and_exact_ones_are_not() {
     let force = |row: u32| 1.0 + 0.01 * f64::from(row * 37 % 100);
     let table = |stamp: &dyn Fn(u32) -> f64, head: &str, cell: &dyn Fn(u32) -> String| {

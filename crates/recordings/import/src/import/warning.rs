@@ -232,7 +232,8 @@ impl fmt::Display for ImportWarning {
                 spans,
             } => write!(
                 f,
-                "`{}` matches {matched} of {}: {}; compare `lag_ms`, `unit`, `start_s` and `tolerance_ms` with the clocks",
+                "`{}` matches {matched} of {}: {}; if its times cover only a part of the rows, this is right; if not, compare `lag_ms`, `unit`, `start_s` and \
+                 `tolerance_ms` with the clocks",
                 taceva_core::shown(join),
                 taceva_core::counted(*rows, "row"),
                 taceva_core::shown(spans)

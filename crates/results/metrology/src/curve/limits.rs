@@ -41,7 +41,7 @@ pub enum Standing {
     Beyond {
         /// Name of the figure that exceeds its limit most.
         figure: &'static str,
-        /// Its magnitude, %.
+        /// Magnitude of the figure, %.
         value: f64,
         /// Name of the last row.
         row: &'static str,

@@ -202,7 +202,7 @@ pub enum Flag {
     NegativeComponent {
         /// Name of the component.
         component: ComponentName,
-        /// Its estimate as a variance.
+        /// Estimate of the component, a variance.
         variance: f64,
     },
     /// The interaction was pooled with repeatability.

@@ -53,10 +53,7 @@ pub(super) fn notes(studies: &[Study], names: &[String]) -> Option<String> {
 
 /// Description of the samples that showed the skill of a study.
 fn ground(study: &Study) -> String {
-    let of = |key: &str| {
-        let found = study.provenance.iter().find(|(name, _)| name == key);
-        found.map(|(_, text)| text.as_str())
-    };
+    let of = |key: &str| study.stated(key);
     let n = study.of_metric("skill").map(|skill| skill.n).max();
     let samples = n.map(|n| counted(n, "sample"));
     let data = of("dataset").map(|digest| {

@@ -55,12 +55,7 @@ pub(super) fn difference(
 
 /// Digest of the truth: of the predicted dataset or of the truth table, if the result states it.
 fn truth(study: &Study) -> Option<&str> {
-    let mut provenance = study.provenance.iter();
-    let dataset = provenance.find(|(term, _)| term == "dataset");
-    dataset
-        .map(|(_, digest)| digest)
-        .or(study.made.truth.as_ref())
-        .map(String::as_str)
+    study.stated("dataset").or(study.made.truth.as_deref())
 }
 
 /// |truth − prediction| of each sample, by cluster.

@@ -11,13 +11,9 @@ pub(super) fn barred(metric: &str, studies: Sides<&Study>, names: Sides<&str>) -
     if catalogue::find(metric).is_some_and(|metric| !metric.reads_predictions()) {
         return None;
     }
-    let stated = |study: &Study, key: &str| {
-        let found = study.provenance.iter().find(|(name, _)| name == key);
-        found.map(|(_, text)| text.clone())
-    };
-    let is_one_dataset = stated(studies.a, "dataset")? == stated(studies.b, "dataset")?;
-    let [a, b] = [stated(studies.a, "split")?, stated(studies.b, "split")?];
-    (is_one_dataset && kept_together(&a) != kept_together(&b)).then(|| {
+    let is_one_dataset = studies.a.stated("dataset")? == studies.b.stated("dataset")?;
+    let [a, b] = [studies.a.stated("split")?, studies.b.stated("split")?];
+    (is_one_dataset && kept_together(a) != kept_together(b)).then(|| {
         format!(
             "the splits differ: {} has `{a}`, and {} has `{b}`; evaluate both with one --split",
             names.a, names.b

@@ -97,16 +97,26 @@ pub(super) fn few_clusters(
 /// Note on groups of the split within larger groups, which another column names.
 pub(super) fn within(dataset: &Dataset, target: &Target) -> Option<Note> {
     let divided = target.divided.as_ref()?;
-    let groups = divided.groups.as_ref()?;
-    let column = match &divided.spec.kind {
-        SplitKind::ByColumn(by) => &by.column,
+    let (column, has_parts) = match &divided.spec.kind {
+        SplitKind::ByColumn(by) => (&by.column, !by.parts.is_empty()),
         SplitKind::Folds(folds) => match &folds.by {
-            FoldGroups::Column(name) => name,
+            FoldGroups::Column(name) => (name, false),
             _ => return None,
         },
         _ => return None,
     };
     let table = dataset.table();
+    let cells: Vec<String>;
+    let groups = match &divided.groups {
+        Some(groups) => groups,
+        None if has_parts => return None,
+        // Intervals leave out repeated points, but the split keeps the values of its column together.
+        None => {
+            let values = table.as_text(column)?.into_iter();
+            cells = values.map(Option::unwrap_or_default).collect();
+            &cells
+        }
+    };
     let others = table.attribute_names().iter();
     let others = others.filter(|name| *name != column && preference(name).is_some());
     let mut found = others.filter_map(|name| {

@@ -2,13 +2,25 @@
 
 use std::collections::BTreeMap;
 
+use taceva_core::Channels;
 use taceva_results::{EvaluationReport, Samples};
 
 use crate::result::PointErrors;
 
-/// Absolute errors of each channel, summed by the clusters that intervals leave out.
-pub(super) fn errors(report: &EvaluationReport) -> PointErrors {
-    report.samples.as_ref().map(of_samples).unwrap_or_default()
+/// Absolute errors of each of `channels`, summed by the clusters that intervals leave out. The error of an angle with a period is no difference of
+/// the table, so it has none.
+pub(super) fn errors(report: &EvaluationReport, channels: &Channels) -> PointErrors {
+    let sums = report.samples.as_ref().map(of_samples);
+    without_periods(sums.unwrap_or_default(), channels)
+}
+
+/// `sums` without those of channels with a period.
+fn without_periods(mut sums: PointErrors, channels: &Channels) -> PointErrors {
+    let periodic = channels.iter().filter(|channel| channel.period().is_some());
+    for channel in periodic {
+        sums.remove(channel.name());
+    }
+    sums
 }
 
 /// Sums by the groups of the split, else by contact point, else by sample.
@@ -43,6 +55,8 @@ fn of_samples(samples: &Samples) -> PointErrors {
 
 #[cfg(test)]
 mod tests {
+    use taceva_core::{Channel, Unit};
+
     use super::*;
 
     #[test]
@@ -58,5 +72,18 @@ mod tests {
         assert_eq!(names(",point_id,group", ",p,cup"), ["cup"]);
         assert_eq!(names(",point_id", ",p"), ["p"]);
         assert_eq!(names("", ""), ["s0", "s1"]);
+    }
+
+    #[test]
+    fn an_angle_with_a_period_has_no_sums_of_differences() {
+        let channel = |name| Channel::named(name, Unit::Degree).expect("a channel");
+        let turned = channel("yaw").with_period(360).expect("an angle");
+        let channels = Channels::new([turned, channel("tilt")]).expect("channels");
+        let table = "sample,tilt,tilt_predicted,yaw,yaw_predicted\ns0,1,1.5,359,1\n";
+        let sums = of_samples(&Samples::read(table).expect("samples"));
+        assert_eq!(sums.len(), 2);
+        let sums = without_periods(sums, &channels);
+        let names: Vec<&String> = sums.keys().collect();
+        assert_eq!(names, ["tilt"]);
     }
 }
