@@ -5,7 +5,6 @@ mod tables;
 use serde_json::Value;
 use taceva_report::FormattedValue;
 
-use crate::support::Bench;
 use tables::{AIAG, aiag, golden, rows_of, simulated_units};
 
 const OBLIGATORY: &str = "reproducibility rests on 2 degrees of freedom, of 3 operators";
