@@ -107,6 +107,7 @@ impl Readings<'_> {
             return Err(self.no_reading(of));
         }
         let mut settings = settings.clone();
+        settings.are_errors = of.is_error();
         settings.unit = of.unit.map_or("", |unit| unit.symbol()).to_owned();
         let report = study.analyse(&settings);
         Ok(ChannelGauge {

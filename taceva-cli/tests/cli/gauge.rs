@@ -244,10 +244,16 @@ fn simulated_units_are_studied_by_the_error_and_every_form_says_that_they_are_si
     close(number(&report["tolerance"]), 0.1, 1e-15, "tolerance");
     assert_eq!(report["parts"], 6);
     assert_eq!(report["operators"], 2);
+    assert_eq!(report["ndc"]["undefined"], "errors");
+    assert_eq!(report["band"], Value::Null);
     // The force itself differs far more between places than its error.
     let predictions = bench.json(&format!("{words} --response prediction"));
     let part = |of: &Value| number(&component(of, "part")["sd"]);
     assert!(part(&predictions) > 5.0 * part(&report), "{predictions:#}");
+    assert!(
+        number(&predictions["ndc"]["value"]) > 5.0,
+        "{predictions:#}"
+    );
     for format in ["text", "json", "csv", "md", "tex"] {
         let written = bench.ok(&format!("{words} --format {format}"));
         assert!(written.contains("simulated"), "{format}: {written}");

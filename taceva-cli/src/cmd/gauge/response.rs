@@ -113,6 +113,11 @@ impl Response {
         }
     }
 
+    /// True if the readings are errors.
+    pub(super) fn is_error(&self) -> bool {
+        self.truth.is_some()
+    }
+
     /// Column to name in messages.
     pub(super) fn column(&self) -> usize {
         self.prediction

@@ -78,18 +78,18 @@ pub(super) fn assemble(study: &Balanced, settings: &GaugeSettings) -> GaugeRepor
     let intervals = intervals(&squares, study, settings, &names);
     let sd = |name| of_name(name).map_or(0.0, |one| one.sd);
     let value = std::f64::consts::SQRT_2 * sd(ComponentName::Part) / sd(ComponentName::Gauge);
-    let undefined = match (total, gauge) {
-        (true, true) => None,
-        (false, _) => Some(NdcReason::NoVariation),
-        (true, false) => Some(NdcReason::NoGaugeVariation),
+    let undefined = match (settings.are_errors, total, gauge) {
+        (true, ..) => Some(NdcReason::Errors),
+        (false, true, true) => None,
+        (false, false, _) => Some(NdcReason::NoVariation),
+        (false, true, false) => Some(NdcReason::NoGaugeVariation),
     };
     let components: Vec<Component> = estimates
         .iter()
         .map(|one| component(one, settings, &intervals))
         .collect();
-    let of_gauge = components
-        .iter()
-        .find(|one| one.name == ComponentName::Gauge);
+    let is_gauge = |one: &&Component| one.name == ComponentName::Gauge && !settings.are_errors;
+    let of_gauge = components.iter().find(is_gauge);
     GaugeReport {
         schema: SCHEMA.to_owned(),
         design: settings.design,

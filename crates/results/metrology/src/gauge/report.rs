@@ -118,6 +118,8 @@ pub enum NdcReason {
     NoVariation,
     /// The gauge adds no variation to that of the parts.
     NoGaugeVariation,
+    /// The readings are errors.
+    Errors,
 }
 
 impl fmt::Display for NdcReason {
@@ -125,6 +127,7 @@ impl fmt::Display for NdcReason {
         f.write_str(match self {
             NdcReason::NoVariation => "all readings are equal",
             NdcReason::NoGaugeVariation => "the gauge adds no variation",
+            NdcReason::Errors => "parts of errors differ by bias, not by what is measured",
         })
     }
 }

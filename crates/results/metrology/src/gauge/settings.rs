@@ -57,6 +57,8 @@ pub struct GaugeSettings {
     pub pool: f64,
     /// Width of the tolerance, in the unit of the readings.
     pub tolerance: Option<f64>,
+    /// True if the readings are errors. Their parts differ by bias alone, so they have neither distinct categories nor a band.
+    pub are_errors: bool,
     /// Leaves parts with incomplete cells out, instead of refusing the study.
     pub drop_incomplete: bool,
     /// Number of draws of generalized pivotal quantities.
@@ -74,6 +76,7 @@ impl Default for GaugeSettings {
             method: Method::Anova,
             pool: 0.25,
             tolerance: None,
+            are_errors: false,
             drop_incomplete: false,
             draws: 200_000,
             seed: 1,

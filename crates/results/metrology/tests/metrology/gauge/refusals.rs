@@ -4,7 +4,7 @@ use taceva_metrology::gauge::{
     Design, Flag, GaugeError, GaugeReport, GaugeSettings, GaugeStudy, Method, NdcReason,
 };
 
-use super::example::{Row, readings, settings, study_of};
+use super::example::{Row, analyse, readings, settings, study_of};
 
 /// First words of a refusal, and the change that it refuses.
 type Change = (&'static str, fn(&mut GaugeSettings));
@@ -144,4 +144,15 @@ fn settings_outside_their_range_are_refused_by_name() {
         let text = refused.expect_err("refused").to_string();
         assert!(text.starts_with(name), "{text}");
     }
+}
+
+#[test]
+fn errors_have_components_but_neither_categories_nor_a_band() {
+    let report = analyse(|settings| settings.are_errors = true);
+    let readings = analyse(|_| {});
+    assert_eq!(report.components, readings.components);
+    assert_eq!(report.ndc.undefined, Some(NdcReason::Errors));
+    assert_eq!((report.ndc.value, report.ndc.ci95), (None, None));
+    assert_eq!((report.band, report.band_ci95), (None, None));
+    assert!(readings.band.is_some() && readings.ndc.value.is_some());
 }
