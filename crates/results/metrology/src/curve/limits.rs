@@ -47,8 +47,10 @@ pub enum Standing {
         row: &'static str,
         /// End of that row, %.
         end: f64,
-        /// Least multiple of the row of class 1 that holds all figures, of 5 to 200.
+        /// Least multiple of the row of class 1 that holds all known figures, of 5 to 200.
         multiple: Option<u32>,
+        /// True if no series is missing, so that all figures are within the multiple.
+        is_complete: bool,
         /// Standard whose limits these are like.
         standard: &'static str,
     },
@@ -74,14 +76,18 @@ impl fmt::Display for Standing {
                 row,
                 end,
                 multiple,
+                is_complete,
                 standard,
             } => {
                 write!(
                     f,
                     "none: {figure} = {value:.1} %, class {row} ends at {end:.2} %"
                 )?;
+                let known = if *is_complete { "" } else { "known figures " };
                 match multiple {
-                    Some(multiple) => write!(f, "; within class 1 x {multiple}, not {standard}"),
+                    Some(multiple) => {
+                        write!(f, "; {known}within class 1 x {multiple}, not {standard}")
+                    }
                     None => write!(f, "; beyond class 1 x 200, not {standard}"),
                 }
             }
@@ -120,6 +126,7 @@ impl Table {
                 row: last,
                 end: ends[at],
                 multiple: MULTIPLES.into_iter().find(holds),
+                is_complete: figures.iter().all(Result::is_ok),
                 standard: self.standard,
             };
         }

@@ -91,7 +91,7 @@ pub struct ProvingLevel {
 /// # let mut series = ProvingSeries::new(&[1.0, 2.0, 3.0, 4.0]);
 /// # (series.x1, series.x3, series.x5) = (vec![1.0, 2.0, 3.0, 4.0], vec![1.1, 2.0, 3.0, 4.0], vec![1.0, 2.0, 3.0, 4.0]);
 /// let place = series.figures()?.standing(0).to_string();
-/// assert!(place.starts_with("none: b = 9.7 %, class 2 ends at 0.40 %; within class 1 x 50"), "{place}");
+/// assert!(place.starts_with("none: b = 9.7 %, class 2 ends at 0.40 %; known figures within class 1 x 50"), "{place}");
 /// # Ok::<(), taceva_metrology::curve::CurveUndefined>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -196,7 +196,7 @@ impl ProvingFigures {
     /// If there is no such level.
     pub fn standing(&self, level: usize) -> Standing {
         let of = &self.levels[level];
-        let figures: [Figure; 6] = [
+        let mut figures: Vec<Figure> = vec![
             Ok(of.b),
             of.b_prime.ok_or("X2"),
             Ok(of.f_c.abs()),
@@ -204,6 +204,10 @@ impl ProvingFigures {
             of.v.ok_or("X4' and X6'"),
             self.c.map(f64::abs).ok_or("creep readings"),
         ];
+        // Each row has a least force in resolutions.
+        if self.resolution.is_none() {
+            figures.push(Err("the resolution"));
+        }
         let may_have = |row: &str| {
             let least = LEAST_FORCES.iter().find(|(name, _)| *name == row);
             let pair = least.zip(self.resolution);

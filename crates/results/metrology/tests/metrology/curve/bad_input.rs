@@ -116,12 +116,18 @@ fn missing_series_are_named_and_the_class_is_unknown() {
     assert_eq!(
         place,
         Standing::Unknown {
-            missing: vec!["X2", "zero readings", "X4' and X6'", "creep readings"]
+            missing: vec![
+                "X2",
+                "zero readings",
+                "X4' and X6'",
+                "creep readings",
+                "the resolution"
+            ]
         }
     );
     assert_eq!(
         place.to_string(),
-        "unknown: X2, zero readings, X4' and X6' and creep readings are missing"
+        "unknown: X2, zero readings, X4' and X6', creep readings and the resolution are missing"
     );
     let mut short = series();
     short.x2 = vec![1.0];

@@ -84,7 +84,7 @@ fn a_sensor_far_beyond_says_the_figure_the_end_and_a_multiple() {
         assert_eq!(
             found.standing(0).to_string(),
             format!(
-                "none: b' = {percent} %, class 2 ends at 0.20 %; within class 1 x {multiple}, not ISO 376"
+                "none: b' = {percent} %, class 2 ends at 0.20 %; known figures within class 1 x {multiple}, not ISO 376"
             )
         );
     }
@@ -120,6 +120,28 @@ fn a_coarse_resolution_excludes_rows() {
     assert_eq!(
         place,
         "unknown: a force of 500 resolutions or more is missing"
+    );
+}
+
+#[test]
+fn an_unknown_resolution_leaves_the_place_unknown() {
+    let mut series = series();
+    series.resolution = None;
+    let place = series.figures().expect("figures").standing(0).to_string();
+    assert_eq!(place, "unknown: the resolution is missing");
+}
+
+#[test]
+fn a_multiple_holds_all_figures_only_if_none_is_missing() {
+    let mut series = series();
+    series.x2.iter_mut().for_each(|x| *x *= 1.02);
+    let place = series.figures().expect("figures").standing(0).to_string();
+    assert!(place.contains("; within class 1 x "), "{place}");
+    series.creep = None;
+    let place = series.figures().expect("figures").standing(0).to_string();
+    assert!(
+        place.contains("; known figures within class 1 x "),
+        "{place}"
     );
 }
 
