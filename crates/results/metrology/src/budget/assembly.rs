@@ -205,8 +205,10 @@ impl Budget {
     ) {
         let tolerance = drawn.tolerance;
         drawn.validated = self.interval.is_some_and(|own| {
-            let ends = own.into_iter().zip(drawn.symmetric);
-            ends.map(|(own, end)| (own - end).abs()).fold(0.0, f64::max) <= tolerance
+            let ends = own.into_iter().zip(drawn.symmetric).zip(drawn.end_errors);
+            // Chance alone must not refute a result of first order.
+            ends.into_iter()
+                .all(|((own, end), error)| (own - end).abs() <= tolerance + 2.0 * error)
         });
         let heavy = inputs.iter().find(|input| {
             let is_heavy = matches!(input.freedom, Freedom::Finite(number) if number <= 2.0);

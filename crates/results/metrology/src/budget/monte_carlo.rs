@@ -12,6 +12,8 @@ use taceva_metrics::distributions::{chi_square, normal};
 
 /// Draws of a block.
 const BLOCK: u64 = 10_000;
+/// Least number of blocks whose scatter tells that results are stable.
+const LEAST_BLOCKS: usize = 10;
 /// Purposes of draws: inputs have their index, normal numbers of correlated inputs and factors of Student's distribution these and their index.
 const JOINT: u64 = 1 << 32;
 const FACTOR: u64 = 1 << 33;
@@ -95,7 +97,9 @@ pub struct MonteCarloResult {
     pub shortest: [f64; 2],
     /// Interval with equal shares beyond both ends.
     pub symmetric: [f64; 2],
-    /// True if the interval of first order agrees with the symmetric one within the tolerance.
+    /// Standard errors of both ends of the symmetric interval.
+    pub end_errors: [f64; 2],
+    /// True if the interval of first order agrees with the symmetric one within the tolerance and twice the standard errors of the ends.
     pub validated: bool,
     /// Half of the last place of u in two digits.
     pub tolerance: f64,
@@ -144,6 +148,7 @@ impl Sampler<'_> {
             u,
             shortest: shortest(&all, self.coverage),
             symmetric,
+            end_errors: [2, 3].map(|which| stable.standard_error(which)),
             validated: false,
             tolerance: tolerance(u),
             is_stable,
@@ -298,20 +303,21 @@ impl Stability {
 
     /// True if twice the standard error of each result is below half of the last place of u.
     fn is_reached(&self) -> bool {
-        let h = self.results.len() as f64;
-        if self.results.len() < 2 {
-            return false;
-        }
-        let mean = |which: usize| self.results.iter().map(|result| result[which]).sum::<f64>() / h;
-        let limit = tolerance(mean(1));
-        (0..4).all(|which| {
-            let mean = mean(which);
-            let squares: f64 = self
-                .results
-                .iter()
-                .map(|result| (result[which] - mean).powi(2))
-                .sum();
-            2.0 * (squares / (h * (h - 1.0))).sqrt() <= limit
-        })
+        let limit = tolerance(self.mean(1));
+        self.results.len() >= LEAST_BLOCKS
+            && (0..4).all(|which| 2.0 * self.standard_error(which) <= limit)
+    }
+
+    fn mean(&self, which: usize) -> f64 {
+        let sum: f64 = self.results.iter().map(|result| result[which]).sum();
+        sum / self.results.len() as f64
+    }
+
+    /// Standard error of the mean over two blocks or more.
+    fn standard_error(&self, which: usize) -> f64 {
+        let (h, mean) = (self.results.len() as f64, self.mean(which));
+        let offs = self.results.iter().map(|result| result[which] - mean);
+        let squares: f64 = offs.map(|off| off * off).sum();
+        (squares / (h * (h - 1.0))).sqrt()
     }
 }

@@ -258,6 +258,24 @@ fn the_same_seed_gives_the_same_draws_and_another_one_does_not() {
 }
 
 #[test]
+fn chance_does_not_refute_a_normal_value() {
+    // Half of the last place of u is 0.5 % of it here, less than the standard error of an end.
+    let text = "budget_version = 1\nmeasurand = \"y\"\nunit = \"N\"\nexpression = \"x\"\n[[source]]\nname = \"x\"\nu = 9.9\n";
+    for seed in 1..=10 {
+        let request = MonteCarlo::default().with_draws(100_000).with_seed(seed);
+        let budget = drawn(text, request);
+        let found = budget.mcm.as_ref().expect("draws");
+        assert!(found.validated, "{seed}: {found:?} {:?}", budget.interval);
+        assert!(
+            found
+                .end_errors
+                .iter()
+                .all(|error| *error > 0.02 && *error < 0.2)
+        );
+    }
+}
+
+#[test]
 fn draws_beyond_the_domain_are_said() {
     let text = "budget_version = 1\nmeasurand = \"y\"\nunit = \"N\"\nexpression = \"sqrt(x)\"\n[[source]]\nname = \"x\"\nvalue = 1\nu = 1\n";
     let budget = drawn(text, all());
