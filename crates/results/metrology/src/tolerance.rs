@@ -77,7 +77,11 @@ pub fn two_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Op
         2.0 * integral(at, 0.0, FAR, WIDTH)
     };
     let mut high = half_width(0.0, share);
+    // A confidence within rounding of 1 has no factor.
     while held(high) < confidence {
+        if !high.is_finite() {
+            return None;
+        }
         high *= 2.0;
     }
     let mut low = 0.0;

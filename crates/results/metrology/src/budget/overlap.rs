@@ -81,5 +81,14 @@ pub(super) fn missing(inputs: &[Input], evidence: &Evidence) -> Vec<Missing> {
         };
         Missing::new("certificate", reason)
     });
-    effects.chain(reference).collect()
+    let names_residuals = all.iter().any(|name| name.starts_with("error."));
+    let is_corrected = all.iter().any(|name| name == "bias" || name == "error");
+    let is_measured = evidence.figure("bias").is_some();
+    let bias = (names_residuals && is_measured && !is_corrected).then(|| {
+        Missing::new(
+            "bias",
+            "mean residual: measured, but no source of the budget names it",
+        )
+    });
+    effects.chain(bias).chain(reference).collect()
 }

@@ -65,7 +65,7 @@ pub struct Components {
     pub within: Figure,
     /// Mean residual, a correction of the prediction, with u = √(MS_b/n).
     pub bias: Figure,
-    /// Root of the mean square of residuals.
+    /// Root of the mean square of residuals; freedom by Satterthwaite, since the rows of a point depend on each other.
     pub rmse: Figure,
     /// True if MS_b is below MS_w, so that `between` counts as 0.
     pub is_negative: bool,
@@ -167,6 +167,19 @@ impl Residuals {
             true => Freedom::Finite(difference * difference / scale),
             false => Freedom::Finite(freedoms[0]),
         };
+        // Variance of one residual: MS_b / n0 + (1 − 1 / n0) MS_w, or MS_w alone.
+        let share = if difference > 0.0 { 1.0 / n0 } else { 0.0 };
+        let parts = [share * mean_squares[0], (1.0 - share) * mean_squares[1]];
+        let scale: f64 = parts
+            .iter()
+            .zip(freedoms)
+            .map(|(part, freedom)| part * part / freedom)
+            .sum();
+        let total: f64 = parts.iter().sum();
+        let of_rmse = match scale > 0.0 {
+            true => Freedom::Finite(total * total / scale),
+            false => Freedom::Finite(freedoms[1]),
+        };
         let figure = |u: f64, freedom: Freedom| Figure::new(u, freedom).of_rows(count, points);
         let [square_between, square_within] = mean_squares;
         let mut spread = figure((difference.max(0.0) / n0).sqrt(), of_between);
@@ -181,7 +194,7 @@ impl Residuals {
             within: figure(square_within.sqrt(), Freedom::Finite(freedoms[1])),
             bias: figure((square_between / n).sqrt(), Freedom::Finite(freedoms[0]))
                 .of_estimate(mean),
-            rmse: figure((squares.to_f64() / n).sqrt(), Freedom::Finite(n)),
+            rmse: figure((squares.to_f64() / n).sqrt(), of_rmse),
             is_negative: difference < 0.0,
         })
     }

@@ -89,3 +89,9 @@ fn equal_values_have_an_interval_of_no_width() {
     let found = ToleranceInterval::of(&[0.1; 5], 0.95, 0.95).expect("five values");
     assert_eq!((found.low, found.high, found.sd), (0.1, 0.1, 0.0));
 }
+
+#[test]
+fn a_confidence_within_rounding_of_one_has_no_factor_and_ends() {
+    let found = two_sided_factor(10.0, 9.0, 0.95, 1.0 - f64::EPSILON / 2.0);
+    assert!(found.is_none_or(f64::is_finite), "{found:?}");
+}

@@ -6,6 +6,17 @@ use super::Reader;
 use crate::budget::error::{BudgetError, BudgetProblem};
 use crate::budget::schema::WrittenSource;
 
+/// Figures that the mean of readings at one place does not lower.
+const LASTING: [&str; 7] = [
+    "error",
+    "error.between",
+    "bias",
+    "drift",
+    "hysteresis",
+    "r_light",
+    "certificate",
+];
+
 impl Reader<'_> {
     /// Each source has one origin, and no key of another one.
     pub(super) fn check_keys(&self, of: &WrittenSource) -> Result<(), BudgetError> {
@@ -25,6 +36,13 @@ impl Reader<'_> {
             return error(format!(
                 "source `{}` needs exactly one of `from`, `u`, `U`, `s`, `rows`, `half_width`",
                 shown(of.name.get_ref())
+            ));
+        }
+        let lasting = of.from.as_ref().map(|from| from.get_ref().as_str());
+        let lasting = lasting.filter(|from| LASTING.contains(from) && of.readings.is_some());
+        if let Some(from) = lasting {
+            return error(format!(
+                "`{from}` is the same in every reading of a place, so it has no `readings`"
             ));
         }
         let is_from = |name: &str| of.from.as_ref().is_some_and(|from| from.get_ref() == name);

@@ -149,6 +149,7 @@ fn effects_that_no_source_covers_are_named() {
             "hysteresis: unloading: measured, but no source of the budget names it",
             "gauge: other units: not in this recording",
             "drift: other days: not in this recording",
+            "bias: mean residual: measured, but no source of the budget names it",
             "certificate: reference: the recording has no certificate",
         ]
     );
@@ -156,6 +157,48 @@ fn effects_that_no_source_covers_are_named() {
         budget.to_string().starts_with("warning: not traceable"),
         "{budget}"
     );
+}
+
+#[test]
+fn a_measured_bias_that_nothing_corrects_is_named() {
+    let named = |sources: &str| {
+        let text = format!("budget_version = 1\nmeasurand = \"Fz\"\nat = [\"1 N\"]\n{sources}");
+        let text = BudgetText::parse(&text).expect("a budget");
+        let evidence = components().feed(Evidence::default());
+        let budget = text.budgets(&evidence, None).expect("values").remove(0);
+        budget.missing.iter().any(|of| of.source == "bias")
+    };
+    let between = "[[source]]\nname = \"places\"\nfrom = \"error.between\"\n";
+    let bias = "[[source]]\nname = \"correction\"\nfrom = \"bias\"\n";
+    assert!(named(between));
+    assert!(!named(&[between, bias].concat()));
+    assert!(!named("[[source]]\nname = \"all\"\nfrom = \"error\"\n"));
+}
+
+#[test]
+fn the_mean_of_readings_lowers_no_difference_between_places() {
+    let text = "budget_version = 1\nmeasurand = \"Fz\"\nat = [\"1 N\"]\n[[source]]\nname = \"places\"\nfrom = \"error.between\"\nreadings = 4\n";
+    let evidence = components().feed(Evidence::default());
+    let refused = super::refusal(text, &evidence);
+    assert!(
+        refused.contains("`error.between` is the same in every reading of a place"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn rows_of_a_point_are_not_all_degrees_of_freedom_of_the_root_mean_square() {
+    // Ten points of ten equal rows each know the root mean square as ten rows do.
+    let mut residuals = Residuals::default();
+    for point in 0..10_u32 {
+        for row in 0..10_u32 {
+            let truth = f64::from(point * point) + 1e-6 * f64::from(row % 2);
+            residuals.add(&point.to_string(), truth, 0.0);
+        }
+    }
+    let found = residuals.components().expect("components");
+    let freedom = found.rmse.freedom.number().expect("finite");
+    assert!((freedom - 9.0).abs() < 1e-6, "{freedom}");
 }
 
 #[test]
