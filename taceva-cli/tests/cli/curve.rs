@@ -121,6 +121,17 @@ fn rows_of_a_point_widen_the_bands_unless_they_are_said_to_be_independent() {
     assert_eq!(curve["y"]["unit"], "N");
     let confidence = figure(&curve, "confidence");
     assert_eq!(confidence["remark"], "jackknife over 6 points");
+    let slope = figure(&curve, "coefficient_1");
+    // Offsets of points with the same forces leave the slope as it is.
+    assert_eq!(slope["remark"], "independent rows");
+    let far = bench.json(&words.replace("--at 0.4", "--at 99"));
+    let remark = figure(&far, "prediction")["remark"]
+        .as_str()
+        .expect("a remark");
+    assert!(
+        remark.contains("; beyond the reference values, "),
+        "{remark}"
+    );
     let independent = bench.json(&format!("{words} --independent"));
     assert_eq!(independent["points"], Value::Null);
     let narrow = figure(&independent, "confidence");

@@ -13,7 +13,7 @@ mod quality;
 mod squares;
 mod undefined;
 
-pub use band::{Band, CovarianceOf};
+pub use band::{Band, CoefficientUncertainty, CovarianceOf};
 pub use detection::{Detection, DetectionRisks};
 pub use fit::{CurveFit, CurveRow};
 pub use indication::{Indication, IndicationFigures, IndicationLevel, IndicationSummary};

@@ -58,6 +58,28 @@ pub struct Band {
     pub covariance: CovarianceOf,
 }
 
+/// Standard uncertainty of a coefficient. If both covariances are defined, the greater one is given and named.
+///
+/// ```
+/// use taceva_metrology::curve::{CovarianceOf, CurveFit, CurveRow};
+/// let rows: Vec<CurveRow> = [(0.0, 1.0), (1.0, 3.1), (2.0, 4.9), (3.0, 7.0)].map(|(x, y)| CurveRow::new(x, y)).into();
+/// let line = CurveFit::of(&rows, 1)?;
+/// let slope = line.coefficient_uncertainty(1).ok_or("a slope")?;
+/// assert_eq!((slope.covariance, slope.freedom), (CovarianceOf::Rows, 2.0));
+/// assert!((slope.u - line.covariance()[1][1].sqrt()).abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct CoefficientUncertainty {
+    /// Standard uncertainty, in the unit of the coefficient.
+    pub u: f64,
+    /// Degrees of freedom.
+    pub freedom: f64,
+    /// Origin of the covariance.
+    pub covariance: CovarianceOf,
+}
+
 /// A covariance of the coefficients of z with its degrees of freedom.
 pub(super) struct Spread {
     pub(super) covariance: Square,
@@ -88,6 +110,20 @@ impl CurveFit {
             freedom: (clusters - 1) as f64,
             of: CovarianceOf::Points { clusters },
         })
+    }
+
+    /// Standard uncertainty of the coefficient of x to `power`; `None` above the order.
+    pub fn coefficient_uncertainty(&self, power: usize) -> Option<CoefficientUncertainty> {
+        let all = self.powers_of_x();
+        let own = all.iter().take(self.count).nth(power)?;
+        let of = |spread: Spread| CoefficientUncertainty {
+            u: form(own, &spread.covariance, own).max(0.0).sqrt(),
+            freedom: spread.freedom,
+            covariance: spread.of,
+        };
+        let rows = of(self.of_rows());
+        let points = self.of_points().map(of);
+        Some(points.filter(|points| points.u > rows.u).unwrap_or(rows))
     }
 
     /// The widest of the bands factor(ν) √(extra + z₀ᵀ cov z₀).

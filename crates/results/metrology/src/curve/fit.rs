@@ -123,6 +123,15 @@ impl CurveFit {
         (self.solution.squares / self.freedom()).sqrt()
     }
 
+    /// Least and greatest reference value.
+    pub fn range(&self) -> [f64; 2] {
+        let x = || self.rows.iter().map(|row| row.x);
+        [
+            x().fold(f64::INFINITY, f64::min),
+            x().fold(f64::NEG_INFINITY, f64::max),
+        ]
+    }
+
     /// y(x).
     pub fn value(&self, x: f64) -> f64 {
         let powers = self.axis.powers(x);
@@ -149,7 +158,7 @@ impl CurveFit {
     }
 
     /// Row i: share of each coefficient of z in that of xⁱ, by the binomial theorem.
-    fn powers_of_x(&self) -> Square {
+    pub(super) fn powers_of_x(&self) -> Square {
         const CHOOSE: Square = [
             [1.0, 1.0, 1.0, 1.0],
             [0.0, 1.0, 2.0, 3.0],

@@ -34,7 +34,7 @@ impl CalibrationCurve {
                 Ok(found) => CurveFigure {
                     value: Some(found.x),
                     ends: Some([found.low, found.high]),
-                    remark: found.covariance.to_string(),
+                    remark: self.within(found.x, found.covariance.to_string()),
                     ..figure
                 },
                 Err(reason) => undefined(figure, reason)?,
@@ -118,14 +118,17 @@ impl CalibrationCurve {
     /// Coefficients, residual deviation, and lack of fit where readings repeat.
     fn of_fit(&self) -> Vec<CurveFigure> {
         let freedom = Some(self.fit.freedom());
-        let covariance = self.fit.covariance();
         let coefficients = self.fit.coefficients().into_iter().enumerate();
         let mut figures: Vec<CurveFigure> = coefficients
-            .map(|(power, value)| CurveFigure {
-                value: Some(value),
-                u: Some(covariance[power][power].max(0.0).sqrt()),
-                freedom,
-                ..self.figure(&format!("coefficient_{power}"), &self.unit_of(power))
+            .map(|(power, value)| {
+                let own = self.fit.coefficient_uncertainty(power);
+                CurveFigure {
+                    value: Some(value),
+                    u: own.map(|own| own.u),
+                    freedom: own.map(|own| own.freedom),
+                    remark: own.map_or_else(String::new, |own| own.covariance.to_string()),
+                    ..self.figure(&format!("coefficient_{power}"), &self.unit_of(power))
+                }
             })
             .collect();
         figures.push(CurveFigure {
@@ -137,11 +140,14 @@ impl CalibrationCurve {
             let [above, below] = test.freedoms;
             figures.push(CurveFigure {
                 value: Some(test.f),
-                remark: format!("F of {above} and {below} degrees of freedom"),
+                remark: format!(
+                    "F of {above} and {below} degrees of freedom, for independent rows"
+                ),
                 ..self.figure("lack_of_fit_f", "1")
             });
             figures.push(CurveFigure {
                 value: Some(test.p),
+                remark: "independent rows".to_owned(),
                 ..self.figure("lack_of_fit_p", "1")
             });
         }
@@ -155,8 +161,19 @@ impl CalibrationCurve {
             ends: Some([band.low, band.high]),
             u: Some(band.u),
             freedom: Some(band.freedom),
-            remark: band.covariance.to_string(),
+            remark: self.within(x, band.covariance.to_string()),
             ..self.figure(name, &self.y.unit)
+        }
+    }
+
+    /// `remark`, with a word on a reference value that no row is near.
+    fn within(&self, x: f64, remark: String) -> String {
+        let [low, high] = self.fit.range();
+        // The ends themselves are rounded.
+        let rounding = 1e-9 * (high - low);
+        match low - rounding <= x && x <= high + rounding {
+            true => remark,
+            false => format!("{remark}; beyond the reference values, {low} to {high}"),
         }
     }
 

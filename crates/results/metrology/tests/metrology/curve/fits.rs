@@ -264,6 +264,30 @@ fn rows_of_one_point_widen_the_band_and_are_named() {
 }
 
 #[test]
+fn rows_of_one_point_widen_the_coefficients_too() {
+    let rows: Vec<CurveRow> = (0..8_u32)
+        .flat_map(|point| (0..4_u32).map(move |row| (point, row)))
+        .map(|(point, row)| {
+            let x = f64::from(point);
+            let offset = if point % 3 == 0 { 0.3 } else { -0.1 };
+            CurveRow::new(x, 2.0 * x + offset + 1e-3 * f64::from(row)).of_point(point.into())
+        })
+        .collect();
+    let line = CurveFit::of(&rows, 1).expect("a line");
+    assert_eq!(line.range(), [0.0, 7.0]);
+    for power in [0, 1] {
+        let found = line.coefficient_uncertainty(power).expect("a coefficient");
+        assert_eq!(found.covariance, CovarianceOf::Points { clusters: 8 });
+        assert_eq!(found.freedom, 7.0);
+        assert!(
+            found.u > 1.5 * line.covariance()[power][power].sqrt(),
+            "{found:?}"
+        );
+    }
+    assert_eq!(line.coefficient_uncertainty(2), None);
+}
+
+#[test]
 fn the_jackknife_of_a_mean_is_its_own_variance() {
     // At the mean of x, points of equal size: u² = Σ (offset − mean)²/(G (G − 1)) up to the slope's part.
     let offsets = [0.3, -0.1, -0.2, 0.2, -0.3, 0.1];
