@@ -326,6 +326,8 @@ def test_a_channel_that_is_probably_mistyped_is_refused_and_any_other_unknown_on
         with pytest.raises(ValueError, match=f"channel '{name}' has no known unit"):
             taceva.from_arrays(tmp_path / name, rows, channels=["Fz", name], sensor="gel", source="synthetic")
         assert taceva.score(rows, rows, channels=["Fz", name], units={name: "N"})["mae", name].unit == "N"
+    normal = taceva.score(rows, rows, channels=["Fn", "Ft"])
+    assert normal["mae", "Fn"].value == 0.0 and any(note.startswith("Ft: not one of") for note in normal.notes)
     noted = taceva.score(rows, rows, channels=["Fz", "force_z"])
     assert any(note.startswith("force_z: not one of Px Py Pz Fx Fy Fz; taken as a channel of unit 1") for note in noted.notes)
     assert not taceva.score(rows, rows, channels=["Fz", "force_z"], units={"force_z": "N"}).notes

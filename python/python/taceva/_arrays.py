@@ -69,10 +69,12 @@ def with_units(channels: Sequence[str], units: Mapping[str, str]) -> list[tuple[
 def _is_mistyped(name: str) -> bool:
     """Return whether ``name`` is probably one of the six channels, mistyped.
 
-    >>> _is_mistyped("fx"), _is_mistyped("Fq"), _is_mistyped("Mz"), _is_mistyped("force")
-    (True, True, False, False)
+    Normal, tangential, shear and radial parts, such as ``Fn`` and ``Ft``, have names of their own.
+
+    >>> _is_mistyped("fx"), _is_mistyped("Fq"), _is_mistyped("Fn"), _is_mistyped("Mz"), _is_mistyped("force")
+    (True, True, False, False, False)
     """
-    return len(name) == 2 and name[0] in "PpFf" and name[1].isalpha()
+    return len(name) == 2 and name[0] in "PpFf" and name[1].isalpha() and name[1].lower() not in "ntsr"
 
 
 def column_order(channels: list[tuple[str, str]]) -> list[int] | None:

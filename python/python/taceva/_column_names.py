@@ -269,7 +269,7 @@ def _refuse_keys(truth: NamedColumns, prediction: NamedColumns, names: Sequence[
         if is_unique and np.array_equal(own, other) and bool(np.all(own == np.floor(own))):
             raise ValueError(
                 f"the column {name!r} holds the same unique whole numbers in truth and prediction, so it probably names rows: "
-                f"pair them with key={name!r}, or score it as a channel with units={{{name!r}: '1'}}"
+                f"leave it out, list the channels in channels=[…], or in `score` pair rows with key={name!r}"
             )
 
 

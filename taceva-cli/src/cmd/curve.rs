@@ -165,6 +165,9 @@ fn inverted(args: &Curve, y: &Axis) -> anyhow::Result<Vec<f64>> {
                 unit.symbol()
             )));
         }
+        if y.unit.is_none() {
+            reading.beside("--invert", &args.y)?;
+        }
         readings.push(reading.value);
     }
     Ok(readings)

@@ -8,6 +8,8 @@ use super::Usage;
 pub(super) struct Quantity {
     pub(super) value: f64,
     pub(super) unit: Unit,
+    /// True if it was written in another unit, such as mN.
+    is_converted: bool,
     /// The number with its unit as the user wrote them.
     pub(super) written: String,
 }
@@ -32,8 +34,23 @@ impl Quantity {
         Ok(Quantity {
             value: unit.convert(number),
             unit: unit.unit(),
+            is_converted: (unit.convert(1.0) - 1.0).abs() > 0.0,
             written: written.to_owned(),
         })
+    }
+
+    /// Refuses a converted number beside a column of an unknown unit, which nothing converts.
+    pub(super) fn beside(&self, option: &str, column: &str) -> anyhow::Result<()> {
+        if !self.is_converted {
+            return Ok(());
+        }
+        Err(Usage::error(format!(
+            "{option} {}: the unit of column {} is not known and counts as {}; convert the column, and state the number in {}",
+            shown(&self.written),
+            shown(column),
+            self.unit.symbol(),
+            self.unit.symbol()
+        )))
     }
 }
 

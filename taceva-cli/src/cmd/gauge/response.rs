@@ -43,6 +43,9 @@ fn checked(
     tolerance: Option<&Quantity>,
 ) -> anyhow::Result<Response> {
     let response = Response::of(table, name, args.response, tolerance)?;
+    if let (Some(tolerance), None) = (tolerance, quantity::unit_of_six(name)) {
+        tolerance.beside("--tolerance", name)?;
+    }
     match (tolerance, response.unit) {
         (Some(tolerance), Some(unit)) if tolerance.unit != unit => Err(Usage::error(format!(
             "--tolerance {}: channel {} is in {}, expected a width in this unit",

