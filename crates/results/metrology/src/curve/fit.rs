@@ -1,5 +1,6 @@
 //! Fit of a calibration curve.
 
+use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
 use super::squares::{Axis, Coefficients, MOST, Solution, Square, form, solve};
@@ -85,6 +86,13 @@ impl CurveFit {
         if let Some(row) = rows.iter().position(is_wrong) {
             return Err(CurveUndefined::NotFinite { row: row + 1 });
         }
+        // Sums are rounded, so they need an order of their own.
+        let mut sorted = rows.to_vec();
+        sorted.sort_by(|one, other| {
+            let by_x = one.x.total_cmp(&other.x);
+            by_x.then(one.y.total_cmp(&other.y))
+        });
+        let rows = sorted.as_slice();
         let (have, least) = (rows.len(), count + 1);
         if have < least {
             return Err(CurveUndefined::TooFewRows { have, least });
@@ -101,7 +109,7 @@ impl CurveFit {
         let solution = solve(&all, count).ok_or(too_few)?;
         Ok(CurveFit {
             clustered: jackknife(rows, &all, count),
-            rows: rows.to_vec(),
+            rows: sorted,
             axis,
             count,
             solution,
@@ -204,7 +212,15 @@ fn jackknife(rows: &[CurveRow], all: &[(Coefficients, f64)], count: usize) -> Op
             .flatten()
             .map(|solution| solution.coefficients)
     };
-    let fits: Vec<Coefficients> = points.iter().map(without).collect::<Option<_>>()?;
+    let mut fits: Vec<Coefficients> = points.iter().map(without).collect::<Option<_>>()?;
+    // Points have no order of their own.
+    fits.sort_by(|one, other| {
+        let pairs = one.iter().zip(other);
+        let mut orders = pairs.map(|(one, other)| one.total_cmp(other));
+        orders
+            .find(|order| order.is_ne())
+            .unwrap_or(Ordering::Equal)
+    });
     let g = clusters as f64;
     let mean = |at: usize| fits.iter().map(|fit| fit[at]).sum::<f64>() / g;
     let means: [f64; MOST] = std::array::from_fn(mean);

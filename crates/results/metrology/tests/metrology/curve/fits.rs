@@ -274,17 +274,39 @@ fn rows_of_one_point_widen_the_coefficients_too() {
         })
         .collect();
     let line = CurveFit::of(&rows, 1).expect("a line");
-    assert_eq!(line.range(), [0.0, 7.0]);
+    assert_eq!(
+        line.range().map(f64::to_bits),
+        [0.0_f64, 7.0].map(f64::to_bits)
+    );
     for power in [0, 1] {
         let found = line.coefficient_uncertainty(power).expect("a coefficient");
         assert_eq!(found.covariance, CovarianceOf::Points { clusters: 8 });
-        assert_eq!(found.freedom, 7.0);
+        assert_eq!(found.freedom.to_bits(), 7.0_f64.to_bits());
         assert!(
             found.u > 1.5 * line.covariance()[power][power].sqrt(),
             "{found:?}"
         );
     }
     assert_eq!(line.coefficient_uncertainty(2), None);
+}
+
+#[test]
+fn the_order_of_rows_and_the_numbers_of_points_change_no_bit() {
+    let row = |at: u32, turn: u64| {
+        let x = f64::from(at % 5) / 3.0;
+        let y = 1.7 * x + (f64::from(at) * 12.9898).sin() / 7.0;
+        CurveRow::new(x, y).of_point((u64::from(at % 7) + turn) % 7)
+    };
+    let bands = |rows: &[CurveRow]| {
+        let curve = CurveFit::of(rows, 2).expect("a curve");
+        let band = curve.confidence(0.4, 0.95).expect("a band");
+        let found = [band.value, band.low, band.high, curve.residual_deviation()];
+        (found.map(f64::to_bits), band.covariance)
+    };
+    let rows: Vec<CurveRow> = (0..60).map(|at| row(at, 0)).collect();
+    let mut turned: Vec<CurveRow> = (0..60).rev().map(|at| row(at, 3)).collect();
+    turned.rotate_left(17);
+    assert_eq!(bands(&rows), bands(&turned));
 }
 
 #[test]

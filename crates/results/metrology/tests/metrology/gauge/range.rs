@@ -48,6 +48,10 @@ fn the_mean_range_of_normal_numbers_has_published_values() {
         let expected = number(golden, &format!("/{n}"));
         close(1.0 / RangeConstants::of(2, 2, n).k1, expected, 1e-13, "d2");
     }
+    // By adaptive quadrature of 1 − Φⁿ − (1 − Φ)ⁿ.
+    for (n, expected) in [(100, 5.015_187_272_883_384), (1000, 6.482_871_538_267_036)] {
+        close(1.0 / RangeConstants::of(2, 2, n).k1, expected, 1e-7, "d2");
+    }
     // d3 of two numbers is √(2 − 4/π), so d2* is √2.
     close(RangeConstants::of(2, 2, 2).k2, 0.5_f64.sqrt(), 1e-13, "d2*");
     // Order statistics of three: E R² = 2 + 3√3/π.
