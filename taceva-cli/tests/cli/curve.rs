@@ -18,7 +18,7 @@ fn golden() -> Value {
     case.expect("the case").clone()
 }
 
-/// Ten readings of it as `din.csv`.
+/// Ten readings of the golden case as `din.csv`.
 fn din() -> Bench {
     let golden = golden();
     let numbers = |axis: &str| golden["inputs"][axis].as_array().expect("numbers").clone();
