@@ -231,6 +231,12 @@ fn wrong_tables_and_options_are_refused_by_their_place() {
         2,
         "--invert 1mm: the readings are in N",
     );
+    bench.write("plain.csv", "x,reading\n1,2\n2,3\n3,4.1\n");
+    bench.refused(
+        "curve plain.csv --x x --y reading --invert 100mN",
+        2,
+        "--invert 100mN: the unit of column reading is unknown, expected a reading in N",
+    );
     bench.refused(
         "curve unit.csv --x Fz --y Fx_predicted",
         3,
