@@ -57,9 +57,10 @@ impl Hangs {
         outcome
     }
 
-    /// Hangs of the same driver or estimator.
+    /// Hangs of the same driver or estimator, and of the plugin as a whole, such as in its import.
     fn earlier(&self, probe: &Probe) -> impl Iterator<Item = &Hang> {
-        self.0.iter().filter(|hang| hang.driver == probe.driver)
+        let is_alike = move |hang: &&Hang| hang.driver.is_empty() || hang.driver == probe.driver;
+        self.0.iter().filter(is_alike)
     }
 
     /// Adds a hang of the check `name`. A check that hung in no call of the plugin says nothing of other checks.
@@ -87,12 +88,15 @@ mod tests {
             seed: 0,
             moves: false,
         };
-        let [one, other] = ["lab/one", "lab/other"].map(probe);
+        let [one, other, whole] = ["lab/one", "lab/other", ""].map(probe);
         let mut hangs = Hangs::default();
         hangs.note(&one, run::WHOLE.to_owned(), "driver/opens");
         assert_eq!(hangs.earlier(&one).count(), 0);
         hangs.note(&one, "open the device".to_owned(), "driver/opens");
-        let known = |probe: &Probe| hangs.earlier(probe).count();
-        assert_eq!([known(&one), known(&other)], [1, 0]);
+        let found = [&one, &other].map(|probe| hangs.earlier(probe).count());
+        assert_eq!(found, [1, 0]);
+        hangs.note(&whole, "import its module".to_owned(), "library/loads");
+        let found = [&one, &other].map(|probe| hangs.earlier(probe).count());
+        assert_eq!(found, [2, 1]);
     }
 }
