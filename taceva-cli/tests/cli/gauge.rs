@@ -226,6 +226,11 @@ fn one_operator_and_options_that_contradict_each_other_are_refused() {
         2,
         "--tolerance `4`: expected a unit",
     );
+    bench.refused(
+        &format!("{AIAG} --tolerance 0.4cm"),
+        2,
+        "--tolerance 0.4cm: the unit of channel length is unknown, expected a width in mm",
+    );
     let complete = rows_of(&bench);
     let is_of_one = |row: &&str| !row.contains(",B,") && !row.contains(",C,");
     let of_one: Vec<&str> = complete.lines().filter(is_of_one).collect();
