@@ -74,7 +74,7 @@ pub(crate) enum Like {
 }
 
 /// Needs are words, such as shear or ambient light, and numbers, such as rate >= 50 Hz; all are listed below. Hard needs exclude a sensor, soft ones
-/// rank. A sensor whose number is unknown stays open. The exit code is 0 also if no sensor meets the needs; `--format json` then has an empty `ranked`.
+/// rank. A sensor whose number is unknown stays open.
 #[derive(Debug, Args)]
 #[command(after_help = needs_help(), group = ArgGroup::new("asked").required(true).args(["need", "needs"]))]
 pub(crate) struct Choose {
@@ -97,7 +97,8 @@ pub(crate) struct Choose {
 fn needs_help() -> String {
     format!(
         "Needs, separated by commas:\n{}\nPrices are bounded in one currency, such as EUR; none is converted. \
-         Other units are mN, cm, um and cm2.",
+         Other units are mN, cm, um and cm2.\n\
+         A sensor whose number is unknown stays open. The exit code is 0 also if no sensor meets the needs.",
         taceva_report::Need::vocabulary()
     )
 }

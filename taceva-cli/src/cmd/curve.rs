@@ -165,8 +165,14 @@ fn inverted(args: &Curve, y: &Axis) -> anyhow::Result<Vec<f64>> {
                 unit.symbol()
             )));
         }
-        if y.unit.is_none() {
-            reading.beside("--invert", &args.y)?;
+        // Cells of a column without a unit are not converted.
+        if y.unit.is_none() && reading.is_converted {
+            return Err(Usage::error(format!(
+                "--invert {}: the unit of column {} is unknown, expected a reading in {} for readings in this unit",
+                shown(&reading.written),
+                shown(&args.y),
+                reading.unit.symbol()
+            )));
         }
         readings.push(reading.value);
     }

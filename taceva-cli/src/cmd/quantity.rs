@@ -8,8 +8,8 @@ use super::Usage;
 pub(super) struct Quantity {
     pub(super) value: f64,
     pub(super) unit: Unit,
-    /// True if it was written in another unit, such as mN.
-    is_converted: bool,
+    /// True if the value is not the written number, as for 100mN.
+    pub(super) is_converted: bool,
     /// The number with its unit as the user wrote them.
     pub(super) written: String,
 }
@@ -31,26 +31,13 @@ impl Quantity {
             return Err(refused("expected a unit after the number, such as 0.1N"));
         }
         let unit = SourceUnit::parse(symbol).map_err(|error| refused(&error.to_string()))?;
+        let value = unit.convert(number);
         Ok(Quantity {
-            value: unit.convert(number),
+            value,
             unit: unit.unit(),
-            is_converted: (unit.convert(1.0) - 1.0).abs() > 0.0,
+            is_converted: value.to_bits() != number.to_bits(),
             written: written.to_owned(),
         })
-    }
-
-    /// Refuses a converted number beside a column of an unknown unit, which nothing converts.
-    pub(super) fn beside(&self, option: &str, column: &str) -> anyhow::Result<()> {
-        if !self.is_converted {
-            return Ok(());
-        }
-        Err(Usage::error(format!(
-            "{option} {}: the unit of column {} is not known and counts as {}; convert the column, and state the number in {}",
-            shown(&self.written),
-            shown(column),
-            self.unit.symbol(),
-            self.unit.symbol()
-        )))
     }
 }
 
@@ -71,6 +58,12 @@ mod tests {
             let quantity = Quantity::read("--tolerance", written).ok()?;
             Some((quantity.value.to_bits(), quantity.unit))
         };
+        let is_converted =
+            |written: &str| Some(Quantity::read("--invert", written).ok()?.is_converted);
+        assert_eq!(
+            ["0.1N", "100mN"].map(is_converted),
+            [Some(false), Some(true)]
+        );
         assert_eq!(read("0.1N"), Some((0.1_f64.to_bits(), Unit::Newton)));
         assert_eq!(read("100 mN"), Some((0.1_f64.to_bits(), Unit::Newton)));
         assert_eq!(

@@ -18,7 +18,7 @@ fn golden() -> Value {
     case.expect("the case").clone()
 }
 
-/// Its ten readings as `din.csv`.
+/// Ten readings of the golden case as `din.csv`.
 fn din() -> Bench {
     let golden = golden();
     let numbers = |axis: &str| golden["inputs"][axis].as_array().expect("numbers").clone();
@@ -242,6 +242,12 @@ fn wrong_tables_and_options_are_refused_by_their_place() {
         &format!("{words} --invert 1mm"),
         2,
         "--invert 1mm: the readings are in N",
+    );
+    bench.write("plain.csv", "x,reading\n1,2\n2,3\n3,4.1\n");
+    bench.refused(
+        "curve plain.csv --x x --y reading --invert 100mN",
+        2,
+        "--invert 100mN: the unit of column reading is unknown, expected a reading in N",
     );
     bench.refused(
         "curve unit.csv --x Fz --y Fx_predicted",

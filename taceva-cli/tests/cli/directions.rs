@@ -77,7 +77,8 @@ fn latex(text: &str, whence: &str) -> usize {
         // The maximum load is a property of the sensor, and the symbol of the sensitivity is descriptive.
         let is_descriptive =
             id.starts_with("$S$") || sign(&id).is_none() && Better::of(&id).is_some();
-        ["greatest", "size", "price", "availability"].contains(&id.as_str()) || is_descriptive
+        ["greatest", "size", "price", "availability", "gel_thickness"].contains(&id.as_str())
+            || is_descriptive
     };
     for name in names.filter(|name| !name.is_empty() && !describes(name)) {
         let signs = ["$\\downarrow$", "$\\uparrow$", "$\\to$0"];

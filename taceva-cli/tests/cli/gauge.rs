@@ -227,9 +227,9 @@ fn one_operator_and_options_that_contradict_each_other_are_refused() {
         "--tolerance `4`: expected a unit",
     );
     bench.refused(
-        &format!("{AIAG} --tolerance 400cm"),
+        &format!("{AIAG} --tolerance 0.4cm"),
         2,
-        "--tolerance 400cm: the unit of column length is not known and counts as mm",
+        "--tolerance 0.4cm: the unit of channel length is unknown, expected a width in mm",
     );
     let complete = rows_of(&bench);
     let is_of_one = |row: &&str| !row.contains(",B,") && !row.contains(",C,");

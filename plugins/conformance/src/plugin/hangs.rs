@@ -1,4 +1,4 @@
-//! Checks after a hang. Those that hang in the same call are skipped after a short time.
+//! Checks after a hang. Those that hang in the same call of the same driver are skipped after a short time.
 
 use std::time::Duration;
 
@@ -6,6 +6,7 @@ use taceva_host::Examination;
 
 use super::attempt::{Attempt, attempt};
 use super::probe::Probe;
+use super::run;
 use crate::report::Outcome;
 
 /// Divisor of the time limit of a check for its first attempt after a hang.
@@ -13,9 +14,18 @@ const SHORTENED: u32 = 10;
 /// Least time of such an attempt. The start of an interpreter takes most of it.
 const LEAST: Duration = Duration::from_secs(5);
 
-/// Calls that did not return, each with the check that found it.
+/// Calls that did not return.
 #[derive(Debug, Default)]
-pub(super) struct Hangs(Vec<(String, &'static str)>);
+pub(super) struct Hangs(Vec<Hang>);
+
+/// A call that did not return, with the check that found it.
+#[derive(Debug)]
+struct Hang {
+    /// Key of the driver or estimator, as in [`Probe`].
+    driver: String,
+    call: String,
+    check: &'static str,
+}
 
 impl Hangs {
     /// Runs the check `name` on `probe`. After a hang its first attempt has less time, since most checks make the same calls.
@@ -26,20 +36,67 @@ impl Hangs {
         name: &'static str,
         limit: Duration,
     ) -> Outcome {
-        if !self.0.is_empty() {
+        // A slow motion is not cut short, because nothing halts the device of a killed process.
+        if !probe.moves && self.earlier(probe).next().is_some() {
             let short = limit.min(LEAST.max(limit / SHORTENED));
             let Attempt { outcome, hung_in } = attempt(examination, probe, short);
             let Some(call) = hung_in else {
                 return outcome;
             };
-            if let Some((_, first)) = self.0.iter().find(|(known, _)| *known == call) {
+            if let Some(first) = self.earlier(probe).find(|hang| hang.call == call) {
                 return Outcome::Skipped(format!(
-                    "it did not {call}, as in `{first}`, which failed"
+                    "it did not {call}, as in `{}`, which failed",
+                    first.check
                 ));
             }
         }
         let Attempt { outcome, hung_in } = attempt(examination, probe, limit);
-        self.0.extend(hung_in.map(|call| (call, name)));
+        if let Some(call) = hung_in {
+            self.note(probe, call, name);
+        }
         outcome
+    }
+
+    /// Hangs of the same driver or estimator, and of the plugin as a whole, such as in its import.
+    fn earlier(&self, probe: &Probe) -> impl Iterator<Item = &Hang> {
+        let is_alike = move |hang: &&Hang| hang.driver.is_empty() || hang.driver == probe.driver;
+        self.0.iter().filter(is_alike)
+    }
+
+    /// Adds a hang of the check `name`. A check that hung in no call of the plugin says nothing of other checks.
+    fn note(&mut self, probe: &Probe, call: String, name: &'static str) {
+        if call != run::WHOLE {
+            self.0.push(Hang {
+                driver: probe.driver.clone(),
+                call,
+                check: name,
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hang_concerns_checks_of_its_driver_and_only_if_its_call_is_known() {
+        let probe = |driver: &str| Probe {
+            check: "driver/opens".to_owned(),
+            driver: driver.to_owned(),
+            arguments: String::new(),
+            seed: 0,
+            moves: false,
+        };
+        let [one, other, whole] = ["lab/one", "lab/other", ""].map(probe);
+        let mut hangs = Hangs::default();
+        hangs.note(&one, run::WHOLE.to_owned(), "driver/opens");
+        assert_eq!(hangs.earlier(&one).count(), 0);
+        hangs.note(&one, "open the device".to_owned(), "driver/opens");
+        let found = [&one, &other].map(|probe| hangs.earlier(probe).count());
+        assert_eq!(found, [1, 0]);
+        hangs.note(&whole, "import its module".to_owned(), "library/loads");
+        let found = [&one, &other].map(|probe| hangs.earlier(probe).count());
+        assert_eq!(found, [2, 1]);
     }
 }

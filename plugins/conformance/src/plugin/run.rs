@@ -17,6 +17,8 @@ use taceva_host::bare::pending_call;
 
 /// Prefix of the answer of a skipped check.
 pub(super) const SKIPPED: &str = "skipped: ";
+/// Pending call of a check that waits in no call of the plugin.
+pub(super) const WHOLE: &str = "end the check";
 
 /// Runs the checks of `file` on the plugin of `source`, in this process. Returns a session if the promises hold.
 ///
@@ -39,7 +41,7 @@ pub(crate) fn run(
     let wanted = probe.check.split(BETWEEN).map(named);
     let wanted: Vec<Check> = wanted.collect::<Result<_, _>>()?;
     let made = caught(|| {
-        let _under_way = pending_call::begin("end the check");
+        let _under_way = pending_call::begin(WHOLE);
         let subject = Subject::new(source, manifest, probe)?;
         wanted
             .iter()

@@ -43,9 +43,6 @@ fn checked(
     tolerance: Option<&Quantity>,
 ) -> anyhow::Result<Response> {
     let response = Response::of(table, name, args.response, tolerance)?;
-    if let (Some(tolerance), None) = (tolerance, quantity::unit_of_six(name)) {
-        tolerance.beside("--tolerance", name)?;
-    }
     match (tolerance, response.unit) {
         (Some(tolerance), Some(unit)) if tolerance.unit != unit => Err(Usage::error(format!(
             "--tolerance {}: channel {} is in {}, expected a width in this unit",
@@ -53,6 +50,15 @@ fn checked(
             shown(name),
             unit.symbol()
         ))),
+        // Cells of a column without a unit are not converted.
+        (Some(tolerance), _) if quantity::unit_of_six(name).is_none() && tolerance.is_converted => {
+            Err(Usage::error(format!(
+                "--tolerance {}: the unit of channel {} is unknown, expected a width in {} for readings in this unit",
+                shown(&tolerance.written),
+                shown(name),
+                tolerance.unit.symbol()
+            )))
+        }
         _ => Ok(response),
     }
 }

@@ -94,7 +94,7 @@ fn a_report_of_one_channel_draws_that_channel_alone() {
     let drawn = read(&bench.path("one/figures/predicted-1.svg"));
     assert!(drawn.contains("true Fz") && !drawn.contains("true Px"));
     let scores = read(&bench.path("one/scores.csv"));
-    assert!(scores.contains(",mae,Fz,") && !scores.contains(",Px,"));
+    assert!(scores.contains(",mae,lower,Fz,") && !scores.contains(",Px,"));
     let refused = bench.run("report r.json --channels Fq --out two");
     assert!(
         refused.code == 2

@@ -25,14 +25,15 @@ const FRAME: Deadline = Deadline::after(Duration::from_millis(200));
 /// Delay before a failing device is retried.
 const FAILED_REST: Duration = Duration::from_millis(5);
 
-/// Taps the gel on the rig of `study` and returns the recorded taps. Does not make the presses of the study.
+/// Taps the gel on the rig of `study` and returns the recorded taps, with true if the robot reports an emulation. Does not make the presses of the
+/// study.
 ///
 /// # Errors
 /// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed, the rig contradicts its file, or the run was cancelled.
 pub(crate) fn tap_study(
     study: &PlannedStudy,
     workshop: Workshop<'_>,
-) -> Result<Tapped, AcquireError> {
+) -> Result<(Tapped, bool), AcquireError> {
     let mut plan = study.plan.clone();
     for press in &mut plan.presses {
         // The listener thread owns the sensor.
@@ -53,7 +54,8 @@ pub(crate) fn tap_study(
     let cancel = Cancel::new();
     let sitting = Sitting::new(workshop, &cancel);
     let mut open = OpenRig::open(study, rig, unit, sitting)?;
-    open.tap(&plan, sitting, missing, failed)
+    let is_emulated = open.robot.is_emulated();
+    Ok((open.tap(&plan, sitting, missing, failed)?, is_emulated))
 }
 
 impl OpenRig {

@@ -33,7 +33,7 @@ indentations = 1
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RigTap {
-    /// True if the devices are emulated, as the rig file states.
+    /// True if the devices are emulated, as the rig file states or the robot reports.
     pub simulated: bool,
     /// Number of taps with a clear edge of every device.
     pub taps: usize,
@@ -94,7 +94,7 @@ pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireErr
         let latency = written[device].or(stated[device]);
         latency.unwrap_or(0.0)
     });
-    let tapped = tap_study(study, workshop)?;
+    let (tapped, is_emulated) = tap_study(study, workshop)?;
     let (force, sensor) = tapped.latencies().map_err(|source| AcquireError::Taps {
         rig: rig.name().to_owned(),
         source,
@@ -102,7 +102,7 @@ pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireErr
     let dropped: Vec<String> = tapped.dropped().iter().map(ToString::to_string).collect();
     let latencies = RigLatencies::measured(before_ms, &force, &sensor);
     Ok(RigTap {
-        simulated: rig.simulated,
+        simulated: rig.simulated || is_emulated,
         taps: tapped.count() - dropped.len(),
         dropped,
         before_ms,

@@ -36,6 +36,8 @@ pub enum Trip {
     UnexpectedContact {
         /// The force.
         force_n: f64,
+        /// True if the threshold of motions in the air is exceeded. False if the limit of the normal force is, as the tip leaves the gel.
+        is_in_air: bool,
     },
     /// The force rises faster than with any gel.
     ForceRate {
@@ -108,10 +110,22 @@ impl fmt::Display for Trip {
                     "the shear force of {force_n:.3} N exceeds the limit of {limit_n} N"
                 )
             }
-            Trip::UnexpectedContact { force_n } => {
+            Trip::UnexpectedContact {
+                force_n,
+                is_in_air: true,
+            } => {
                 write!(
                     f,
-                    "a force of {force_n:.3} N where no contact is expected; if nothing touches the tip, write a greater `threshold_N` under [protocol.contact] of the scene: above 5 times the noise that `taceva rig check` prints"
+                    "a force of {force_n:.3} N where no contact is expected; if nothing touches the tip, write a greater `threshold_N` under [protocol.contact] of the scene for a new run: above 5 times the noise that `taceva rig check` prints"
+                )
+            }
+            Trip::UnexpectedContact {
+                force_n,
+                is_in_air: false,
+            } => {
+                write!(
+                    f,
+                    "a force of {force_n:.3} N beyond the limit of the normal force, while the tip leaves the gel or the zero of the force is unknown"
                 )
             }
             Trip::ForceRate { rate_n_s } => {
@@ -172,15 +186,18 @@ mod tests {
 
     #[test]
     fn a_force_in_the_air_names_the_key_that_separates_it_from_noise() {
-        let said = Trip::UnexpectedContact { force_n: -0.023 }.to_string();
+        let said = |force_n, is_in_air| Trip::UnexpectedContact { force_n, is_in_air }.to_string();
+        let in_air = said(-0.023, true);
         assert!(
-            said.starts_with("a force of -0.023 N where no contact"),
-            "{said}"
+            in_air.starts_with("a force of -0.023 N where no contact"),
+            "{in_air}"
         );
         assert!(
-            said.contains("`threshold_N` under [protocol.contact]"),
-            "{said}"
+            in_air.contains("`threshold_N` under [protocol.contact]"),
+            "{in_air}"
         );
+        // The threshold does not limit a force on the way out of the gel.
+        assert!(!said(2.1, false).contains("threshold_N"));
     }
 
     #[test]
@@ -202,7 +219,13 @@ mod tests {
                 Trip::ShearForce { force_n, limit_n },
                 Some(Limit::ShearForce),
             ),
-            (Trip::UnexpectedContact { force_n }, None),
+            (
+                Trip::UnexpectedContact {
+                    force_n,
+                    is_in_air: true,
+                },
+                None,
+            ),
             (Trip::ForceRate { rate_n_s: 300.0 }, None),
             (Trip::Saturated { force_n }, None),
             (Trip::NotFinite, None),

@@ -23,7 +23,7 @@ pub enum Question {
     Enable {
         /// Name of the robot.
         robot: String,
-        /// Its next motions.
+        /// Next motions of the robot.
         way: String,
     },
     /// Mount this specimen on the robot, unrotated.

@@ -318,10 +318,16 @@ impl Supervisor {
         };
         match self.stage {
             MotionStage::Travel { threshold_n } if z.abs() > threshold_n => {
-                Some(Trip::UnexpectedContact { force_n: z })
+                Some(Trip::UnexpectedContact {
+                    force_n: z,
+                    is_in_air: true,
+                })
             }
             MotionStage::Retreat { force_n } => (z > force_n.max(normal_max) + RETREAT_MARGIN_N)
-                .then_some(Trip::UnexpectedContact { force_n: z }),
+                .then_some(Trip::UnexpectedContact {
+                    force_n: z,
+                    is_in_air: false,
+                }),
             _ if z.abs() > normal_max => Some(Trip::NormalForce {
                 force_n: z,
                 limit_n: normal_max,

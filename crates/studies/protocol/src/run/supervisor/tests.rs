@@ -158,7 +158,11 @@ fn a_tip_that_is_not_where_it_was_sent_halts() {
 fn a_force_in_the_air_halts() {
     let air = MotionStage::Travel { threshold_n: 0.02 };
     let touched = trip(air, &Observation::Force(force(0.03), at(10.02)));
-    assert_eq!(touched, Some(Trip::UnexpectedContact { force_n: 0.03 }));
+    let expected = Trip::UnexpectedContact {
+        force_n: 0.03,
+        is_in_air: true,
+    };
+    assert_eq!(touched, Some(expected));
 }
 
 #[test]

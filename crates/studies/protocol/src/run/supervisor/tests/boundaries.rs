@@ -151,7 +151,8 @@ fn a_force_at_the_threshold_of_contact_passes_in_the_air_and_the_next_number_is_
     for beyond in along(2, 0.125_f64.next_up()) {
         let [_, _, force_n] = beyond;
         let trip = pushed(limits(), air, beyond);
-        assert_eq!(trip, Some(Trip::UnexpectedContact { force_n }));
+        let is_in_air = true;
+        assert_eq!(trip, Some(Trip::UnexpectedContact { force_n, is_in_air }));
     }
     let sheared = pushed(limits(), air, [1.0, 0.0, 0.0]);
     assert!(matches!(sheared, Some(Trip::ShearForce { .. })));
@@ -167,7 +168,11 @@ fn a_force_on_the_way_back_may_be_that_of_the_halt_or_of_the_limit_and_the_margi
         assert_eq!(pushed(limits(), back, [0.0, 0.0, highest]), None);
         let risen = highest.next_up();
         let trip = pushed(limits(), back, [0.0, 0.0, risen]);
-        assert_eq!(trip, Some(Trip::UnexpectedContact { force_n: risen }));
+        let expected = Trip::UnexpectedContact {
+            force_n: risen,
+            is_in_air: false,
+        };
+        assert_eq!(trip, Some(expected));
         // A sticky gel pulls and keeps shear. Neither stops the tip from leaving.
         assert_eq!(pushed(limits(), back, [8.0, 0.0, -8.0]), None);
     }
