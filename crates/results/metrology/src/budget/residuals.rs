@@ -63,7 +63,7 @@ pub struct Components {
     pub between: Figure,
     /// Standard deviation within points, √MS_w.
     pub within: Figure,
-    /// Mean residual, a correction of the prediction, with u = √(MS_b/n).
+    /// Mean residual, a correction of the prediction, with u² = s_b² Σ nₚ²/n² + MS_w/n, which is MS_b/n for points of one size.
     pub bias: Figure,
     /// Root of the mean square of residuals; freedom by Satterthwaite, since the rows of a point depend on each other.
     pub rmse: Figure,
@@ -182,7 +182,9 @@ impl Residuals {
         };
         let figure = |u: f64, freedom: Freedom| Figure::new(u, freedom).of_rows(count, points);
         let [square_between, square_within] = mean_squares;
-        let mut spread = figure((difference.max(0.0) / n0).sqrt(), of_between);
+        let between_variance = difference.max(0.0) / n0;
+        let of_mean = between_variance * sizes / (n * n) + square_within / n;
+        let mut spread = figure(between_variance.sqrt(), of_between);
         if difference < 0.0 {
             spread.note = Some("the component came out negative and counts as 0".to_owned());
         }
@@ -192,8 +194,7 @@ impl Residuals {
             n0,
             between: spread,
             within: figure(square_within.sqrt(), Freedom::Finite(freedoms[1])),
-            bias: figure((square_between / n).sqrt(), Freedom::Finite(freedoms[0]))
-                .of_estimate(mean),
+            bias: figure(of_mean.sqrt(), Freedom::Finite(freedoms[0])).of_estimate(mean),
             rmse: figure((squares.to_f64() / n).sqrt(), of_rmse),
             is_negative: difference < 0.0,
         })

@@ -28,7 +28,7 @@ pub struct OneWay {
     pub groups: u64,
     /// Mean of all readings.
     pub mean: f64,
-    /// Standard uncertainty of the mean, with groups − 1 degrees of freedom.
+    /// Standard uncertainty of the mean, with groups − 1 degrees of freedom. Large groups share one deviation, so they count less than their size.
     pub mean_uncertainty: f64,
     /// Mean square between groups.
     pub mean_square_between: f64,
@@ -98,6 +98,10 @@ impl OneWay {
             1.0 / size_f64
         };
         let total = share * ms_b + (1.0 - share) * ms_w;
+        // Variance of the mean of groups of unequal size: s_b² Σ n² / n² + MS_w / n.
+        let n_f64 = real(n);
+        let weight = real(squared_sizes) / (n_f64 * n_f64);
+        let of_mean = weight * excess.to_f64() / size_f64 + ms_w / n_f64;
         let spread = |parts: [f64; 2]| {
             let [b, w] = parts.map(|part| part * part);
             b / freedoms[0] + w / freedoms[1]
@@ -108,7 +112,7 @@ impl OneWay {
             readings: n,
             groups: k,
             mean: Fraction::of(sum, n).to_f64(),
-            mean_uncertainty: between.divided(n).root(),
+            mean_uncertainty: of_mean.sqrt(),
             mean_square_between: ms_b,
             mean_square_within: ms_w,
             group_size: size_f64,
