@@ -2,6 +2,7 @@
 
 mod channels;
 mod clips;
+mod endings;
 mod frames;
 mod joins;
 mod map_text;
@@ -58,12 +59,12 @@ impl MapDraft {
         }
         let (pictures, others): (Vec<&FileGroup>, Vec<&FileGroup>) = groups
             .iter()
-            .partition(|group| frames::is_picture(&group.ending));
+            .partition(|group| endings::is_picture(&group.ending));
         let mut tables = Vec::new();
         let (mut notes, mut unread) = (Vec::new(), Vec::new());
         for group in others
             .iter()
-            .filter(|group| !clips::is_clip(&group.ending))
+            .filter(|group| !endings::is_clip(&group.ending))
             .take(TABLES)
         {
             if is_recording(&group.ending) {
@@ -94,7 +95,7 @@ impl MapDraft {
                 Err(problem) => notes.push(format!("not read: {problem}")),
             }
         }
-        let bare = groups.iter().find(|group| clips::is_clip(&group.ending));
+        let bare = groups.iter().find(|group| endings::is_clip(&group.ending));
         let most = pictures.iter().max_by_key(|group| group.paths.len());
         let clip = clips::only(&source, &groups);
         let main = main_table(&source, &groups, clip.as_ref(), &tables);

@@ -5,16 +5,13 @@ use std::path::Path;
 use taceva_core::counted;
 use taceva_video::{Decoders, Video};
 
+use super::endings::is_clip;
 use super::frames::{FrameLines, are_pairs, counted_through, of_views};
 use super::joins::span_s;
 use super::roles::Role;
 use super::survey::FileGroup;
 use super::tables::SeenTable;
 use crate::source_folder::SourceFolder;
-
-pub(super) fn is_clip(ending: &str) -> bool {
-    matches!(ending, "avi" | "mp4" | "mkv" | "mov" | "webm")
-}
 
 /// The only clip of a folder.
 pub(super) struct OnlyClip {

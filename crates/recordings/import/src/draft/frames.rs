@@ -6,20 +6,21 @@ mod stems;
 
 use std::path::Path;
 
+use super::endings::is_picture;
 use super::survey::FileGroup;
 use super::tables::{SeenColumn, SeenTable};
 use super::views::{Sided, sided};
 use crate::source_folder::SourceFolder;
 use picture_lines::{in_array, in_table};
-pub(super) use series::none_found;
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
 
 /// Number of cells of a column that are looked up as files.
 const LOOKED_UP: usize = 20;
 
-pub(super) fn is_picture(ending: &str) -> bool {
-    matches!(ending, "png" | "jpg" | "jpeg" | "tif" | "tiff")
+/// Comment on the pictures that belong to no row of `main`.
+pub(super) fn none_found(groups: &[FileGroup], main: &SeenTable<'_>) -> String {
+    series::none_found(groups, main)
 }
 
 /// Lines of `[frame]` with their comments.

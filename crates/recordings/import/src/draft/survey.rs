@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::clips::is_clip;
-use super::frames::is_picture;
+use super::endings::{is_clip, is_picture};
 use super::path_parts::{PathParts, varying};
 use crate::error::ImportError;
 use crate::source_folder::SourceFolder;

@@ -3,11 +3,10 @@
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
+use taceva_metrics::LEAST_CLUSTERS;
+
 use super::squares::{Axis, Coefficients, MOST, Solution, Square, form, solve};
 use super::undefined::CurveUndefined;
-
-/// Fewest clusters for a covariance between them.
-const LEAST_CLUSTERS: usize = 5;
 
 /// A reading y at the reference value x, each in its own unit.
 ///

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use super::stems::{may_name, within};
-use super::{FrameLines, is_gray, is_picture, of_views};
+use super::{FrameLines, is_gray, of_views};
+use crate::draft::endings::is_picture;
 use crate::draft::survey::FileGroup;
 use crate::draft::tables::{SeenColumn, SeenTable};
 use crate::import::{DIGITS_MAX, whole_number};
@@ -309,7 +310,7 @@ pub(super) fn of(
 const SEVERAL: &str = "pattern = \"?\"   # several series fit the rows: name that of the sensor";
 
 /// Comment for a table without pictures, with the pictures of the folder that no line joins.
-pub(in crate::draft) fn none_found(groups: &[FileGroup], main: &SeenTable<'_>) -> String {
+pub(super) fn none_found(groups: &[FileGroup], main: &SeenTable<'_>) -> String {
     let pictures = groups.iter().filter(|group| is_picture(&group.ending));
     let files: Vec<String> = pictures
         .map(|group| {

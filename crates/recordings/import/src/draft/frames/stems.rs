@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use super::{FrameLines, empty_rows, is_gray, is_picture};
+use super::{FrameLines, empty_rows, is_gray};
+use crate::draft::endings::is_picture;
 use crate::draft::roles::Role;
 use crate::draft::survey::FileGroup;
 use crate::draft::tables::{SeenColumn, SeenTable};
