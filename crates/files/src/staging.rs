@@ -52,7 +52,7 @@ impl Staged {
     /// folder.
     ///
     /// # Errors
-    /// [`io::Error`] of the file system, or `InvalidInput` if `target` names nothing.
+    /// [`io::Error`] of the file system, or `InvalidInput` if `target` names nothing, or a device, a pipe or a socket.
     pub fn beside(target: &Path) -> io::Result<Staged> {
         let staged = Staged::make(target)?;
         clear(parent_of(target), STAGED);
@@ -85,6 +85,7 @@ impl Staged {
                 "the path has no file or folder name",
             )
         })?;
+        refuse_devices(target)?;
         let folder = TemporaryFolder::make(parent_of(target), STAGED)?;
         Ok(Staged {
             target: target.to_owned(),
@@ -168,7 +169,8 @@ impl Staged {
 /// leftovers of killed processes.
 ///
 /// # Errors
-/// Errors of `write` and of the file system. `path` is then unchanged, unless only the sync of its folder failed.
+/// Errors of `write` and of the file system, and `InvalidInput` as [`Staged::beside`]. `path` is then unchanged, unless only the sync of its
+/// folder failed.
 pub fn replace<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&Path) -> Result<(), E>,
@@ -181,6 +183,19 @@ pub fn replace<E: From<io::Error>>(
     fs::rename(&staged.path, path)?;
     drop(publishing);
     Ok(sync_folder(parent_of(path))?)
+}
+
+/// Refuses a target that a rename would replace by a file, such as `/dev/null`.
+fn refuse_devices(target: &Path) -> io::Result<()> {
+    let kind = fs::symlink_metadata(target).map(|found| found.file_type());
+    match kind {
+        Ok(kind) if !kind.is_file() && !kind.is_dir() && !kind.is_symlink() => Err(io::Error::new(
+            io::ErrorKind::InvalidInput,
+            "it is a device, a pipe or a socket, which a file would replace; redirect standard output to it instead of naming it",
+        )),
+        // A target that cannot be looked at fails at its rename.
+        _ => Ok(()),
+    }
 }
 
 /// Restores `target` if a process was killed between its two renames, and removes the leftovers. Waits for a living process.

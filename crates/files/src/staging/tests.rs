@@ -79,3 +79,24 @@ fn a_folder_takes_the_place_of_another_with_and_without_an_exchange_of_names() {
         assert_eq!(names(folder.path()), ["plugin"], "{can_exchange}");
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn a_device_or_a_socket_is_never_replaced_by_a_file() {
+    use std::os::unix::fs::FileTypeExt;
+
+    let folder = tempfile::tempdir().expect("room");
+    let socket = folder.path().join("socket");
+    let _listener = std::os::unix::net::UnixListener::bind(&socket).expect("a socket");
+    let refused = replace(&socket, |staged| fs::write(staged, "result"));
+    let error: io::Error = refused.expect_err("refused");
+    assert_eq!(error.kind(), io::ErrorKind::InvalidInput);
+    assert!(
+        error.to_string().contains("a device, a pipe or a socket"),
+        "{error}"
+    );
+    assert!(Staged::beside(&socket).is_err());
+    let kind = fs::symlink_metadata(&socket).expect("there").file_type();
+    assert!(kind.is_socket());
+    assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1);
+}
