@@ -106,7 +106,12 @@ fn checks_that_hang_in_the_call_of_an_earlier_one_are_skipped() {
         .filter(|result| matches!(result.outcome, Outcome::Failed(_)))
         .map(|result| result.check)
         .collect();
-    assert_eq!(failed, ["driver/opens"], "{results:#?}");
+    // The first check of each driver has its whole time.
+    let is_first = |check: &&str| *check == "driver/opens";
+    assert!(
+        !failed.is_empty() && failed.iter().all(is_first),
+        "{results:#?}"
+    );
     let why = "it did not open the device, as in `driver/opens`, which failed";
     let skipped = Outcome::Skipped(why.to_owned());
     let skipped = results.iter().filter(|result| result.outcome == skipped);

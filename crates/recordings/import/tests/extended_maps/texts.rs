@@ -99,7 +99,7 @@ fn an_open_unit_behind_the_name_of_a_column_with_a_number_sign_is_refused_as_ope
     let columns = "[columns]\nFz = { from = \"a#b\", unit = \"?\" }\n";
     let problem = refused(&[("t.csv", "a#b\n1\n")], &map("\"t.csv\"", columns));
     assert!(
-        problem.contains("is a value that a draft leaves open"),
+        problem.contains("is a unit that a draft leaves open"),
         "{problem}"
     );
 }
