@@ -150,7 +150,7 @@ def test_a_key_of_the_caller_pairs_rows_and_is_no_channel() -> None:
 
 def test_a_column_of_unique_whole_numbers_in_both_is_refused_as_a_channel() -> None:
     truth, prediction = (frame.assign(touch=range(ROWS)) for frame in frames())
-    with pytest.raises(ValueError, match="the column 'touch' holds the same unique whole numbers .* pair them with key='touch'"):
+    with pytest.raises(ValueError, match="the column 'touch' holds the same unique whole numbers .* pair rows with key='touch'"):
         taceva.score(truth, shuffled(prediction).reset_index(drop=True))
     assert taceva.score(truth, prediction, units={"touch": "1"})["mae", "touch"].value == 0.0
     assert taceva.score(truth, prediction, channels=["Fz", "touch"])["mae", "touch"].value == 0.0

@@ -235,7 +235,7 @@ def test_a_comparison_says_which_is_better() -> None:
         str(taceva.compare(near, far, metrics=["mea"]))
 
 
-def tests_of(comparison: taceva.Comparison) -> set[str]:
+def deciding_tests(comparison: taceva.Comparison) -> set[str]:
     """Return the tests behind the answers for MAE."""
     answers = comparison.to_dict()["answers"]
     return {answer["difference"]["test"] for answer in answers if answer["metric"] == "mae" and answer["difference"]}
@@ -253,7 +253,7 @@ def test_results_of_the_same_samples_are_compared_in_pairs(tmp_path: Path) -> No
         tables.append(taceva.score_tables(*write_tables(tmp_path / name, truth, found, points), key="order"))
     for results in (of_arrays, tables, pickle.loads(pickle.dumps(of_arrays))):
         paired = taceva.compare(*results, metrics=["mae"])
-        assert len(tests_of(paired)) == 1 and "sign" in str(tests_of(paired)), tests_of(paired)
+        assert len(deciding_tests(paired)) == 1 and "sign" in str(deciding_tests(paired)), deciding_tests(paired)
         assert "no samples are kept" not in str(paired)
     answers = taceva.compare(*of_arrays, metrics=["mae"]).to_dict()["answers"]
     assert all(answer["difference"]["shown"] for answer in answers)
@@ -266,7 +266,7 @@ def test_arrays_that_change_after_they_were_scored_are_compared_as_they_were_sco
         buffer[:] = truth + scale * (prediction - truth)
         results.append(taceva.score(truth, buffer, points=points))
     buffer[:] = 0.0
-    assert "sign" in str(tests_of(taceva.compare(*results, metrics=["mae"])))
+    assert "sign" in str(deciding_tests(taceva.compare(*results, metrics=["mae"])))
 
 
 def test_results_without_samples_are_compared_by_intervals_and_a_note_states_it(tmp_path: Path) -> None:
@@ -277,7 +277,7 @@ def test_results_without_samples_are_compared_by_intervals_and_a_note_states_it(
     result.save(tmp_path / "scores.json")
     for other in (sums.compute(), taceva.load(tmp_path / "scores.json")):
         comparison = taceva.compare(result, other, metrics=["mae"])
-        assert tests_of(comparison) == {"by the intervals of both"}
+        assert deciding_tests(comparison) == {"by the intervals of both"}
         for shown in (str(comparison), comparison._repr_html_()):
             assert "no samples are kept with unknown 2: compared by the intervals of both" in " ".join(shown.split())
     with pytest.raises(ValueError, match="no samples are kept"):
@@ -285,7 +285,7 @@ def test_results_without_samples_are_compared_by_intervals_and_a_note_states_it(
     result.save_samples(tmp_path / "scores.samples.csv")
     loaded = taceva.load(tmp_path / "scores.json")
     far = taceva.score(truth, truth + 2 * (prediction - truth), points=points)
-    assert "sign" in str(tests_of(taceva.compare(loaded, far, metrics=["mae"])))
+    assert "sign" in str(deciding_tests(taceva.compare(loaded, far, metrics=["mae"])))
 
 
 def test_a_comparison_has_a_narrow_table_of_the_main_scores_for_a_paper() -> None:
