@@ -185,11 +185,11 @@ pub fn replace<E: From<io::Error>>(
     Ok(sync_folder(parent_of(path))?)
 }
 
-/// Refuses a target that a rename would replace by a file, such as `/dev/null`.
+/// Refuses a target that a rename would replace by a file, such as `/dev/null`, or `/dev/stdout`, a link to an open file of the process.
 fn refuse_devices(target: &Path) -> io::Result<()> {
-    let kind = fs::symlink_metadata(target).map(|found| found.file_type());
-    match kind {
-        Ok(kind) if !kind.is_file() && !kind.is_dir() && !kind.is_symlink() => Err(io::Error::new(
+    let leads_to_process = fs::read_link(target).is_ok_and(|to| to.starts_with("/proc"));
+    match fs::metadata(target).map(|found| found.file_type()) {
+        Ok(kind) if leads_to_process || (!kind.is_file() && !kind.is_dir()) => Err(io::Error::new(
             io::ErrorKind::InvalidInput,
             "it is a device, a pipe or a socket, which a file would replace; redirect standard output to it instead of naming it",
         )),

@@ -80,7 +80,7 @@ fn a_folder_takes_the_place_of_another_with_and_without_an_exchange_of_names() {
     }
 }
 
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 #[test]
 fn a_device_or_a_socket_is_never_replaced_by_a_file() {
     use std::os::unix::fs::FileTypeExt;
@@ -98,5 +98,12 @@ fn a_device_or_a_socket_is_never_replaced_by_a_file() {
     assert!(Staged::beside(&socket).is_err());
     let kind = fs::symlink_metadata(&socket).expect("there").file_type();
     assert!(kind.is_socket());
+    // A link to one is kept too, and a link to an open file of the process, as /dev/stdout is.
+    let link = folder.path().join("link");
+    for to in [socket.as_path(), Path::new("/proc/self/exe")] {
+        std::os::unix::fs::symlink(to, &link).expect("a link");
+        assert!(Staged::beside(&link).is_err(), "{}", to.display());
+        fs::remove_file(&link).expect("still there");
+    }
     assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 1);
 }
