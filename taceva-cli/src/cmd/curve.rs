@@ -10,6 +10,7 @@ use taceva_evaluate::read_table;
 use taceva_import::{CsvTable, ImportError};
 use taceva_metrology::curve::{CurveFit, CurveRow, CurveUndefined, Indication};
 use taceva_report::{CalibrationCurve, CurveAxis, CurveRequest};
+use taceva_results::Samples;
 
 use super::quantity::{Quantity, unit_of_six};
 use super::{Context, Usage, origin, results};
@@ -18,8 +19,6 @@ use crate::{exit, output};
 
 /// Column of contact points in tables of samples.
 const POINT: &str = "point_id";
-/// Suffix of columns with predictions.
-const PREDICTED: &str = "_predicted";
 /// Least reference value of relative errors, as a share of the greatest.
 const LEAST_SHARE: f64 = 0.2;
 /// Number of bands without `--at`.
@@ -84,13 +83,13 @@ impl Axis {
 /// The column called `word`; `truth.Fz` and `prediction.Fz` name columns of a table of samples.
 fn axis(table: &CsvTable, word: &str) -> Result<Axis, ImportError> {
     let predicted = word.strip_prefix("prediction.");
-    let predicted = predicted.map(|name| format!("{name}{PREDICTED}"));
+    let predicted = predicted.map(|name| format!("{name}{}", Samples::PREDICTED));
     let truth = word.strip_prefix("truth.").map(str::to_owned);
     let name = match predicted.or(truth) {
         Some(name) if !table.has(word) => name,
         _ => word.to_owned(),
     };
-    let channel = name.strip_suffix(PREDICTED).unwrap_or(&name);
+    let channel = name.strip_suffix(Samples::PREDICTED).unwrap_or(&name);
     Ok(Axis {
         column: table.position(&name)?,
         unit: unit_of_six(channel),

@@ -34,8 +34,6 @@ const NUMBERS: [&str; 6] = [
     "spacing_predicted_mm",
     "intensity",
 ];
-/// Suffix of prediction columns.
-const PREDICTED: &str = "_predicted";
 /// Suffix of columns with predictions before limiting to the bounds of the model.
 const UNBOUNDED: &str = "_predicted_unbounded";
 
@@ -97,6 +95,8 @@ impl Samples {
     pub const GROUP: &'static str = "group";
     /// Name of the column of folds, from 1, each predicted by its own model.
     pub const FOLD: &'static str = "fold";
+    /// Suffix of the columns of predictions.
+    pub const PREDICTED: &'static str = "_predicted";
 
     /// Samples called `ids` from the recordings in these folders.
     pub fn new(ids: Vec<Option<String>>, recordings: Vec<PathBuf>) -> Samples {
@@ -111,7 +111,7 @@ impl Samples {
     pub(crate) fn of_channels(mut self, names: &[&str]) -> Samples {
         self.columns.retain(|(column, values)| {
             let channel = column.strip_suffix(UNBOUNDED).unwrap_or(column);
-            let channel = channel.strip_suffix(PREDICTED).unwrap_or(channel);
+            let channel = channel.strip_suffix(Samples::PREDICTED).unwrap_or(channel);
             let is_channel =
                 matches!(values, SampleColumn::Numbers(_)) && !NUMBERS.contains(&column.as_str());
             !is_channel || names.contains(&channel)
@@ -145,7 +145,10 @@ impl Samples {
 
     /// Adds the predictions of `channel`.
     pub fn push_prediction(&mut self, channel: &Channel, numbers: Column) {
-        self.push_numbers(&format!("{}{PREDICTED}", channel.name()), numbers);
+        self.push_numbers(
+            &format!("{}{}", channel.name(), Samples::PREDICTED),
+            numbers,
+        );
     }
 
     /// Adds the predictions of `channel` before limiting to the model's bounds. Without this column they equal the predictions.
@@ -242,7 +245,7 @@ impl Samples {
             if name.ends_with(UNBOUNDED) {
                 continue;
             }
-            let name = name.strip_suffix(PREDICTED).unwrap_or(name);
+            let name = name.strip_suffix(Samples::PREDICTED).unwrap_or(name);
             let is_channel = matches!(column, SampleColumn::Numbers(_)) && !NUMBERS.contains(&name);
             if is_channel && !names.contains(&name) {
                 names.push(name);
@@ -255,10 +258,10 @@ impl Samples {
     /// Channel called `name`.
     pub fn channel(&self, name: &str) -> Option<SampleChannel<'_>> {
         let truth = self.numbers(name);
-        let prediction = self.numbers(&format!("{name}{PREDICTED}"));
+        let prediction = self.numbers(&format!("{name}{}", Samples::PREDICTED));
         let named = truth.or(prediction).filter(|_| !NUMBERS.contains(&name))?;
         Some(SampleChannel {
-            name: named.0.strip_suffix(PREDICTED).unwrap_or(named.0),
+            name: named.0.strip_suffix(Samples::PREDICTED).unwrap_or(named.0),
             rows: self.rows,
             truth: truth.map(|(_, column)| column),
             prediction: prediction.map(|(_, column)| column),

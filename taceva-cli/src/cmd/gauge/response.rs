@@ -2,13 +2,11 @@
 
 use taceva_core::{Unit, shown};
 use taceva_import::{CsvTable, ImportError};
+use taceva_results::Samples;
 
 use crate::args::{Gauge, GaugeResponse};
 use crate::cmd::Usage;
 use crate::cmd::quantity::{self, Quantity};
-
-/// Suffix of columns with predictions.
-const PREDICTED: &str = "_predicted";
 
 /// Columns of the readings of one channel.
 pub(super) struct Response {
@@ -68,7 +66,7 @@ fn usual(table: &CsvTable, tolerance: Option<&Quantity>) -> anyhow::Result<Vec<S
     let names = || table.names().iter().map(String::as_str);
     let is_of_six = |name: &&str| quantity::unit_of_six(name).is_some();
     let mut found: Vec<&str> = names()
-        .filter_map(|of| of.strip_suffix(PREDICTED))
+        .filter_map(|of| of.strip_suffix(Samples::PREDICTED))
         .collect();
     if found.is_empty() {
         found = names().filter(is_of_six).collect();
@@ -96,7 +94,7 @@ impl Response {
         kind: Option<GaugeResponse>,
         tolerance: Option<&Quantity>,
     ) -> Result<Response, ImportError> {
-        let predicted = format!("{name}{PREDICTED}");
+        let predicted = format!("{name}{}", Samples::PREDICTED);
         let is_predicted = table.has(&predicted);
         let is_error = match kind {
             Some(kind) => kind == GaugeResponse::Error,
