@@ -5,12 +5,12 @@ use taceva_metrics::distributions::student_t;
 
 /// Meaning of an expanded uncertainty: its coverage factor, or its coverage probability.
 ///
-/// It gets no further variant: a certificate states one of these.
+/// This type gets no further variant: a certificate states one of these.
 ///
 /// ```
 /// use taceva_metrology::budget::{Coverage, Freedom};
 /// let normal = Coverage::Probability { p: 0.95, freedom: Freedom::Infinite };
-/// assert!((normal.factor().unwrap() - 1.96).abs() < 1e-4);
+/// assert!(normal.factor().is_some_and(|k| (k - 1.96).abs() < 1e-4));
 /// assert_eq!(Coverage::Factor(2.0).factor(), Some(2.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +46,7 @@ impl Coverage {
 /// let mut certificate = Certificate::new("D-K-1", "a laboratory", "M3813B-0042", Coverage::Factor(2.0));
 /// (certificate.absolute, certificate.relative) = (0.003, 0.001);
 /// // √(1.5² + (0.5 × 10)²) mN at 10 N.
-/// assert!((certificate.standard_uncertainty(10.0).unwrap() - 0.00522).abs() < 1e-5);
+/// assert!(certificate.standard_uncertainty(10.0).is_some_and(|u| (u - 0.00522).abs() < 1e-5));
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]

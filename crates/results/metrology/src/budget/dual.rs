@@ -37,7 +37,7 @@ impl Scalar for f64 {
 
 /// Value of an expression with its derivatives, in units of the expression over those of the inputs.
 ///
-/// It gets no further field: derivatives of third order are not computed.
+/// This type gets no further field: derivatives of third order are not computed.
 ///
 /// ```
 /// use taceva_metrology::budget::Expression;

@@ -73,7 +73,7 @@ pub struct Components {
 
 /// Rows that give no components: fewer than two points, or no point with two rows.
 ///
-/// It gets no further field.
+/// This type gets no further field.
 ///
 /// ```
 /// use taceva_metrology::budget::Residuals;

@@ -6,7 +6,7 @@ use taceva_metrics::distributions::{noncentral_t, student_t};
 
 /// Risks and repeats of a detection.
 ///
-/// It gets no further field.
+/// This type gets no further field.
 ///
 /// ```
 /// use taceva_metrology::curve::DetectionRisks;

@@ -59,7 +59,7 @@ impl Indication {
 /// use taceva_metrology::curve::{Indication, IndicationLevel};
 /// let level = IndicationLevel::new(&[100.0, 98.0, 100.0].map(|truth| Indication::new(100.0, truth)));
 /// // The range of all three, not the first less the third.
-/// assert!((level.figures(200.0)?.b.unwrap() - 2.0408).abs() < 1e-4);
+/// assert!(level.figures(200.0)?.b.is_some_and(|b| (b - 2.0408).abs() < 1e-4));
 /// # Ok::<(), taceva_metrology::curve::CurveUndefined>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -19,7 +19,7 @@ pub(super) type Figure = Result<f64, &'static str>;
 
 /// Place of figures among limits like a standard's. No class is given: neither the procedure nor the limits are the standard's own.
 ///
-/// It gets no further variant: figures are within a row, beyond all, or incomplete.
+/// This type gets no further variant: figures are within a row, beyond all, or incomplete.
 ///
 /// ```
 /// use taceva_metrology::curve::{Indication, IndicationLevel};

@@ -5,13 +5,13 @@ use taceva_metrics::distributions::f_ratio;
 
 /// Test of the residuals of level means against the scatter at equal x.
 ///
-/// It gets no further field.
+/// This type gets no further field.
 ///
 /// ```
 /// use taceva_metrology::curve::{CurveFit, CurveRow};
 /// let rows: Vec<CurveRow> = [(0.0, 0.0), (0.0, 0.1), (1.0, 5.0), (1.0, 5.1), (2.0, 2.0), (2.0, 2.1)].map(|(x, y)| CurveRow::new(x, y)).into();
-/// let test = CurveFit::of(&rows, 1)?.lack_of_fit().unwrap();
-/// assert!(test.p < 0.001);
+/// let test = CurveFit::of(&rows, 1)?.lack_of_fit();
+/// assert!(test.is_some_and(|test| test.p < 0.001));
 /// # Ok::<(), taceva_metrology::curve::CurveUndefined>(())
 /// ```
 ///
