@@ -40,6 +40,7 @@ mod table;
 mod text;
 
 pub use error::GaugeError;
+pub(crate) use one_way::GroupSums;
 pub use one_way::OneWay;
 pub use range::{RangeConstants, RangeEstimate};
 pub use report::{

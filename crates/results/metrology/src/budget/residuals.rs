@@ -7,6 +7,7 @@ use taceva_metrics::ExactSum;
 
 use super::evidence::{Evidence, Figure};
 use super::freedom::Freedom;
+use crate::gauge::{GroupSums, OneWay};
 
 /// Residuals d = truth − prediction by contact point, as exact sums. States of parts merge, in any order.
 ///
@@ -23,17 +24,9 @@ use super::freedom::Freedom;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Residuals {
-    points: BTreeMap<String, Point>,
+    points: BTreeMap<String, GroupSums>,
     /// Rows whose truth or prediction is no number.
     n_invalid: u64,
-}
-
-/// Exact sums of the residuals of one point.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Point {
-    n: u64,
-    sum: ExactSum,
-    squares: ExactSum,
 }
 
 /// Components of the one-way random model by contact point, in the unit of the channel.
@@ -101,19 +94,14 @@ impl Residuals {
             Some(of) => of,
             None => self.points.entry(point.to_owned()).or_default(),
         };
-        of.n += 1;
-        of.sum.add(residual);
-        of.squares.add_product(residual, residual);
+        of.add(residual);
     }
 
     /// Adds the rows of another part.
     pub fn merge(&mut self, other: &Residuals) {
         self.n_invalid += other.n_invalid;
         for (name, point) in &other.points {
-            let of = self.points.entry(name.clone()).or_default();
-            of.n += point.n;
-            of.sum.merge(&point.sum);
-            of.squares.merge(&point.squares);
+            self.points.entry(name.clone()).or_default().merge(point);
         }
     }
 
@@ -132,100 +120,35 @@ impl Residuals {
     pub fn components(&self) -> Result<Components, TooFewRows> {
         let points = self.points.len() as u64;
         let count: u64 = self.points.values().map(|point| point.n).sum();
-        if points < 2 || count <= points {
-            return Err(TooFewRows { n: count, points });
-        }
-        let (n, g) = (count as f64, points as f64);
-        let (mut sum, mut squares, mut sizes) = (ExactSum::default(), ExactSum::default(), 0.0);
+        let few = TooFewRows { n: count, points };
+        let model = OneWay::of_sums(self.points.values()).ok_or(few)?;
+        let mut squares = ExactSum::default();
         for point in self.points.values() {
-            sum.merge(&point.sum);
             squares.merge(&point.squares);
-            sizes += (point.n as f64).powi(2);
         }
-        let mean = sum.to_f64() / n;
-        let (mut within, mut between) = (ExactSum::default(), ExactSum::default());
-        for point in self.points.values() {
-            point.add_within(&mut within);
-            // nₚ (d̄ₚ − d̄)² by the exact sum of nₚ residuals less the mean.
-            let off = above(&point.sum, point.n, mean);
-            between.add(off * off / point.n as f64);
-        }
-        let off = above(&sum, count, mean);
-        between.add(-(off * off) / n);
-        let freedoms = [g - 1.0, n - g];
-        let mean_squares = [
-            between.to_f64().max(0.0) / freedoms[0],
-            within.to_f64().max(0.0) / freedoms[1],
-        ];
-        let n0 = (n - sizes / n) / freedoms[0];
-        let difference = mean_squares[0] - mean_squares[1];
-        let terms = mean_squares.iter().zip(freedoms);
-        let scale: f64 = terms
-            .map(|(square, freedom)| square * square / freedom)
-            .sum();
-        let of_between = match difference > 0.0 {
-            true => Freedom::Finite(difference * difference / scale),
-            false => Freedom::Finite(freedoms[0]),
-        };
-        // Variance of one residual: MS_b / n0 + (1 − 1 / n0) MS_w, or MS_w alone.
-        let share = if difference > 0.0 { 1.0 / n0 } else { 0.0 };
-        let parts = [share * mean_squares[0], (1.0 - share) * mean_squares[1]];
-        let scale: f64 = parts
-            .iter()
-            .zip(freedoms)
-            .map(|(part, freedom)| part * part / freedom)
-            .sum();
-        let total: f64 = parts.iter().sum();
-        let of_rmse = match scale > 0.0 {
-            true => Freedom::Finite(total * total / scale),
-            false => Freedom::Finite(freedoms[1]),
-        };
+        let of_points = Freedom::Finite(points as f64 - 1.0);
+        let of_rows = Freedom::Finite(model.within_freedom);
         let figure = |u: f64, freedom: Freedom| Figure::new(u, freedom).of_rows(count, points);
-        let [square_between, square_within] = mean_squares;
-        let between_variance = difference.max(0.0) / n0;
-        let of_mean = between_variance * sizes / (n * n) + square_within / n;
-        let mut spread = figure(between_variance.sqrt(), of_between);
-        if difference < 0.0 {
-            spread.note = Some("the component came out negative and counts as 0".to_owned());
+        let is_negative = model.between_variance_raw < 0.0;
+        let of_between = model.between_freedom.map_or(of_points, Freedom::Finite);
+        let mut between = figure(model.between, of_between);
+        if is_negative {
+            between.note = Some("the component came out negative and counts as 0".to_owned());
         }
         Ok(Components {
-            mean_square_between: square_between,
-            mean_square_within: square_within,
-            n0,
-            between: spread,
-            within: figure(square_within.sqrt(), Freedom::Finite(freedoms[1])),
-            bias: figure(of_mean.sqrt(), Freedom::Finite(freedoms[0])).of_estimate(mean),
-            rmse: figure((squares.to_f64() / n).sqrt(), of_rmse),
-            is_negative: difference < 0.0,
+            mean_square_between: model.mean_square_between,
+            mean_square_within: model.mean_square_within,
+            n0: model.group_size,
+            between,
+            within: figure(model.within, of_rows),
+            bias: figure(model.mean_uncertainty, of_points).of_estimate(model.mean),
+            rmse: figure(
+                (squares.to_f64() / count as f64).sqrt(),
+                model.total_freedom.map_or(of_rows, Freedom::Finite),
+            ),
+            is_negative,
         })
     }
-}
-
-impl Point {
-    /// Adds Σ (d − d̄ₚ)² to `total`: Σd² − 2 m Σd + n m² exactly for the rounded mean m, less what m is off.
-    fn add_within(&self, total: &mut ExactSum) {
-        let n = self.n as f64;
-        let high = self.sum.to_f64();
-        let mean = high / n;
-        let mut rest = self.sum.clone();
-        rest.add(-high);
-        total.merge(&self.squares);
-        total.add_product(-2.0 * mean, high);
-        total.add_product(-2.0 * mean, rest.to_f64());
-        // m² in two parts, so that its products with n are exact.
-        let square = mean * mean;
-        total.add_product(n, square);
-        total.add_product(n, mean.mul_add(mean, -square));
-        let off = above(&self.sum, self.n, mean);
-        total.add(-(off * off) / n);
-    }
-}
-
-/// Sum of n numbers less n times `mean`, rounded once.
-fn above(sum: &ExactSum, n: u64, mean: f64) -> f64 {
-    let mut off = sum.clone();
-    off.add_product(-(n as f64), mean);
-    off.to_f64()
 }
 
 impl Components {

@@ -1,8 +1,10 @@
 //! One-way random model: groups that differ, and readings that scatter within them.
 
+use std::collections::BTreeMap;
+
 use taceva_metrics::{Dyadic, ExactSum};
 
-use super::anova::{count, real};
+use super::anova::real;
 use crate::fraction::Fraction;
 
 /// Components of variance of groups of unequal size, in the unit of the readings.
@@ -52,28 +54,65 @@ pub struct OneWay {
     pub total_freedom: Option<f64>,
 }
 
+/// Exact sums of the readings of one group.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct GroupSums {
+    pub(crate) n: u64,
+    pub(crate) sum: ExactSum,
+    pub(crate) squares: ExactSum,
+}
+
+impl GroupSums {
+    /// Adds a finite reading.
+    pub(crate) fn add(&mut self, value: f64) {
+        self.n += 1;
+        self.sum.add(value);
+        self.squares.add_product(value, value);
+    }
+
+    /// Adds the readings of another part of the group.
+    pub(crate) fn merge(&mut self, other: &GroupSums) {
+        self.n += other.n;
+        self.sum.merge(&other.sum);
+        self.squares.merge(&other.squares);
+    }
+}
+
 impl OneWay {
     /// Components of finite readings by group; `None` below two groups, or without two readings in one of them.
     ///
     /// # Panics
     /// If a reading is NaN or infinite.
     pub fn of<'a>(groups: impl IntoIterator<Item = &'a [f64]>) -> Option<OneWay> {
+        let sums = groups.into_iter().map(|group| {
+            let mut sums = GroupSums::default();
+            group.iter().for_each(|value| sums.add(*value));
+            sums
+        });
+        let sums: Vec<GroupSums> = sums.collect();
+        OneWay::of_sums(&sums)
+    }
+
+    /// As [`of`](OneWay::of), from the sums of each group.
+    pub(crate) fn of_sums<'s>(groups: impl IntoIterator<Item = &'s GroupSums>) -> Option<OneWay> {
         let (mut n, mut k, mut squared_sizes) = (0, 0, 0_u64);
         let (mut sum, mut squares) = (ExactSum::default(), ExactSum::default());
-        let mut of_groups = Fraction::zero();
-        for group in groups.into_iter().filter(|group| !group.is_empty()) {
-            let size = count(group.len());
-            let of_group: ExactSum = group.iter().copied().collect();
-            group
-                .iter()
-                .for_each(|&value| squares.add_product(value, value));
-            sum.merge(&of_group);
-            let of_group = of_group.to_dyadic();
-            of_groups = of_groups.plus(&Fraction::of(&of_group * &of_group, size));
-            n += size;
+        // Σ (Σ x)² of the groups of each size, so that a quotient is formed once a size.
+        let mut of_sizes: BTreeMap<u64, Dyadic> = BTreeMap::new();
+        for group in groups.into_iter().filter(|group| group.n > 0) {
+            squares.merge(&group.squares);
+            sum.merge(&group.sum);
+            let of_group = group.sum.to_dyadic();
+            let of_size = of_sizes.entry(group.n).or_insert_with(|| Dyadic::from(0));
+            *of_size = &*of_size + &(&of_group * &of_group);
+            n += group.n;
             k += 1;
-            squared_sizes += size * size;
+            squared_sizes += group.n * group.n;
         }
+        let of_sizes = of_sizes.into_iter();
+        let of_groups = of_sizes.fold(Fraction::zero(), |all, (size, above)| {
+            all.plus(&Fraction::of(above, size))
+        });
         if k < 2 || n <= k {
             return None;
         }
