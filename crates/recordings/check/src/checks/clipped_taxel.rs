@@ -12,7 +12,7 @@ pub(super) static CHECK: Check = Check {
     looks_for: "taxels clipped at their greatest or least number: it occurs in at least 5 samples and 1 %, and over three times as often \
         as the next number; values at rest do not count",
     hint: "press with less force, or lower the gain of the converter: the signal beyond the limit is lost, and models learn a constant \
-        there",
+        there; if the number means that nothing was measured, list it as `placeholders` in [signals] of the map",
     reads: Some(Field::Signals),
     find,
 };
