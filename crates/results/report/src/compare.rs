@@ -5,6 +5,7 @@ mod estimate;
 mod notes;
 mod overview;
 mod paired;
+mod reach;
 mod remarks;
 mod render;
 mod request;
@@ -79,6 +80,8 @@ pub struct Answer {
     pub difference: Option<Difference>,
     /// Reason why there is no verdict.
     pub reason: Option<String>,
+    /// Reason why so few groups cannot show any difference.
+    pub out_of_reach: Option<String>,
     /// Standing of each score.
     pub standings: Sides<Standing>,
     /// True for a score from a single training of a model with a random seed.
@@ -95,6 +98,10 @@ impl Answer {
                     a: &names[self.sides.a],
                     b: &names[self.sides.b],
                 });
+                let words = match self.unreachable() {
+                    Some(reason) => format!("{words}; {reason}"),
+                    None => words,
+                };
                 let unknown = self.unknown(names);
                 let words = match unknown.is_empty() {
                     true => words,
@@ -110,6 +117,12 @@ impl Answer {
                 }
             }
         }
+    }
+
+    /// Reason why no difference is shown that does not depend on the values.
+    fn unreachable(&self) -> Option<&str> {
+        let is_open = matches!(self.verdict, Verdict::NoDifferenceShown { .. });
+        self.out_of_reach.as_deref().filter(|_| is_open)
     }
 
     /// Studies whose models have an unknown skill.
@@ -150,6 +163,8 @@ struct Pair<'a> {
     difference: Result<Difference, String>,
     /// Reason why two predictions of one truth were not compared in pairs.
     unpaired: Option<String>,
+    /// Reason why so few groups cannot show any difference.
+    out_of_reach: Option<String>,
 }
 
 /// Compares every pair of `studies`.
@@ -251,6 +266,7 @@ fn pairs<'a>(
                     sides: Sides { a, b },
                     difference,
                     unpaired,
+                    out_of_reach: None,
                 });
             }
         }
@@ -299,13 +315,11 @@ fn decide_together(pairs: &mut [Pair<'_>]) {
     let tested = tested.filter_map(|pair| pair.difference.as_ref().ok().cloned());
     let mut family: Vec<Difference> = tested.collect();
     decide(&mut family);
-    let mut family = family.into_iter();
-    for difference in pairs
-        .iter_mut()
-        .filter_map(|pair| pair.difference.as_mut().ok())
-    {
-        if let Some(decided) = family.next() {
-            *difference = decided;
+    let mut family = reach::out_of_reach(&family).into_iter().zip(family);
+    for pair in pairs.iter_mut().filter(|pair| pair.difference.is_ok()) {
+        if let Some((out_of_reach, decided)) = family.next() {
+            pair.difference = Ok(decided);
+            pair.out_of_reach = out_of_reach;
         }
     }
 }
@@ -343,6 +357,7 @@ fn answer(pair: Pair<'_>, studies: &[Study], request: &CompareRequest) -> Answer
         verdict,
         difference: pair.difference.ok(),
         reason,
+        out_of_reach: pair.out_of_reach,
         standings: Sides {
             a: pair.scores.a.standing,
             b: pair.scores.b.standing,
