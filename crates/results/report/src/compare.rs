@@ -28,6 +28,7 @@ use taceva_metrics::{
 };
 
 use crate::results::Study;
+use crate::training::{NO_VERDICT, is_demonstration};
 use remarks::Remarks;
 use taceva_results::Score;
 
@@ -74,7 +75,7 @@ pub struct Answer {
     pub scores: Sides<Option<f64>>,
     /// Positions of both studies.
     pub sides: Sides<usize>,
-    /// Verdict by Holm's procedure over all pairs and channels of the metric.
+    /// Verdict by Holm's procedure over all pairs and channels of the metric; a demonstration names no better side.
     pub verdict: Verdict,
     /// Difference behind the verdict, with both p values and the interval of that decision.
     pub difference: Option<Difference>,
@@ -82,6 +83,8 @@ pub struct Answer {
     pub reason: Option<String>,
     /// Reason why so few groups cannot show any difference.
     pub out_of_reach: Option<String>,
+    /// True if models learnt on too few places for a verdict on sensors.
+    pub is_demonstration: bool,
     /// Standing of each score.
     pub standings: Sides<Standing>,
     /// True for a score from a single training of a model with a random seed.
@@ -101,6 +104,10 @@ impl Answer {
                 let words = match self.unreachable() {
                     Some(reason) => format!("{words}; {reason}"),
                     None => words,
+                };
+                let words = match self.is_demonstration && self.is_shown() {
+                    true => format!("{words}; {NO_VERDICT}"),
+                    false => words,
                 };
                 let unknown = self.unknown(names);
                 let words = match unknown.is_empty() {
@@ -332,13 +339,19 @@ fn answer(pair: Pair<'_>, studies: &[Study], request: &CompareRequest) -> Answer
     let margin = margins.iter().find_map(|name| request.margins.get(name));
     let question = Question::new(pair.scores.a.unit, pair.scores.a.better());
     let question = question.with_margin(margin.copied());
-    let (verdict, reason) = match &pair.difference {
+    let (mut verdict, reason) = match &pair.difference {
         Ok(difference) => (Verdict::of(Ok(difference.clone()), question), None),
         Err(reason) => (
             Verdict::Undefined(ComparisonError::NoSpread),
             Some(reason.clone()),
         ),
     };
+    let is_demonstration = is_demonstration(studies, metric);
+    if let Verdict::Differs { better, .. } = &mut verdict
+        && is_demonstration
+    {
+        *better = None;
+    }
     Answer {
         metric: metric.clone(),
         channel: channel.clone(),
@@ -358,6 +371,7 @@ fn answer(pair: Pair<'_>, studies: &[Study], request: &CompareRequest) -> Answer
         difference: pair.difference.ok(),
         reason,
         out_of_reach: pair.out_of_reach,
+        is_demonstration,
         standings: Sides {
             a: pair.scores.a.standing,
             b: pair.scores.b.standing,

@@ -199,7 +199,7 @@ impl Comparison {
             (Some((at, value)), None) if aside.is_demonstration => (
                 None,
                 format!(
-                    "{} {NO_VERDICT}, with {}{unit}",
+                    "{} has the best value, but {NO_VERDICT}, with {}{unit}",
                     self.names[at],
                     numeral(value)
                 ),
@@ -337,7 +337,7 @@ impl Answer {
     }
 
     /// True for a significant difference beyond the margin.
-    pub(super) fn is_shown(&self) -> bool {
+    pub(crate) fn is_shown(&self) -> bool {
         matches!(self.verdict, Verdict::Differs { .. })
     }
 }
