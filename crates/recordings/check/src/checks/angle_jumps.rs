@@ -10,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     name: "angle-jumps",
     looks_for: "angles that jump by more than half a turn between neighbouring samples and are declared neither periodic nor part of a \
         rotation",
-    hint: "add `period = 360` to the channel in the map if the angle wraps around, or `rotation = [\"Rx\", \"Ry\", \"Rz\"]` if it is a \
+    hint: "add `period = 360` to the channel in the map, or 6.283185307179586 in rad, if the angle wraps around, or `rotation = [\"Rx\", \"Ry\", \"Rz\"]` if it is a \
         component of a rotation vector",
     reads: None,
     find,

@@ -127,7 +127,7 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
             suffix.is_some_and(|suffix| suffix.contradiction(&unit).is_some())
         });
         let scale = if is_contradicted { ", scale = 1" } else { "" };
-        let period = channel.period();
+        let period = channel.period_in_unit();
         let period = period.map_or_else(String::new, |period| format!(", period = {period}"));
         line(format_args!(
             "{} = {{ from = {}, unit = {}{scale}{period} }}",

@@ -247,7 +247,7 @@ impl Check<'_> {
             let channel = Channel::named(name, unit.unit())
                 .map_err(|error| self.at(offset, &error.to_string()))?;
             let channel = match column.period {
-                Some(period) => self.periodic(channel, period, offset)?,
+                Some(period) => self.periodic(channel, period, unit, offset)?,
                 None => channel,
             };
             let is_negated = match column.sign {
