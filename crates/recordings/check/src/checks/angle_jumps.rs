@@ -33,9 +33,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
 }
 
 fn of_channel(evidence: &Evidence<'_>, position: usize, channel: &Channel) -> Option<Found> {
-    let column = evidence.table.truth(position);
-    let rows = (0..column.len()).filter_map(|row| Some((row, column.get(row)?)));
-    let rows: Vec<(usize, f64)> = rows.collect();
+    let rows = evidence.labelled(position);
     let jumps: Vec<(usize, f64)> = rows
         .windows(2)
         .map(|pair| (pair[1].0, (pair[1].1 - pair[0].1).abs()))
