@@ -318,6 +318,35 @@ def test_one_row_that_makes_most_of_the_squared_error_is_named() -> None:
     assert not any("squared error" in note for note in with_angle.notes)
 
 
+def test_an_angle_that_is_probably_in_radians_is_named_in_every_way_to_score() -> None:
+    truth = np.linspace(-3.0, 3.0, 40)
+    start = "yaw: all values lie within ±6.28, as angles in radians do, but are scored as degrees with a period of 360"
+    remedy = "give units={'yaw': 'rad'} for radians, or units={'yaw': 'deg'} for degrees"
+
+    def notes(metrics: taceva.TactileMetrics) -> list[str]:
+        return [note for note in metrics.compute().notes if note.startswith("yaw")]
+
+    metrics = taceva.TactileMetrics(["yaw"], periods={"yaw": 360})
+    assert not notes(metrics)
+    metrics.update(truth, truth + 0.01)
+    [note] = notes(metrics)
+    assert note.startswith(start) and note.endswith(remedy)
+    assert note in taceva.score(truth, truth + 0.01, channels=["yaw"], periods={"yaw": 360}).notes
+    assert note in metrics.forward(truth, truth).notes
+    merged = taceva.TactileMetrics(["yaw"], periods={"yaw": 360})
+    merged.merge_states(metrics.states())
+    assert notes(merged) == notes(pickle.loads(pickle.dumps(metrics))) == [note]
+    # One value beyond a period in radians, in either column, shows degrees.
+    merged.update([7.0], [0.0])
+    assert not notes(merged)
+    for units in ({"yaw": "rad"}, {"yaw": "deg"}):
+        stated = taceva.TactileMetrics(["yaw"], periods={"yaw": 360}, units=units)
+        stated.update(truth, truth)
+        assert not notes(stated)
+    metrics.reset()
+    assert not notes(metrics)
+
+
 def test_a_channel_that_is_probably_mistyped_is_refused_and_any_other_unknown_one_is_noted(tmp_path: Path) -> None:
     rows = [[0.0, 1.0], [1.0, 2.0]]
     for name in ("Fq", "fx", "PZ"):

@@ -109,7 +109,7 @@ def of_another_version(sent: Any) -> bytes:
 def test_a_pickle_of_another_version_is_refused_in_words(drawn: str) -> None:
     result = taceva.evaluate(drawn, "ridge", split="random 60/0/40", settings={"size": "8x6"})
     for sent in (result, taceva.open(drawn)):
-        with pytest.raises(ValueError, match="a pickle of version 99, this taceva reads version 3: use the same taceva on both sides"):
+        with pytest.raises(ValueError, match="a pickle of version 99, this taceva reads version 4: use the same taceva on both sides"):
             pickle.loads(of_another_version(sent))
     metrics = shard(0)
     state = {**metrics.__getstate__(), "version": 99}

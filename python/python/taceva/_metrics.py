@@ -15,6 +15,7 @@ from taceva._fields import columns, require_unweighted
 from taceva._column_names import PairedArrays, beside, pair
 from taceva._counted import counted
 from taceva._pickles import PICKLE_VERSION, require_version
+from taceva._radians import LikelyRadians
 from taceva._result import Result
 from taceva._samples import Samples
 from taceva._settings import metric_names
@@ -80,6 +81,7 @@ class TactileMetrics:
         unknown = sorted(set(periods) - set(channels))
         if unknown:
             raise ValueError(f"periods of {', '.join(unknown)}, expected channels among {', '.join(channels)}")
+        self._angles = LikelyRadians.of(periods, stated=units)
         units = dict.fromkeys(periods, "deg") | units
         own_units = with_units(channels, units)
         #: Channels without a known unit.
@@ -164,6 +166,8 @@ class TactileMetrics:
                 refuse_invalid(tables, self.channels, both.order)
         if sums is not self._sums:
             self._sums.merge(sums)
+        for table in tables.values():
+            self._angles.add(self.channels, table)
         if both.paired_by is not None:
             self._paired.add(both.paired_by)
 
@@ -208,6 +212,7 @@ class TactileMetrics:
         found._begin(self._asked)
         found._paired = set()
         found._unknown = self._unknown
+        found._angles = LikelyRadians(self._angles.periods)
         return found
 
     def compute(self, *, name: str | None = None) -> Result:
@@ -222,7 +227,7 @@ class TactileMetrics:
         own = [
             f"{channel}: not one of {' '.join(SIX)}; taken as a channel of unit 1; give its unit as units={{{channel!r}: …}}" for channel in self._unknown
         ]
-        return self._sums.compute(sorted(self._paired), name, [*own, *notes])
+        return self._sums.compute(sorted(self._paired), name, [*own, *self._angles.notes(), *notes])
 
     def merge(self, other: TactileMetrics) -> None:
         """Add the samples of ``other``, which does not change.
@@ -234,31 +239,36 @@ class TactileMetrics:
         """
         self._sums.merge(other._sums)
         self._paired |= other._paired
+        self._angles.merge(other._angles.greatest)
 
     def reset(self) -> None:
         """Remove all samples."""
         self._sums.reset()
         self._paired.clear()
+        self._angles.greatest.clear()
 
     def states(self) -> bytes:
         """Return the sums of all samples and their keys, with a digest, a few kB, for ``merge_states`` in another process."""
-        # A JSON list of keys has no line break.
-        return sealed(json.dumps(sorted(self._paired)).encode() + b"\n" + self._sums.states_bytes())
+        # JSON of one list has no line break.
+        return sealed(json.dumps([sorted(self._paired), self._angles.greatest]).encode() + b"\n" + self._sums.states_bytes())
 
     def merge_states(self, states: bytes) -> None:
         """Add the samples in the ``states`` of another process; edited bytes are rejected."""
-        paired, _, sums = opened(states).partition(b"\n")
+        beside_sums, _, sums = opened(states).partition(b"\n")
         self._sums.merge_bytes(sums)
-        self._paired |= set(json.loads(paired))
+        paired, greatest = json.loads(beside_sums)
+        self._paired |= set(paired)
+        self._angles.merge(greatest)
 
     def __getstate__(self) -> dict[str, Any]:
-        return {"version": PICKLE_VERSION, "asked": self._asked, "unknown": self._unknown, "states": self.states()}
+        return {"version": PICKLE_VERSION, "asked": self._asked, "unknown": self._unknown, "angles": self._angles.periods, "states": self.states()}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         require_version(state.get("version"))
         self._begin(state["asked"])
         self._paired = set()
         self._unknown = state["unknown"]
+        self._angles = LikelyRadians(state["angles"])
         self.merge_states(state["states"])
 
     def __repr__(self) -> str:

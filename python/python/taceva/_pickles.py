@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 #: Version of the pickles of this package; another version is rejected.
-PICKLE_VERSION = 3
+PICKLE_VERSION = 4
 
 
 def require_version(found: object) -> None:
@@ -12,7 +12,7 @@ def require_version(found: object) -> None:
     >>> require_version(99)
     Traceback (most recent call last):
         ...
-    ValueError: a pickle of version 99, this taceva reads version 3: use the same taceva on both sides, or send states(), a path or a saved file
+    ValueError: a pickle of version 99, this taceva reads version 4: use the same taceva on both sides, or send states(), a path or a saved file
     """
     if found != PICKLE_VERSION:
         raise ValueError(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import sys
 
-_HEAD = b"taceva.states/1 sha256:"
+_HEAD = b"taceva.states/2 sha256:"
 
 
 def sealed(content: bytes) -> bytes:

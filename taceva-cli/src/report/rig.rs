@@ -29,6 +29,7 @@ pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::
     let RigTap {
         taps,
         dropped,
+        late,
         before_ms,
         force,
         sensor,
@@ -47,6 +48,13 @@ pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::
     )?;
     for why in dropped {
         writeln!(out, "left out: {why}")?;
+    }
+    if *late > 0 {
+        let all = counted(taps + dropped.len(), "tap");
+        writeln!(
+            out,
+            "late: {late} of {all}, so the latency may be longer than the others show; at most a fifth may be late"
+        )?;
     }
     for (device, latency) in [("force", force), ("sensor", sensor)] {
         writeln!(

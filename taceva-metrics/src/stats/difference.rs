@@ -256,6 +256,27 @@ impl Difference {
     }
 }
 
+impl DifferenceTest {
+    /// Least p value that the test can have, whatever the values: few clusters have few patterns of signs.
+    ///
+    /// ```
+    /// use taceva_metrics::DifferenceTest;
+    /// let test = DifferenceTest::SignFlip { clusters: 5, flips: 32, exhaustive: true };
+    /// assert_eq!(test.least_p(), 0.0625);
+    /// ```
+    pub fn least_p(self) -> f64 {
+        match self {
+            DifferenceTest::SignFlip {
+                flips,
+                exhaustive: true,
+                ..
+            } => 2.0 / f64::from(flips),
+            DifferenceTest::SignFlip { flips, .. } => 1.0 / (f64::from(flips) + 1.0),
+            _ => 0.0,
+        }
+    }
+}
+
 impl fmt::Display for DifferenceTest {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

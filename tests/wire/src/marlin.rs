@@ -201,7 +201,9 @@ impl Printer {
             }
             "M115" => {
                 let is = u8::from(self.firmware == Firmware::StopsAtOnce);
-                format!("FIRMWARE_NAME:Marlin 2.1 emulated\nCap:EMERGENCY_PARSER:{is}\n{OK}")
+                format!(
+                    "FIRMWARE_NAME:Marlin 2.1 emulated\nCap:EMERGENCY_PARSER:{is}\nCap:TACEVA_SIM:1\n{OK}"
+                )
             }
             "M118" => format!("{}\n{OK}", line[4..].trim_start()),
             "G1" => {

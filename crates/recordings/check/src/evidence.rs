@@ -40,6 +40,13 @@ impl Evidence<'_> {
             .find_map(|name| channels.position(name))
     }
 
+    /// Rows with a label of the channel at index `position`, each with its value.
+    pub(crate) fn labelled(&self, position: usize) -> Vec<(usize, f64)> {
+        let column = self.table.truth(position);
+        let rows = (0..column.len()).filter_map(|row| Some((row, column.get(row)?)));
+        rows.collect()
+    }
+
     /// The row, the tiles and the load of each picture. The load is the absolute value of the channel at index `load`, in its unit.
     pub(crate) fn loaded_pictures(&self, load: usize) -> Vec<(usize, &Tiles, f64)> {
         let column = self.table.truth(load);

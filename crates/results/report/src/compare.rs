@@ -5,6 +5,7 @@ mod estimate;
 mod notes;
 mod overview;
 mod paired;
+mod reach;
 mod remarks;
 mod render;
 mod request;
@@ -27,6 +28,7 @@ use taceva_metrics::{
 };
 
 use crate::results::Study;
+use crate::training::{NO_VERDICT, is_demonstration};
 use remarks::Remarks;
 use taceva_results::Score;
 
@@ -73,12 +75,16 @@ pub struct Answer {
     pub scores: Sides<Option<f64>>,
     /// Positions of both studies.
     pub sides: Sides<usize>,
-    /// Verdict by Holm's procedure over all pairs and channels of the metric.
+    /// Verdict by Holm's procedure over all pairs and channels of the metric; a demonstration names no better side.
     pub verdict: Verdict,
     /// Difference behind the verdict, with both p values and the interval of that decision.
     pub difference: Option<Difference>,
     /// Reason why there is no verdict.
     pub reason: Option<String>,
+    /// Reason why so few groups cannot show any difference.
+    pub out_of_reach: Option<String>,
+    /// True if models learnt on too few places for a verdict on sensors.
+    pub is_demonstration: bool,
     /// Standing of each score.
     pub standings: Sides<Standing>,
     /// True for a score from a single training of a model with a random seed.
@@ -95,6 +101,14 @@ impl Answer {
                     a: &names[self.sides.a],
                     b: &names[self.sides.b],
                 });
+                let words = match self.unreachable() {
+                    Some(reason) => format!("{words}; {reason}"),
+                    None => words,
+                };
+                let words = match self.is_demonstration && self.is_shown() {
+                    true => format!("{words}; {NO_VERDICT}"),
+                    false => words,
+                };
                 let unknown = self.unknown(names);
                 let words = match unknown.is_empty() {
                     true => words,
@@ -110,6 +124,12 @@ impl Answer {
                 }
             }
         }
+    }
+
+    /// Reason why no difference is shown that does not depend on the values.
+    fn unreachable(&self) -> Option<&str> {
+        let is_open = matches!(self.verdict, Verdict::NoDifferenceShown { .. });
+        self.out_of_reach.as_deref().filter(|_| is_open)
     }
 
     /// Studies whose models have an unknown skill.
@@ -150,6 +170,8 @@ struct Pair<'a> {
     difference: Result<Difference, String>,
     /// Reason why two predictions of one truth were not compared in pairs.
     unpaired: Option<String>,
+    /// Reason why so few groups cannot show any difference.
+    out_of_reach: Option<String>,
 }
 
 /// Compares every pair of `studies`.
@@ -251,6 +273,7 @@ fn pairs<'a>(
                     sides: Sides { a, b },
                     difference,
                     unpaired,
+                    out_of_reach: None,
                 });
             }
         }
@@ -299,13 +322,11 @@ fn decide_together(pairs: &mut [Pair<'_>]) {
     let tested = tested.filter_map(|pair| pair.difference.as_ref().ok().cloned());
     let mut family: Vec<Difference> = tested.collect();
     decide(&mut family);
-    let mut family = family.into_iter();
-    for difference in pairs
-        .iter_mut()
-        .filter_map(|pair| pair.difference.as_mut().ok())
-    {
-        if let Some(decided) = family.next() {
-            *difference = decided;
+    let mut family = reach::out_of_reach(&family).into_iter().zip(family);
+    for pair in pairs.iter_mut().filter(|pair| pair.difference.is_ok()) {
+        if let Some((out_of_reach, decided)) = family.next() {
+            pair.difference = Ok(decided);
+            pair.out_of_reach = out_of_reach;
         }
     }
 }
@@ -318,13 +339,19 @@ fn answer(pair: Pair<'_>, studies: &[Study], request: &CompareRequest) -> Answer
     let margin = margins.iter().find_map(|name| request.margins.get(name));
     let question = Question::new(pair.scores.a.unit, pair.scores.a.better());
     let question = question.with_margin(margin.copied());
-    let (verdict, reason) = match &pair.difference {
+    let (mut verdict, reason) = match &pair.difference {
         Ok(difference) => (Verdict::of(Ok(difference.clone()), question), None),
         Err(reason) => (
             Verdict::Undefined(ComparisonError::NoSpread),
             Some(reason.clone()),
         ),
     };
+    let is_demonstration = is_demonstration(studies, metric);
+    if let Verdict::Differs { better, .. } = &mut verdict
+        && is_demonstration
+    {
+        *better = None;
+    }
     Answer {
         metric: metric.clone(),
         channel: channel.clone(),
@@ -343,6 +370,8 @@ fn answer(pair: Pair<'_>, studies: &[Study], request: &CompareRequest) -> Answer
         verdict,
         difference: pair.difference.ok(),
         reason,
+        out_of_reach: pair.out_of_reach,
+        is_demonstration,
         standings: Sides {
             a: pair.scores.a.standing,
             b: pair.scores.b.standing,

@@ -44,9 +44,8 @@ pub(crate) fn is_demonstration(studies: &[Study], metric: &str) -> bool {
     reads && too_few(studies).is_some()
 }
 
-/// Verdict for the best value of such a metric.
-pub(crate) const NO_VERDICT: &str =
-    "has the best value, but this demonstration gives no verdict on sensors";
+/// Restraint of the answers on such a metric.
+pub(crate) const NO_VERDICT: &str = "this demonstration gives no verdict on sensors";
 
 /// Sentence for pages of insufficiently trained models.
 pub(crate) fn demonstration(studies: &[Study]) -> Option<String> {
@@ -147,24 +146,54 @@ mod tests {
         assert_eq!(demonstration(&opened), None);
     }
 
+    /// A study of a model with skill, fitted on `places` contact places.
+    fn scored(sensor: &str, places: usize, mae: f64) -> Study {
+        let text = format!(
+            r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "x"}}, "metrics": {{
+            "r2": {{"Fz": {{"value": 0.9, "unit": "1", "n": 400, "ci95": [0.88, 0.92], "clusters": 40, "method": "drawn", "definition": "r2/1"}}}},
+            "mae": {{"Fz": {{"value": {mae}, "unit": "N", "n": 400, "ci95": [{}, {}], "clusters": 40, "method": "drawn", "definition": "mae/1"}}}}
+            }}}}"#,
+            mae - 0.01,
+            mae + 0.01
+        );
+        let mut study = study(sensor, places, &[]);
+        study.scores = crate::results::unsealed(&text)
+            .expect("a result")
+            .remove(0)
+            .scores;
+        study
+    }
+
+    #[test]
+    fn a_comparison_of_a_demonstration_calls_no_sensor_better_in_any_format() {
+        let forms = |places: usize| {
+            let studies = [scored("a", places, 0.1), scored("b", places, 0.9)];
+            let comparison = crate::compare(&studies, &crate::CompareRequest::default());
+            let forms = [
+                comparison.text(),
+                comparison.markdown(),
+                comparison.json(),
+                comparison.table().csv(),
+                comparison.page(&studies),
+            ];
+            let joined = |form: &str| form.split_whitespace().collect::<Vec<_>>().join(" ");
+            (comparison.answers, forms.map(|form| joined(&form)))
+        };
+        let (answers, measured) = forms(300);
+        assert!(answers.iter().any(|answer| answer.better() == Some(0)));
+        assert!(measured.iter().all(|form| form.contains("a better by 0.8")));
+        let (answers, demonstrated) = forms(112);
+        assert!(answers.iter().all(|answer| answer.better().is_none()));
+        for form in demonstrated {
+            assert!(!form.contains("better by"), "{form}");
+            assert!(form.contains("a and b differ by"), "{form}");
+            assert!(form.contains(&format!("; {NO_VERDICT}")), "{form}");
+            assert!(!form.contains("is better than"), "{form}");
+        }
+    }
+
     #[test]
     fn a_comparison_of_a_demonstration_names_no_winner() {
-        let scored = |sensor: &str, places: usize, mae: f64| {
-            let text = format!(
-                r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "x"}}, "metrics": {{
-                "r2": {{"Fz": {{"value": 0.9, "unit": "1", "n": 400, "ci95": [0.88, 0.92], "clusters": 40, "method": "drawn", "definition": "r2/1"}}}},
-                "mae": {{"Fz": {{"value": {mae}, "unit": "N", "n": 400, "ci95": [{}, {}], "clusters": 40, "method": "drawn", "definition": "mae/1"}}}}
-                }}}}"#,
-                mae - 0.01,
-                mae + 0.01
-            );
-            let mut study = study(sensor, places, &[]);
-            study.scores = crate::results::unsealed(&text)
-                .expect("a result")
-                .remove(0)
-                .scores;
-            study
-        };
         let decided = |places: usize| {
             let studies = [scored("a", places, 0.1), scored("b", places, 0.9)];
             let comparison = crate::compare(&studies, &crate::CompareRequest::default());
@@ -177,7 +206,9 @@ mod tests {
         let (winner, words, notes) = decided(112);
         assert_eq!(winner, None, "{words}");
         assert!(
-            words.starts_with(&format!("a {NO_VERDICT}, with 0.1 N")),
+            words.starts_with(&format!(
+                "a has the best value, but {NO_VERDICT}, with 0.1 N"
+            )),
             "{words}"
         );
         assert!(notes[0].starts_with("A demonstration: models"), "{notes:?}");

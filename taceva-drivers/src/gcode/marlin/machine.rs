@@ -23,12 +23,15 @@ pub(super) struct Printer {
     options: SerialOptions,
     /// Last number that the printer was asked to echo.
     mark: u32,
+    is_emulated: bool,
 }
 
 /// Command that ends every motion at once, if the printer accepts it during a motion.
 pub(super) const QUICK_STOP: &[u8] = b"M410\n";
 /// Capability without which a stop waits for the end of the motion.
 const STOPS_AT_ONCE: &str = "EMERGENCY_PARSER";
+/// Capability that only an emulated printer reports (`taceva-wire`).
+const EMULATED: &str = "TACEVA_SIM";
 const CONNECT: &str = "connect to the printer";
 const LOOK: &str = "read the position of the printer";
 /// Timeout for the first answer after opening, which resets many boards.
@@ -48,6 +51,7 @@ impl Printer {
             stop,
             options,
             mark: 0,
+            is_emulated: false,
         };
         let until = monotonic() + AWAKE;
         // A printer that wakes up drops input.
@@ -56,15 +60,18 @@ impl Printer {
                 return Err(error.met(&KEY, CONNECT));
             }
         }
-        let mut stops_at_once = None;
+        let (mut stops_at_once, mut is_emulated) = (None, false);
         let listed = printer.link.command("M115", ANSWER, |answer| {
-            if let Answer::Can(name, is) = answer
-                && name == STOPS_AT_ONCE
-            {
-                stops_at_once = Some(is);
+            if let Answer::Can(name, is) = answer {
+                match name.as_str() {
+                    STOPS_AT_ONCE => stops_at_once = Some(is),
+                    EMULATED => is_emulated = is,
+                    _ => {}
+                }
             }
         });
         listed.map_err(|error| error.met(&KEY, CONNECT))?;
+        printer.is_emulated = is_emulated;
         if stops_at_once != Some(true) {
             let why = "the printer does not report `Cap:EMERGENCY_PARSER:1`, so a stop would wait for the end of the motion: build its firmware with EMERGENCY_PARSER";
             return Err(DriverError::new(ErrorKind::Unsupported, &KEY, CONNECT).because(why));
@@ -106,6 +113,10 @@ impl Printer {
 }
 
 impl Robot for Printer {
+    fn is_emulated(&self) -> bool {
+        self.is_emulated
+    }
+
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let seen = self.look(deadline.remaining())?;
         let [x, y, z] = seen.what.map(Millimetre);

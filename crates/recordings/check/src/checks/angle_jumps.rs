@@ -10,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     name: "angle-jumps",
     looks_for: "angles that jump by more than half a turn between neighbouring samples and are declared neither periodic nor part of a \
         rotation",
-    hint: "add `period = 360` to the channel in the map if the angle wraps around, or `rotation = [\"Rx\", \"Ry\", \"Rz\"]` if it is a \
+    hint: "add `period = 360` to the channel in the map, or 6.283185307179586 in rad, if the angle wraps around, or `rotation = [\"Rx\", \"Ry\", \"Rz\"]` if it is a \
         component of a rotation vector",
     reads: None,
     find,
@@ -33,9 +33,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
 }
 
 fn of_channel(evidence: &Evidence<'_>, position: usize, channel: &Channel) -> Option<Found> {
-    let column = evidence.table.truth(position);
-    let rows = (0..column.len()).filter_map(|row| Some((row, column.get(row)?)));
-    let rows: Vec<(usize, f64)> = rows.collect();
+    let rows = evidence.labelled(position);
     let jumps: Vec<(usize, f64)> = rows
         .windows(2)
         .map(|pair| (pair[1].0, (pair[1].1 - pair[0].1).abs()))

@@ -40,15 +40,15 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
 }
 
 fn of_channel(evidence: &Evidence<'_>, position: usize, channel: &Channel) -> Option<Found> {
-    let column = evidence.table.truth(position);
-    let rows = (0..column.len()).filter_map(|row| Some((row, column.get(row)?)));
-    let rows: Vec<(usize, f64)> = rows.collect();
+    let rows = evidence.labelled(position);
     if rows.len() < LEAST {
         return None;
     }
     let values: Vec<f64> = rows.iter().map(|(_, value)| *value).collect();
     let count = count_of(&values)?;
-    let points = evidence.table.labels(Field::Point, 0..column.len())?;
+    let points = evidence
+        .table
+        .labels(Field::Point, 0..evidence.table.rows())?;
     // The next press begins where it likes.
     let is_of_one_press =
         |one: usize, other: usize| points.get(rows[one].0) == points.get(rows[other].0);

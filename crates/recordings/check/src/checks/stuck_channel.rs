@@ -35,9 +35,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let channels = evidence.table.channels().iter().enumerate();
     channels
         .filter_map(|(position, channel)| {
-            let column = evidence.table.truth(position);
-            let rows = (0..column.len()).filter_map(|row| Some((row, column.get(row)?)));
-            let labels: Vec<(usize, f64)> = rows.collect();
+            let labels = evidence.labelled(position);
             if let Some(value) = only_value(&labels) {
                 let message = format!("{channel} is {value} {} in every sample", channel.unit());
                 return Some(Found::overall(Severity::Warning, message));

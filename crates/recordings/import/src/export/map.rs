@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use taceva_core::SourceUnit;
 
 use super::content::Exported;
+use crate::import::IdMap;
 use crate::unit_suffix::UnitSuffix;
 use taceva_dataset::internal::{RESERVED, column_kind, column_of};
 use taceva_dataset::{Footprint, ReducedFrames, SensorFacts};
@@ -46,22 +47,6 @@ pub(super) fn bare_channels(exported: &Exported<'_>) -> Vec<String> {
 pub(super) fn quoted(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
 }
-
-/// Ids with the same name in a map and in the table.
-const IDS: [&str; 12] = [
-    "sample",
-    "point_id",
-    "unit_id",
-    "scene",
-    "depth_step",
-    "repeat",
-    "phase",
-    "limited_by",
-    "zero_u_mm",
-    "part",
-    "kind",
-    "spacing_mm",
-];
 
 /// Keys of the map for the origin of rows, with their columns.
 const ORIGIN: [(&str, &str); 3] = [
@@ -127,7 +112,7 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
             suffix.is_some_and(|suffix| suffix.contradiction(&unit).is_some())
         });
         let scale = if is_contradicted { ", scale = 1" } else { "" };
-        let period = channel.period();
+        let period = channel.period_in_unit();
         let period = period.map_or_else(String::new, |period| format!(", period = {period}"));
         line(format_args!(
             "{} = {{ from = {}, unit = {}{scale}{period} }}",
@@ -137,7 +122,7 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
         ));
     }
     line(format_args!("\n[ids]"));
-    for id in IDS.into_iter().filter(|id| has(id)) {
+    for id in IdMap::KEYS.into_iter().filter(|id| has(id)) {
         line(format_args!("{id} = {}", quoted(&(written.names)(id))));
     }
     line(format_args!("\n[origin]"));

@@ -33,7 +33,7 @@ pub(crate) use crate::frame_names::{OWN_ROW, reference_attribute};
 pub(crate) use join::{JoinBy, JoinMap, Lag, Pick, TimeJoin, Unmatched};
 pub(crate) use matrix::{MatrixMap, MatrixRows};
 pub(crate) use path_pattern::PathPattern;
-pub(crate) use rotation::RotationMap;
+pub(crate) use rotation::{RotationMap, turn_in};
 pub(crate) use signals::{SignalsFrom, SignalsMap};
 pub(crate) use table_schema::converter;
 pub(crate) use zero::{GravityMap, ZeroMap, ZeroRows};

@@ -36,7 +36,11 @@ fn a_rotation_vector_of_half_a_turn_that_changes_its_sign_is_refused_or_stays_wh
     for words in ["line", "robot.csv", "more than half a turn of `Rx`"] {
         assert!(problem.contains(words), "{problem}");
     }
-    for remedy in ["rotation = [", "period = 360", "pick = \"nearest\""] {
+    for remedy in [
+        "rotation = [",
+        "period = 6.28318530717958",
+        "pick = \"nearest\"",
+    ] {
         assert!(problem.contains(remedy), "{problem}");
     }
     let nearest = std::fs::read_to_string(folder.join("map-nearest.toml")).expect("it is there");
@@ -105,14 +109,24 @@ fn radians_that_begin_again_and_a_scale_of_the_map_are_as_degrees() {
         ("t.csv", TIMES),
         ("r.csv", "t,a,steps\n0,3.0,1700\n1,-3.0,-1700\n"),
     ]);
-    for (cells, expected) in [
-        ("from = \"rob.a\", unit = \"rad\"", 175.943_6),
-        ("from = \"rob.steps\", unit = \"deg\", scale = 0.1", 175.0),
+    for (cells, period, expected) in [
+        (
+            "from = \"rob.a\", unit = \"rad\"",
+            "6.283185307179586",
+            175.943_6,
+        ),
+        (
+            "from = \"rob.steps\", unit = \"deg\", scale = 0.1",
+            "360",
+            175.0,
+        ),
     ] {
         let map = |more: &str| joined("\"r.csv\"", &format!("a = {{ {cells}{more} }}\n"), "");
         let problem = planned(folder.path(), &map("")).expect_err("refused");
         assert!(problem.contains("half a turn"), "{problem}");
-        let found = imported(folder.path(), &map(", period = 360"), "a");
+        let remedy = format!("`period = {period}`");
+        assert!(problem.contains(&remedy), "{problem}");
+        let found = imported(folder.path(), &map(&format!(", period = {period}")), "a");
         assert!((found[0] - expected).abs() < 1e-3, "{found:?}");
         assert!((found[0] + found[1]).abs() < 1e-9, "{found:?}");
     }
@@ -208,8 +222,23 @@ fn rotations_and_periods_that_no_angles_are_are_refused_by_their_line() {
         ),
         (
             "",
-            "a = { from = \"rob.z\", unit = \"rad\", period = 6.283185 }\n",
-            "`period = 360` is a whole turn",
+            "a = { from = \"rob.z\", unit = \"rad\", period = 360 }\n",
+            "period = 360 of `a`: expected 6.283185307179586 in rad, or `unit = \"deg\"`",
+        ),
+        (
+            "",
+            "a = { from = \"rob.z\", unit = \"rad\", period = 7.1 }\n",
+            "expected whole degrees in rad, such as 6.283185307179586",
+        ),
+        (
+            "",
+            "a = { from = \"rob.z\", unit = \"deg\", period = 6.2832 }\n",
+            "period = 6.2832 of `a`: expected 360 in deg, or `unit = \"rad\"`",
+        ),
+        (
+            "",
+            "a = { from = \"rob.z\", unit = \"deg\", period = 90.5 }\n",
+            "a whole number of degrees from 1 to 360",
         ),
     ] {
         let problem = planned(folder.path(), &joined("\"r.csv\"", columns, above));
@@ -224,7 +253,7 @@ fn the_dataset_says_which_channels_are_rotations_and_which_begin_again() {
     let folder = case(CASE);
     let map = declared(&map_of(CASE)).replace(
         "Fz = {",
-        "tool = { from = \"rob.rz\", unit = \"rad\", period = 180 }\nFz = {",
+        "tool = { from = \"rob.rz\", unit = \"rad\", period = 3.1416 }\nFz = {",
     );
     let target = tempfile::tempdir().expect("a folder");
     let target = target.path().join("dataset");

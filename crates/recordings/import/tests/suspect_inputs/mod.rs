@@ -1,6 +1,8 @@
 //! Folders that could give wrong numbers, or a wrong refusal: each is imported correctly, refused with the remedy, or warned of.
 
 mod angles;
+#[cfg(target_os = "linux")]
+mod bounded;
 mod clips;
 mod converters;
 mod coordinate_frames;

@@ -199,7 +199,7 @@ impl Comparison {
             (Some((at, value)), None) if aside.is_demonstration => (
                 None,
                 format!(
-                    "{} {NO_VERDICT}, with {}{unit}",
+                    "{} has the best value, but {NO_VERDICT}, with {}{unit}",
                     self.names[at],
                     numeral(value)
                 ),
@@ -273,7 +273,10 @@ impl Comparison {
             }
         };
         let barred = aside.barred.iter().map(|(_, words)| format!("; {words}"));
-        let words = format!("{words}{}{}", aside.spread, barred.collect::<String>());
+        let reach = answers.iter().find_map(|answer| answer.unreachable());
+        let reach = reach.map_or_else(String::new, |reason| format!("; {reason}"));
+        let barred: String = barred.collect();
+        let words = format!("{words}{reach}{}{barred}", aside.spread);
         let tied = aside.tie.as_ref().map(|tie| tie.who.clone());
         Some(Decision {
             tied: tied.unwrap_or_default(),
@@ -334,7 +337,7 @@ impl Answer {
     }
 
     /// True for a significant difference beyond the margin.
-    pub(super) fn is_shown(&self) -> bool {
+    pub(crate) fn is_shown(&self) -> bool {
         matches!(self.verdict, Verdict::Differs { .. })
     }
 }

@@ -47,7 +47,9 @@ impl Comparison {
         let (won, table) = (self.won(), self.table().html_with_links());
         let shown = html! { ul.verdicts { @for won in &won { (won.html(&self.names)) } } };
         html! {
-            @if won.is_empty() {
+            @if won.is_empty() && self.answers.iter().any(Answer::is_shown) {
+                p { "None of " (listed(&self.names)) " is called better; each answer says why." } "\n"
+            } @else if won.is_empty() {
                 p { "No difference is shown between " (listed(&self.names)) "." } "\n"
             } @else {
                 (fold("shown-all", "All differences that are shown", &counted(won.len(), "line"), &shown))

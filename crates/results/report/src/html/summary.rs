@@ -119,7 +119,7 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Mark
     let verdict = if known.len() < 2 {
         format!("is the only sensor with a value{that_takes_part}")
     } else if is_demonstration(studies, &row.metric) {
-        NO_VERDICT.to_owned()
+        format!("has the best value, but {NO_VERDICT}")
     } else if rivals.is_empty() {
         format!("is shown to be better than every other sensor{that_takes_part}")
     } else {

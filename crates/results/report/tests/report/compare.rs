@@ -2,6 +2,7 @@
 
 mod asked;
 mod pairs;
+mod reach;
 mod splits;
 pub(crate) mod trainings;
 mod variants;

@@ -39,6 +39,8 @@ pub struct RigTap {
     pub taps: usize,
     /// Reasons of the taps without, at most a quarter of all.
     pub dropped: Vec<String>,
+    /// Number of these that were late, at most a fifth of all: they would lengthen the latency.
+    pub late: usize,
     /// Previous latencies of robot, transducer and sensor, in ms, from the rig file or else from the drivers.
     pub before_ms: [f64; 3],
     /// Remaining delay of the transducer relative to the robot.
@@ -105,6 +107,7 @@ pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireErr
         simulated: rig.simulated || is_emulated,
         taps: tapped.count() - dropped.len(),
         dropped,
+        late: tapped.late(),
         before_ms,
         force,
         sensor,

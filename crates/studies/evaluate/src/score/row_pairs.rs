@@ -2,16 +2,18 @@
 
 use std::ops::Range;
 
-use taceva_core::{Batch, Channel, Column, Field};
+use taceva_core::{Batch, Channel, Column, Field, Labels};
 use taceva_import::CsvTable;
-use taceva_metrics::MetricPlan;
+use taceva_metrics::{ClusteredBy, MetricPlan};
 
 use super::ScorePlan;
 use super::agreement::Matching;
 use super::fields::{self, Place};
+use super::row_key::key_of;
 use super::tables::Pairing;
 use crate::accumulate::Rows;
 use crate::error::EvaluateError;
+use crate::note::PairedBy;
 
 /// Both tables, row by row.
 pub(super) struct PairedRows<'a> {
@@ -22,6 +24,8 @@ pub(super) struct PairedRows<'a> {
     channels: Vec<[usize; 2]>,
     /// Locations of the fields that metrics read.
     places: Vec<Place>,
+    /// Column of the truth that names samples, if each is a cluster.
+    names: Option<usize>,
     matching: &'a Matching,
     allow_invalid: bool,
 }
@@ -43,6 +47,14 @@ impl<'a> PairedRows<'a> {
             plan.metrics.channels().iter().map(stand).collect();
         let wanted = plan.metrics.fields();
         let places = plan.places.iter().copied();
+        let names = match &matching.by {
+            PairedBy::Key { truth: key, .. }
+                if plan.metrics.clustered_by() == ClusteredBy::Sample =>
+            {
+                Some(truth.position(key)?)
+            }
+            _ => None,
+        };
         Ok(PairedRows {
             truth,
             prediction,
@@ -51,6 +63,7 @@ impl<'a> PairedRows<'a> {
             places: places
                 .filter(|place| wanted.contains(place.field))
                 .collect(),
+            names,
             matching,
             allow_invalid,
         })
@@ -95,6 +108,12 @@ impl<'a> PairedRows<'a> {
         });
         let channels = plan.channels().clone();
         let mut batch = Batch::from_columns(channels, truth?, prediction?, points.transpose()?);
+        if let Some(column) = self.names {
+            let mut labels = Labels::default();
+            rows.clone()
+                .for_each(|row| labels.push(key_of(self.truth.cell(row, column))));
+            batch = batch.with_samples(labels);
+        }
         for place in self
             .places
             .iter()

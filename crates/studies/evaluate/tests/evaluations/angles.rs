@@ -91,9 +91,12 @@ fn a_yaw_all_around_has_small_errors_only_with_its_period_and_other_channels_do_
 }
 
 #[test]
-fn angles_in_radians_of_a_map_are_degrees_whose_period_is_in_degrees() {
+fn angles_in_radians_of_a_map_are_degrees_and_their_period_is_in_radians() {
     let degrees = evaluated(", period = 360", "");
-    let radians = evaluated_by("from = \"yaw_rad\", unit = \"rad\", period = 360", "");
+    let radians = evaluated_by(
+        "from = \"yaw_rad\", unit = \"rad\", period = 6.283185307179586",
+        "",
+    );
     for metric in ["mae", "r2", "skill"] {
         let [found, expected] = [&radians, &degrees].map(|of| number(of, metric, "yaw"));
         assert!(

@@ -1,5 +1,6 @@
 //! Pairing of the rows of two tables by their keys.
 
+mod independent;
 mod periods;
 
 use std::fmt::Write as _;

@@ -5,6 +5,7 @@
 
 mod edges;
 mod heard;
+mod line;
 
 pub use edges::{TapError, Tapped};
 pub use heard::TapHeard;

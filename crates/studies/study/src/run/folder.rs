@@ -1,5 +1,6 @@
 //! Folder of a run: the scene as read, its plans, one recording for each study, and the reports.
 
+mod difference;
 mod state;
 
 use std::fs::{self, File};
@@ -268,7 +269,9 @@ mod tests {
         RunFolder::open(&run, &own, Existing::Resume).expect("goes on");
         let refused = RunFolder::open(&run, &other, Existing::Resume).expect_err("other plans");
         assert!(
-            refused.to_string().contains("a different plan"),
+            refused
+                .to_string()
+                .contains("a different plan: seed was 1 and is 2: undo this change"),
             "{refused}"
         );
         RunFolder::open(&run, &other, Existing::Replace).expect("begun anew");

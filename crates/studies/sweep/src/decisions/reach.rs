@@ -1,6 +1,6 @@
 //! Power of a family of tests: number of sign flips, and detection of families that cannot show a difference.
 
-use taceva_metrics::{Difference, DifferenceTest, SignFlip};
+use taceva_metrics::{Difference, SignFlip};
 
 /// Significance level of the family.
 const LEVEL: f64 = 0.05;
@@ -22,15 +22,7 @@ pub(super) fn flips_of(tests: usize) -> u32 {
 /// least p value.
 pub(super) fn out_of_reach(family: &[Difference]) -> Option<String> {
     let step = LEVEL / family.len() as f64;
-    let least = family.iter().map(|difference| match difference.test {
-        DifferenceTest::SignFlip {
-            flips,
-            exhaustive: true,
-            ..
-        } => 2.0 / f64::from(flips),
-        DifferenceTest::SignFlip { flips, .. } => 1.0 / (f64::from(flips) + 1.0),
-        _ => 0.0,
-    });
+    let least = family.iter().map(|difference| difference.test.least_p());
     let least = least.min_by(f64::total_cmp)?;
     (least > step).then(|| {
         format!(

@@ -25,6 +25,11 @@ fn the_suite_passes() {
 }
 
 #[test]
+fn an_emulated_printer_reports_that_it_is_one() {
+    assert!(setup().open().is_emulated());
+}
+
+#[test]
 fn a_press_reaches_the_gel_and_a_turn_is_refused() {
     setup().presses_and_does_not_turn();
 }

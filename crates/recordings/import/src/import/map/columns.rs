@@ -89,6 +89,24 @@ pub struct IdMap {
     pub spacing_mm: Option<String>,
 }
 
+impl IdMap {
+    /// Keys of `[ids]`, which have the same names in the table of a dataset.
+    pub(crate) const KEYS: [&'static str; 12] = [
+        "sample",
+        "point_id",
+        "unit_id",
+        "scene",
+        "depth_step",
+        "repeat",
+        "phase",
+        "limited_by",
+        "zero_u_mm",
+        "part",
+        "kind",
+        "spacing_mm",
+    ];
+}
+
 /// Columns with the origin of rows, in a table that was exported. They replace the current location of the rows. An empty cell means an
 /// unknown origin.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]

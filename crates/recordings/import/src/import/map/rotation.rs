@@ -9,6 +9,14 @@ use super::check::Check;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 
+/// Greatest difference of a period in radians from whole degrees, in degrees. It allows for three decimals.
+const ROUNDED_DEG: f64 = 0.03;
+
+/// A whole turn in `unit`, degrees or radians.
+pub(crate) fn turn_in(unit: SourceUnit) -> f64 {
+    360.0 / unit.convert(1.0)
+}
+
 /// Channels that are parts of one rotation.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RotationMap {
@@ -59,7 +67,7 @@ impl RotationMap {
         let factor = match cells.len() {
             3 => {
                 let length = cells.iter().map(|cell| cell * cell).sum::<f64>().sqrt();
-                let turn = 360.0 / self.unit.convert(1.0);
+                let turn = turn_in(self.unit);
                 (length > turn * 1e-9).then(|| 1.0 - turn / length)?
             }
             _ => -1.0,
@@ -79,28 +87,46 @@ pub(super) enum WrittenRotations {
 }
 
 impl Check<'_> {
-    /// Adds the map's period to `channel`.
+    /// Adds the map's period, in `unit` of the column, to `channel`.
     pub(super) fn periodic(
         &self,
         channel: Channel,
         period: f64,
+        unit: SourceUnit,
         offset: usize,
     ) -> Result<Channel, DatasetError> {
-        let name = channel.name().to_owned();
-        let whole = (1_u16..=360).find(|whole| (f64::from(*whole) - period).abs() <= 0.0);
-        match whole {
-            Some(degrees) if channel.unit() == Unit::Degree => {
+        let is_in_radians = unit.symbol() == "rad";
+        let whole = match is_in_radians {
+            true => whole_degrees(period.to_degrees(), ROUNDED_DEG),
+            false => whole_degrees(period, 0.0),
+        };
+        let expected = match whole {
+            _ if channel.unit() != Unit::Degree => "an angle in deg or rad".to_owned(),
+            Some(degrees) => {
                 let periodic = channel.with_period(degrees);
-                periodic.map_err(|error| self.at(offset, &error.to_string()))
+                return periodic.map_err(|error| self.at(offset, &error.to_string()));
             }
-            _ => Err(self.at(
-                offset,
-                &format!(
-                    "period = {period} of `{name}`: expected a whole number of degrees from 1 to 360 and an angle in deg or rad; `period = 360` is a whole turn \
-                     in either unit"
+            None => match (is_in_radians, whole_degrees(period, 0.0)) {
+                (true, Some(degrees)) => format!(
+                    "{} in rad, or `unit = \"deg\"` if the numbers are degrees",
+                    f64::from(degrees).to_radians()
                 ),
-            )),
-        }
+                (true, None) => "whole degrees in rad, such as 6.283185307179586".to_owned(),
+                (false, _) => match whole_degrees(period.to_degrees(), ROUNDED_DEG) {
+                    Some(degrees) => {
+                        format!("{degrees} in deg, or `unit = \"rad\"` if the numbers are radians")
+                    }
+                    None => "a whole number of degrees from 1 to 360".to_owned(),
+                },
+            },
+        };
+        Err(self.at(
+            offset,
+            &format!(
+                "period = {period} of `{}`: expected {expected}",
+                channel.name()
+            ),
+        ))
     }
 
     /// Checks the rotations: channels exist, share a unit and are in one table.
@@ -201,4 +227,9 @@ impl Check<'_> {
             channels: names,
         })
     }
+}
+
+/// Number of degrees from 1 to 360 that differs from `degrees` by at most `rounding`.
+fn whole_degrees(degrees: f64, rounding: f64) -> Option<u16> {
+    (1..=360).find(|whole| (f64::from(*whole) - degrees).abs() <= rounding)
 }

@@ -90,25 +90,9 @@ fn first_open(text: &str) -> Option<u64> {
         .find_map(|(number, line)| (open_places(line) > 0).then_some(number))
 }
 
-/// Keys of [ids].
-const IDS: [&str; 12] = [
-    "sample",
-    "point_id",
-    "unit_id",
-    "scene",
-    "depth_step",
-    "repeat",
-    "phase",
-    "limited_by",
-    "zero_u_mm",
-    "part",
-    "kind",
-    "spacing_mm",
-];
-
 /// Problem of a name that no attribute or class may have.
 fn refused_name(name: &str) -> String {
-    match IDS.contains(&name) {
+    match IdMap::KEYS.contains(&name) {
         true => format!("`{name}` is a key of [ids]: write this line there"),
         false => format!(
             "`{name}` is taken or not valid: expected a letter, then letters, digits or `_`"
@@ -247,7 +231,7 @@ impl Check<'_> {
             let channel = Channel::named(name, unit.unit())
                 .map_err(|error| self.at(offset, &error.to_string()))?;
             let channel = match column.period {
-                Some(period) => self.periodic(channel, period, offset)?,
+                Some(period) => self.periodic(channel, period, unit, offset)?,
                 None => channel,
             };
             let is_negated = match column.sign {

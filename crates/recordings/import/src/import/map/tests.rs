@@ -133,3 +133,11 @@ fn a_map_above_one_mebibyte_is_not_read() {
     let message = ImportMap::read(&path).expect_err("large").to_string();
     assert!(message.contains("more than the 1048576"), "{message}");
 }
+
+#[test]
+fn the_keys_of_ids_are_all_keys_that_a_map_may_have() {
+    let error = toml::from_str::<IdMap>("other = \"x\"").expect_err("no such key");
+    let keys = IdMap::KEYS.map(|key| format!("`{key}`")).join(", ");
+    let message = error.to_string();
+    assert!(message.contains(&format!("one of {keys}")), "{message}");
+}

@@ -9,13 +9,18 @@ use taceva_results::Samples;
 
 /// A study with a table of samples; `first` is the first truth, and every error is about `error`.
 pub(super) fn sampled(sensor: &str, first: f64, error: f64) -> Study {
+    sampled_at(12, sensor, first, error)
+}
+
+/// The same study with its samples at this many contact points.
+pub(super) fn sampled_at(points: u32, sensor: &str, first: f64, error: f64) -> Study {
     let mut table = String::from("id,point_id,Fz,Fz_predicted\n");
     let (mut sum, rows) = (0.0, 48);
     for row in 0..rows {
         let truth = if row == 0 { first } else { f64::from(row) };
         let missed = error * (1.0 + f64::from(row % 5) / 8.0);
         sum += missed;
-        table += &format!("s{row},p{},{truth},{}\n", row % 12, truth + missed);
+        table += &format!("s{row},p{},{truth},{}\n", row % points, truth + missed);
     }
     let mut mae = score(sum / f64::from(rows), 0.01, "N");
     mae["n"] = rows.into();

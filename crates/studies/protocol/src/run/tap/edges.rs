@@ -1,6 +1,7 @@
 //! Latency of each device, computed from recorded taps.
 
 use super::heard::{Said, TapHeard};
+use super::line::Line;
 use crate::rig_file::Latency;
 
 /// Height above the gel above which signals count as in the air, in mm.
@@ -18,6 +19,8 @@ const END_MM: f64 = 0.05;
 const LEAST_RATIO: f64 = 1.5;
 /// Taps that may be left out: one in this number.
 const DROPPED: usize = 4;
+/// Late taps that may be left out: one in this number.
+const LATE: usize = 5;
 /// Number of standard deviations that cover 95 of 100 taps.
 const WITHIN: f64 = 2.0;
 
@@ -70,6 +73,16 @@ pub enum TapError {
         tap: usize,
         /// `force` or `sensor`.
         device: &'static str,
+    },
+    /// So many taps are late that the others show too short a latency.
+    #[error(
+        "{late} of {taps} taps were left out as late, expected at most a fifth: those that remain show too short a latency; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it"
+    )]
+    MostlyLate {
+        /// Number of late taps.
+        late: usize,
+        /// Number of all taps.
+        taps: usize,
     },
     /// The robot does not follow the requested speeds.
     #[error(
@@ -136,7 +149,7 @@ impl Tapped {
     /// Each tap gives the delay between two times: the tip passes the reference height, and a device shows half of its change. Over all taps the
     /// delay is L + δ/v, a line in the reciprocal of the speed v. L is the latency, δ the offset of the half change below that height.
     ///
-    /// A tap that a device does not show clearly is left out, up to a quarter of all.
+    /// A tap that a device does not show clearly is left out, up to a quarter of all, and a late one up to a fifth.
     ///
     /// # Errors
     /// [`TapError`] for missing, unclear or contradictory signals: that of the first such tap if more than a quarter have one.
@@ -152,6 +165,10 @@ impl Tapped {
             && DROPPED * dropped.len() > self.taps.len()
         {
             return Err(*first);
+        }
+        let (late, taps) = (late_among(&dropped), self.taps.len());
+        if LATE * late > taps {
+            return Err(TapError::MostlyLate { late, taps });
         }
         let speeds = || clear.iter().map(|tap| tap.passage.speed_mm_s);
         let ratio = speeds().fold(0.0, f64::max) / speeds().fold(f64::INFINITY, f64::min);
@@ -184,6 +201,11 @@ impl Tapped {
     /// Reasons of the taps that latencies leave out, because a device does not show them clearly.
     pub fn dropped(&self) -> Vec<TapError> {
         self.edges().into_iter().filter_map(Result::err).collect()
+    }
+
+    /// Number of taps that are left out as late.
+    pub fn late(&self) -> usize {
+        late_among(&self.dropped())
     }
 
     /// Edges of each tap, in order.
@@ -319,6 +341,11 @@ impl Listened {
     }
 }
 
+fn late_among(dropped: &[TapError]) -> usize {
+    let late = |error: &&TapError| matches!(error, TapError::Late { .. });
+    dropped.iter().filter(late).count()
+}
+
 /// Mean of each column.
 fn mean(rows: &[&[f64]]) -> Vec<f64> {
     let mut sums = vec![0.0; rows.first().map_or(0, |row| row.len())];
@@ -330,46 +357,6 @@ fn mean(rows: &[&[f64]]) -> Vec<f64> {
         }
     }
     sums.into_iter().map(|sum| sum / count.max(1.0)).collect()
-}
-
-/// A straight line by least squares.
-struct Line {
-    at_zero: f64,
-    slope: f64,
-    /// Standard deviation of a point from the line, and standard error of `at_zero`.
-    deviation: f64,
-    error: f64,
-}
-
-impl Line {
-    fn through(points: &[(f64, f64)]) -> Line {
-        let mut count = 0.0_f64;
-        let (mut sum_x, mut sum_y) = (0.0, 0.0);
-        for (x, y) in points {
-            count += 1.0;
-            sum_x += x;
-            sum_y += y;
-        }
-        let (mean_x, mean_y) = (sum_x / count, sum_y / count);
-        let (mut squares, mut products) = (0.0, 0.0);
-        for (x, y) in points {
-            squares += (x - mean_x).powi(2);
-            products += (x - mean_x) * (y - mean_y);
-        }
-        let slope = products / squares;
-        let at_zero = mean_y - slope * mean_x;
-        let beside = points
-            .iter()
-            .map(|(x, y)| (y - at_zero - slope * x).powi(2));
-        let deviation = (beside.sum::<f64>() / (count - 2.0)).sqrt();
-        let error = deviation * (1.0 / count + mean_x * mean_x / squares).sqrt();
-        Line {
-            at_zero,
-            slope,
-            deviation,
-            error,
-        }
-    }
 }
 
 /// Latency from pairs of a reciprocal speed and a delay, in s: the delay extrapolated to infinite speed.

@@ -8,7 +8,8 @@ use taceva_core::ErrorKind;
 use taceva_dataset::Dataset;
 use taceva_evaluate::{EvaluateError, PLANS};
 
-use super::{RunFolder, slug};
+use super::super::layout::SCENE;
+use super::{RunFolder, difference, slug};
 use crate::error::StudyError;
 
 impl RunFolder {
@@ -29,13 +30,27 @@ impl RunFolder {
             return Ok(false);
         }
         let before = fs::read_to_string(&path).map_err(|error| self.refused(error.to_string()))?;
-        match before.trim_end() == self.plans_of(scene)? {
+        let now = self.plans_of(scene)?;
+        match before.trim_end() == now {
             true => Ok(true),
-            false => Err(self.refused(
-                "the run in it has a different plan: run the same scene with the same seed, or choose another folder"
-                    .to_owned(),
-            )),
+            false => Err(self.refused(self.other_plan(scene, before.trim_end(), &now))),
         }
+    }
+
+    /// Message that the run has another plan, with its first differences.
+    fn other_plan(&self, scene: &PlannedScene, before: &str, now: &str) -> String {
+        let text = fs::read_to_string(self.path.join(SCENE)).ok();
+        let line = text.and_then(|text| difference::of_scenes(&text, &scene.text.text));
+        let differences = [line, difference::of_plans(before, now)];
+        let differences: Vec<String> = differences.into_iter().flatten().collect();
+        let differences = match differences.as_slice() {
+            [] => "its scene, seed or rig differs".to_owned(),
+            differences => differences.join("; "),
+        };
+        format!(
+            "the run in it has a different plan: {differences}: undo this change and use --resume to continue it, or choose another folder to record \
+             with the change"
+        )
     }
 
     /// True if every study of `scene` is completely recorded there. Changes nothing.

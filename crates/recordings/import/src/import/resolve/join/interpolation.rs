@@ -5,7 +5,7 @@ use taceva_core::Unit;
 use crate::csv_table::number;
 use crate::error::{ImportError, table_error};
 use crate::foreign::ForeignTable;
-use crate::import::map::{ImportMap, RotationMap};
+use crate::import::map::{ImportMap, RotationMap, turn_in};
 use crate::import::resolve::cell::cell_of;
 use taceva_dataset::internal::shown;
 
@@ -22,6 +22,8 @@ enum Way {
         channel: String,
         /// Half a turn, in the unit of the cells.
         half_turn: f64,
+        /// Whole turn, in the unit of the map.
+        turn: f64,
     },
     /// Angle with a period, in the unit of the cells.
     Periodic(f64),
@@ -78,6 +80,7 @@ impl Interpolation {
                     None => Way::Angle {
                         channel: channel.name().to_owned(),
                         half_turn: 180.0 * cells_a_degree,
+                        turn: turn_in(mapped.unit),
                     },
                 },
             });
@@ -113,12 +116,16 @@ impl Gap<'_> {
             return Ok(String::new());
         };
         let number = match way {
-            Some(Way::Angle { channel, half_turn }) if (after - before).abs() > *half_turn => {
+            Some(Way::Angle {
+                channel,
+                half_turn,
+                turn,
+            }) if (after - before).abs() > *half_turn => {
                 return Err(table_error!(
                     self.table.place(self.rows[1], column),
                     "{after} follows {before}, more than half a turn of `{channel}`, and `pick = \"linear\"` would invent angles between: write \
                          `rotation = [\"Rx\", \"Ry\", \"Rz\"]` above the first [section] of the map if it is a part of a rotation vector, \
-                         `period = 360` in `{channel} = {{ … }}` if it is one angle that wraps around, or `pick = \"nearest\"` in the join"
+                         `period = {turn}` in `{channel} = {{ … }}` if it is one angle that wraps around, or `pick = \"nearest\"` in the join"
                 ));
             }
             Some(Way::Periodic(period)) => wrapped(before, after, self.share, *period),

@@ -238,3 +238,29 @@ fn a_quarter_of_the_taps_may_be_unclear_and_is_left_out() {
     let error = tapped.latencies().expect_err("14 of 20");
     assert!(matches!(error, TapError::Few { tap: 1, .. }), "{error}");
 }
+
+#[test]
+fn late_taps_are_counted_and_more_than_a_fifth_are_refused_though_a_quarter_may_be_unclear() {
+    // Frames of a late tap go on changing while the tip rests.
+    let late = |tap: &mut TapHeard| {
+        let end_s = tap.frames.last().expect("frames").0;
+        for (at_s, shades) in &mut tap.frames {
+            let rests_s = (*at_s - end_s + REST_S).max(0.0);
+            *shades = vec![rests_s / REST_S; 3];
+        }
+    };
+    let mut tapped = RIG.tapped(20);
+    assert_eq!(tapped.late(), 0);
+    tapped.taps[..4].iter_mut().for_each(late);
+    assert_eq!(tapped.late(), 4);
+    tapped.latencies().expect("16 clear taps");
+    late(&mut tapped.taps[4]);
+    let error = tapped.latencies().expect_err("a quarter is late");
+    let expected = TapError::MostlyLate { late: 5, taps: 20 };
+    assert_eq!(error, expected);
+    let words = error.to_string();
+    assert!(
+        words.contains("5 of 20 taps were left out as late"),
+        "{words}"
+    );
+}

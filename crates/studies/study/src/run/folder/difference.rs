@@ -1,0 +1,129 @@
+//! First difference between the plans of a begun run and those of a scene.
+
+use serde_json::Value;
+use taceva_core::shown;
+
+/// Most characters of a value in a message.
+const MOST: usize = 60;
+
+/// Values that follow from others, which are named first.
+const FOLLOWING: [&str; 3] = ["cost", "digest", "rig"];
+static NULL: Value = Value::Null;
+
+/// First line that differs between two scenes: `line 3 was …`.
+pub(super) fn of_scenes(before: &str, now: &str) -> Option<String> {
+    let mut lines = (before.lines(), now.lines());
+    (1_u32..)
+        .map_while(|number| match (lines.0.next(), lines.1.next()) {
+            (None, None) => None,
+            both => Some((number, both)),
+        })
+        .find(|(_, (before, now))| before != now)
+        .map(|(number, (before, now))| {
+            let line = |line: Option<&str>| match line {
+                Some(line) => format!("`{}`", shortened(line)),
+                None => "missing".to_owned(),
+            };
+            format!(
+                "line {number} of the scene was {} and is {}",
+                line(before),
+                line(now)
+            )
+        })
+}
+
+/// First value that differs between two texts of plans: `studies.0.seed was 1 and is 2`.
+pub(super) fn of_plans(before: &str, now: &str) -> Option<String> {
+    let read = |text: &str| serde_json::from_str::<Value>(text).ok();
+    of_values("", &read(before)?, &read(now)?)
+}
+
+fn of_values(path: &str, before: &Value, now: &Value) -> Option<String> {
+    let inner = |name: &str| match path {
+        "" => name.to_owned(),
+        path => format!("{path}.{name}"),
+    };
+    match (before, now) {
+        (Value::Object(before), Value::Object(now)) => {
+            let names = before.keys().chain(now.keys());
+            let (last, first): (Vec<&String>, Vec<&String>) =
+                names.partition(|name| FOLLOWING.contains(&name.as_str()));
+            let mut names = first.into_iter().chain(last);
+            names.find_map(|name| {
+                let [before, now] = [before, now].map(|map| map.get(name).unwrap_or(&NULL));
+                of_values(&inner(name), before, now)
+            })
+        }
+        (Value::Array(before), Value::Array(now)) if before.len() == now.len() => {
+            let mut pairs = before.iter().zip(now).enumerate();
+            pairs.find_map(|(at, (before, now))| of_values(&inner(&at.to_string()), before, now))
+        }
+        (Value::Array(before), Value::Array(now)) => Some(format!(
+            "{path} had {} entries and has {}",
+            before.len(),
+            now.len()
+        )),
+        (before, now) if before == now => None,
+        // The plan has the digest of the rig file alone.
+        _ if path == "rig" => Some("the rig file changed".to_owned()),
+        (before, now) => Some(format!(
+            "{path} was {} and is {}",
+            shortened(&before.to_string()),
+            shortened(&now.to_string())
+        )),
+    }
+}
+
+fn shortened(text: &str) -> String {
+    let text = text.trim();
+    match text.chars().count() {
+        count if count > MOST => {
+            let start: String = text.chars().take(MOST).collect();
+            format!("{}…", shown(&start))
+        }
+        _ => shown(text).to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_line_that_differs_is_named_with_both_texts() {
+        let scene = "name = \"a\"\n[limits]\nFz_max_N = 20\n";
+        assert_eq!(of_scenes(scene, scene), None);
+        assert_eq!(
+            of_scenes(scene, &scene.replace("20", "15")).as_deref(),
+            Some("line 3 of the scene was `Fz_max_N = 20` and is `Fz_max_N = 15`")
+        );
+        assert_eq!(
+            of_scenes(scene, "name = \"a\"\n").as_deref(),
+            Some("line 2 of the scene was `[limits]` and is missing")
+        );
+    }
+
+    #[test]
+    fn the_first_value_that_differs_is_named_by_its_path() {
+        let plan = |limit: u32, shear: &str, rig: &str| {
+            format!(
+                r#"{{"rig": "{rig}", "studies": [{{"digest": "{limit}{shear}", "limits": {{"Fz": {limit}}}, "presses": [{{"shear": {shear}}}]}}]}}"#
+            )
+        };
+        let before = plan(20, "null", "sha256:1");
+        let found = |now: &str| of_plans(&before, now).unwrap_or_default();
+        assert_eq!(found(&before), "");
+        assert_eq!(
+            found(&plan(15, "null", "sha256:1")),
+            "studies.0.limits.Fz was 20 and is 15"
+        );
+        assert_eq!(
+            found(&plan(20, "0.5", "sha256:1")),
+            "studies.0.presses.0.shear was null and is 0.5"
+        );
+        assert_eq!(found(&plan(20, "null", "sha256:2")), "the rig file changed");
+        let fewer = before.replace(r#"{"shear": null}"#, "");
+        assert_eq!(found(&fewer), "studies.0.presses had 1 entries and has 0");
+        assert_eq!(found("no plan"), "");
+    }
+}
