@@ -115,7 +115,7 @@ pub(crate) enum Command {
     Export(Export),
     /// Fit a model on the training part of a dataset and write it to a file
     Fit(Fit),
-    /// Fit a model, or take a fitted one, and score it on data it has not seen
+    /// Fit a model, or use a fitted one, and score it on unseen samples
     Evaluate(Evaluate),
     /// Write a model's predictions as a table
     Predict(Predict),
@@ -133,7 +133,7 @@ pub(crate) enum Command {
     Choose(Choose),
     /// Test a result against limits, and write its data sheet
     Accept(Accept),
-    /// Study a measuring system: how much of what differs between readings comes from units, gels, days or persons
+    /// Study a measuring system: shares of the variation of readings due to units, gels, days or persons
     Gauge(Gauge),
     /// Fit a calibration curve: bands, the reference value of a reading, limits of detection
     Curve(Curve),
@@ -151,11 +151,11 @@ pub(crate) enum Command {
     Preview(Preview),
     /// Plan, acquire, fit, evaluate and report a scene; without one, four sensors on the simulated bench
     Run(Run),
-    /// Print what `run` would do with a scene, keep and skip, and why; opens no device
+    /// Print the planned, kept and skipped steps of `run`, with reasons; opens no device
     Plan(PlanArgs),
     /// Set up a rig: measure the position of its robot, and check its devices for a run
     Rig(RigCommand),
-    /// List every driver, what it can do, its arguments, and the devices that are present
+    /// List every driver, its abilities and arguments, and the devices that are present
     Devices(Output<ListFormat>),
     /// List, inspect, check or create plugins
     #[command(subcommand)]
@@ -176,7 +176,7 @@ pub(crate) struct Completions {
 
 #[derive(Debug, Args)]
 pub(crate) struct ManArgs {
-    /// The folder to write a page for every command into [default: only the page of taceva, to standard output]
+    /// The folder for a page of every command [default: only the page of taceva, to standard output]
     #[arg(long = "out", value_name = "FOLDER")]
     pub(crate) folder: Option<PathBuf>,
 }

@@ -141,7 +141,7 @@ fn check_free(scoring: &ScoringArgs, output: &Output) -> anyhow::Result<()> {
     }
     if scoring.figure.is_set() && scoring.figures.is_none() {
         return Err(Usage::error(
-            "--figure-width, --figure-font and --figure-size are of figure files: add --figures FOLDER",
+            "--figure-width, --figure-font and --figure-size apply to figure files: add --figures FOLDER",
         ));
     }
     Ok(())

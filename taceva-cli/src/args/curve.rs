@@ -36,7 +36,7 @@ pub(crate) struct Curve {
         allow_negative_numbers = true
     )]
     pub(crate) at: Vec<f64>,
-    /// The readings, with their unit and separated by commas, whose reference values are wanted, such as 0.35N
+    /// The readings to invert, with their unit and separated by commas, such as 0.35N
     #[arg(long, value_name = "READINGS", value_delimiter = ',')]
     pub(crate) invert: Vec<String>,
     /// Also give the critical and the detectable reference value

@@ -52,7 +52,7 @@ pub(crate) struct Import {
 
 /// Labels and signals are kept to the last bit, pictures to the last pixel, and their files byte for byte if the format contains files.
 /// `map.toml` beside them restores all of it: `taceva import FOLDER --map FOLDER/map.toml --out DATASET`. Data that no map can express
-/// (settings of the camera, how presses ended) is listed.
+/// (camera settings, ends of presses) is listed.
 ///
 /// Read by: huggingface: `datasets.load_dataset("FOLDER")`; lerobot: `LeRobotDataset("me/it", root="FOLDER")`; hdf5: `h5py.File("FOLDER/recording.h5")`;
 /// csv: anything.

@@ -11,7 +11,7 @@ use super::{
     SplitOutArgs, TableArgs, ViewArgs,
 };
 
-/// During the training of a network, a checkpoint is written to the file MODEL.checkpoint every half a minute, and when the training is
+/// During the training of a network, a checkpoint is written to the file MODEL.checkpoint every 30 s, and when the training is
 /// stopped. The same command resumes from it, writes the same bytes as an uninterrupted one, and removes it.
 #[derive(Debug, Args)]
 pub(crate) struct Fit {
@@ -40,7 +40,7 @@ pub(crate) struct Fit {
 }
 
 /// The model is fitted on the training part, its settings are chosen on the validation part, and the test part is scored. The default model is
-/// `fast`, a small network, or `ridge` for signals of taxels. With --with, a fitted model is used: on its own dataset only the part it has not seen is scored.
+/// `fast`, a small network, or `ridge` for signals of taxels. With --with, a fitted model is used: on its own dataset only the unseen part is scored.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("which").args(["with", "name"]))]
 pub(crate) struct Evaluate {

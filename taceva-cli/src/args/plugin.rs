@@ -17,7 +17,7 @@ pub(crate) struct PluginArgs {
     /// Ask this Python interpreter for the plugins in its environment, and run Python plugins with it; may be repeated
     #[arg(long = "python", global = true, value_name = "FILE")]
     pub(crate) interpreters: Vec<PathBuf>,
-    /// Run this plugin without confinement, a library in this process and Python in a process of its own; may be repeated
+    /// Run this plugin without confinement, a library in this process and Python in its own process; may be repeated
     #[arg(long = "trust", global = true, value_name = "ID")]
     pub(crate) trusted: Vec<PluginId>,
 }
@@ -33,7 +33,7 @@ pub(crate) enum Plugin {
     New(PluginNew),
     /// Write the headers for plugins in C and C++
     Headers(PluginHeaders),
-    /// Check a plugin against its interface, in processes of its own with a time limit
+    /// Check a plugin against its interface, in separate processes with a time limit
     Check(PluginCheck),
     /// Write plugin.toml from the data in the library
     Manifest(PluginManifest),

@@ -37,7 +37,7 @@ pub(crate) struct Compare {
     pub(crate) output: Output,
 }
 
-/// Results are the folder of a run, or the JSON of `run`, `evaluate` or `score`. Written are `report.html`, every figure as SVG and PDF in
+/// Results are the folder of a run, or the JSON of `run`, `evaluate` or `score`. The command writes `report.html`, every figure as SVG and PDF in
 /// `figures/`, and the tables `scores.csv`, `scores.md`, `scores.tex` and `scores-main.tex`. Figures of samples need the samples beside the
 /// results: `reports/` of a run, or `<name>.samples.csv` beside `<name>.json`.
 #[derive(Debug, Args)]

@@ -40,7 +40,7 @@ pub(crate) enum RigSubject {
 ///
 /// Each device has a line: `ok`, `problem` for a value that would stop a run, or `error` with the remedy. A device that fails does not end
 /// the check: the next one is tried. If the robot, the force transducer or the enabling switch failed, nothing moves, and the line of the
-/// halt says why it was left out. The exit code is 1 after any error or problem.
+/// halt states why it was skipped. The exit code is 1 after any error or problem.
 ///
 /// Do this once before the first run on a rig, and again after every change of its network, its machine or a device.
 #[derive(Debug, Args)]

@@ -226,7 +226,7 @@ pub(crate) enum PartArg {
     Train,
     /// Samples that its settings were chosen on
     Validation,
-    /// Samples that it has not seen
+    /// Unseen samples
     Test,
     /// Every sample
     All,

@@ -31,5 +31,5 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
     }
     writeln!(out)?;
     out.write_all(table.text().as_bytes())?;
-    writeln!(out, "no intervals: one group holds no groups to leave out")
+    writeln!(out, "no intervals: an interval needs several groups")
 }

@@ -117,7 +117,7 @@ impl Page {
             let names: Vec<&str> = undrawn.iter().map(|(name, _)| name.as_str()).collect();
             let names = names.join(", ");
             context.say(format_args!(
-                "figures without data are not written: {names} (-v says why)"
+                "figures without data are not written: {names} (-v prints the reasons)"
             ));
         }
         for (name, reason) in undrawn {

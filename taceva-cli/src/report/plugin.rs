@@ -44,7 +44,7 @@ pub(crate) fn list(
     let hint = if all || not == 0 {
         ""
     } else {
-        ": --all says why"
+        ": --all prints the reasons"
     };
     writeln!(out, "{}, {not} not used{hint}", counted(used, "plugin"))
 }

@@ -275,7 +275,7 @@ fn few_groups_have_their_errors_in_json_text_and_page() {
     let line = "taceva evaluate data --model ridge --metrics mae --split 'cv:5 by-column:object' --html page.html";
     let text = done(&bench, line);
     assert!(
-        text.contains("no intervals: one group holds no groups"),
+        text.contains("no intervals: an interval needs several groups"),
         "{text}"
     );
     let report: serde_json::Value =

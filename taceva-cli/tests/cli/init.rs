@@ -98,7 +98,7 @@ fn a_channel_is_left_out_by_none_and_a_named_column_keeps_the_reason_against_it(
     let named = "Fz = { from = \"fz_cmd\", unit = \"N\" }   # named by you, though by `cmd` commanded, not measured\n";
     assert!(map.contains(named), "{map}");
     assert!(map.contains("\n# Left out: Fx = "), "{map}");
-    let against = "the draft takes \"fz_cmd\" for no channel";
+    let against = "the draft does not treat \"fz_cmd\" as a channel";
     assert!(ran.err.contains(against), "{}", ran.err);
     assert!(!ran.out.contains("fill in"), "{}", ran.out);
     bench.ok("import lab --map map.toml --explain");

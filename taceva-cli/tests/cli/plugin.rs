@@ -89,7 +89,7 @@ fn what_is_not_used_is_counted_and_with_all_told_with_its_reason() {
     bench.write("plugins/same/lib.so", "never opened");
     let out = bench.ok("plugin list --plugin-dir plugins");
     assert!(
-        out.ends_with("0 plugins, 3 not used: --all says why\n"),
+        out.ends_with("0 plugins, 3 not used: --all prints the reasons\n"),
         "{out}"
     );
     let listed = bench.json("plugin list --all --plugin-dir plugins");

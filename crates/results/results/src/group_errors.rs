@@ -10,7 +10,7 @@ use crate::score::Score;
 /// Most groups whose errors are listed.
 const MOST: usize = 20;
 
-/// Mean absolute errors of one group of a split, by channel. They have no interval: one group holds no groups to leave out.
+/// Mean absolute errors of one group of a split, by channel. They have no interval: an interval needs several groups.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GroupErrors {
     /// Name of the group.

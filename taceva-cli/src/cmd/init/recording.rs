@@ -101,7 +101,7 @@ fn remarks(map: &str, path: &str) -> Vec<String> {
     }
     if !has_labels(map) {
         remarks.push(format!(
-            "name the labels, of which none was found: under [columns] of {path} write a line such as Fz = {{ from = \"COLUMN\", unit = \"N\" }}"
+            "name the labels (the draft found none): under [columns] of {path} write a line such as Fz = {{ from = \"COLUMN\", unit = \"N\" }}"
         ));
     }
     if !live(map).any(|line| line.starts_with("point_id")) {
@@ -114,7 +114,7 @@ fn remarks(map: &str, path: &str) -> Vec<String> {
         };
         remarks.push(format!(
             "if several rows show one contact, such as the frames of a grasp or the repeats of a press, name the contacts: under [ids] of \
-             {path} write point_id = \"COLUMN\"{offered}. Scores then go by contacts, and none is in training and test"
+             {path} write point_id = \"COLUMN\"{offered}. Scores then go by contact, and no contact is in both training and test"
         ));
     }
     remarks
@@ -187,7 +187,9 @@ fn fill(lines: &mut [String], path: &Path, interview: &mut Interview) -> anyhow:
             lines[at] = put(&answer);
             let why = reason_against(&excluded, &answer).filter(|_| is_channel);
             if let Some(why) = why {
-                interview.say(&format!("the draft takes {answer:?} for no channel: {why}"));
+                interview.say(&format!(
+                    "the draft does not treat {answer:?} as a channel: {why}"
+                ));
             }
             // The comment explained why the place was open.
             if is_channel || place.subject.is_none() {
@@ -307,7 +309,7 @@ mod tests {
         let said = remarks(bare, "m.toml");
         assert_eq!(said.len(), 1, "{said:?}");
         assert!(
-            said[0].starts_with("name the labels, of which none was found"),
+            said[0].starts_with("name the labels (the draft found none)"),
             "{said:?}"
         );
     }

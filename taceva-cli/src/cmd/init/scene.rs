@@ -54,10 +54,10 @@ pub(super) fn write(
     let seed = interview.count("seed of all random numbers", "7", [0, u32::MAX])?;
     let about = match sensing_area {
         Some(_) => "A study on a real rig, whose file names the devices.",
-        None => "A study on the simulated bench: nothing of it is measured.",
+        None => "A study on the simulated bench: nothing is measured.",
     };
     let mut text = format!(
-        "# {about} `taceva plan` says what it would do.\nscene_version = 1\nname = {name:?}\nseed = {seed}\n\n"
+        "# {about} `taceva plan` prints its steps.\nscene_version = 1\nname = {name:?}\nseed = {seed}\n\n"
     );
     let sensors: Vec<&str> = chosen.split(',').map(str::trim).collect();
     match (&sensing_area, sensors.as_slice()) {

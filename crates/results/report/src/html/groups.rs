@@ -33,7 +33,7 @@ pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
         }
     };
     let body = html! {
-        p.note { "Mean absolute errors without intervals, because one group holds no groups to leave out." } "\n"
+        p.note { "Mean absolute errors without intervals, because an interval needs several groups." } "\n"
         (scroll("Errors of each group", &table))
     };
     (!rows.is_empty()).then_some((count, body))
