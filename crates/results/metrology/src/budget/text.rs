@@ -136,6 +136,43 @@ impl BudgetText {
         Ok(())
     }
 
+    /// Name of the measurand.
+    pub fn measurand(&self) -> &str {
+        self.written.measurand.get_ref()
+    }
+
+    /// Unit of the measurand and of its uncertainty.
+    pub fn unit(&self) -> &str {
+        &self.unit
+    }
+
+    /// The same budget at these values of the measurand, in its unit.
+    #[must_use]
+    pub fn with_at(self, at: Vec<f64>) -> BudgetText {
+        BudgetText { at, ..self }
+    }
+
+    /// Measured figures that sources name by `from`, in the order of the file.
+    pub fn figures(&self) -> impl Iterator<Item = &str> {
+        let named = self.written.source.iter();
+        let named = named.filter_map(|source| source.get_ref().from.as_ref());
+        named.map(|from| from.get_ref().as_str())
+    }
+
+    /// Refusal of the source that names `figure`, for a figure without a value.
+    pub fn not_measured(&self, figure: &str, reason: &str) -> BudgetError {
+        let mut named = self.written.source.iter();
+        let from = named.find_map(|source| {
+            let from = source.get_ref().from.as_ref();
+            from.filter(|from| from.get_ref() == figure)
+        });
+        let problem = BudgetProblem::NotMeasured {
+            name: shown(figure).to_string(),
+            reason: reason.to_owned(),
+        };
+        BudgetError::new(from.map(|from| self.line(from)), "from", problem)
+    }
+
     /// The quantity of the measurand, and of what is added to it.
     pub(super) fn wanted(&self) -> Wanted {
         match (self.kept_unit, &self.written.expression) {
