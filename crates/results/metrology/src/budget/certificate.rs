@@ -158,14 +158,17 @@ impl Certificate {
         }
     }
 
-    /// The sentence of a certificate that had expired when the recording was made. Dates of one form compare as texts.
+    /// The sentence of a certificate that had expired when the recording was made, or may have. Dates of one form compare as texts.
     pub(super) fn expiry(&self) -> Option<String> {
-        let (until, on) = (self.valid_until.as_ref()?, self.recorded_on.as_ref()?);
-        (on > until).then(|| {
-            format!(
-                "certificate {} was valid until {until}, the recording is of {on}",
-                self.number
-            )
-        })
+        let (number, until) = (&self.number, self.valid_until.as_ref()?);
+        match &self.recorded_on {
+            Some(on) if on > until => Some(format!(
+                "certificate {number} was valid until {until}, the recording is of {on}"
+            )),
+            Some(_) => None,
+            None => Some(format!(
+                "certificate {number} is valid until {until}, the day of the recording is unknown"
+            )),
+        }
     }
 }

@@ -163,7 +163,8 @@ pub struct Missing {
 }
 
 impl Missing {
-    pub(super) fn new(source: &str, reason: &str) -> Missing {
+    /// An effect that the figure `source` would cover.
+    pub fn new(source: &str, reason: &str) -> Missing {
         Missing {
             source: source.to_owned(),
             reason: reason.to_owned(),

@@ -146,6 +146,11 @@ impl BudgetText {
         &self.unit
     }
 
+    /// Values of the measurand at which a budget is made, in its unit.
+    pub fn at(&self) -> &[f64] {
+        &self.at
+    }
+
     /// The same budget at these values of the measurand, in its unit.
     #[must_use]
     pub fn with_at(self, at: Vec<f64>) -> BudgetText {
@@ -207,7 +212,7 @@ pub(super) fn value(found: f64, expected: &str) -> BudgetProblem {
 }
 
 /// The parser's message in one line, with the nearest key for an unknown one.
-fn explained(message: &str) -> String {
+pub(super) fn explained(message: &str) -> String {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match quoted.as_slice() {
         [wrong, known @ ..] if message.starts_with("unknown field") => {
