@@ -76,7 +76,7 @@ impl fmt::Display for AmountError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             AmountError::Form => f.write_str("a number, a blank and a unit, such as \"10 mN\""),
-            AmountError::Unit(error) => error.fmt(f),
+            AmountError::Unit(error) => write!(f, "a known unit: {error}"),
             AmountError::Number => f.write_str("a number before the unit"),
             AmountError::NotFinite => f.write_str("a finite number"),
         }
