@@ -39,7 +39,7 @@ pub(crate) struct Budget {
     /// The result of one sensor whose figures sources name, with its samples beside it: JSON of evaluate or score, or a report of a run
     #[arg(long, value_name = "RESULT")]
     pub(crate) results: Option<PathBuf>,
-    /// The certificate of the reference: a table `[force.certificate]` or `[robot.certificate]`, as in a rig file
+    /// The certificate of the reference, in place of that of the result: a table `[force.certificate]` or `[robot.certificate]`, as in a rig file
     #[arg(long, value_name = "CERTIFICATE.toml")]
     pub(crate) certificate: Option<PathBuf>,
     /// The day of the recording, on which the certificate must be valid

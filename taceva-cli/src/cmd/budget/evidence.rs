@@ -4,7 +4,7 @@ use std::path::Path;
 
 use taceva_core::{Date, shown};
 use taceva_metrology::budget::{
-    BudgetError, BudgetText, Components, Evidence, Figure, Freedom, Missing, Residuals,
+    BudgetError, BudgetText, Certificate, Components, Evidence, Figure, Freedom, Missing, Residuals,
 };
 use taceva_results::{EvaluationReport, Score};
 
@@ -19,6 +19,10 @@ const SCORES: [&str; 5] = ["repeatability", "noise", "drift", "r_light", "hyster
 const CHANNELS: [&str; 6] = ["Fz", "Fx", "Fy", "Pz", "Px", "Py"];
 /// Factor between the variant `known_deviation` of `noise_equivalent_force` and the deviation.
 const KNOWN_DEVIATION: f64 = 3.29;
+
+/// Reason and remedy of a certificate that is not there.
+const NO_CERTIFICATE: &str =
+    "the recording has none; add --certificate CERTIFICATE.toml, or state `U` and `k`";
 
 /// Measurand of a budget.
 pub(super) struct Channel {
@@ -50,7 +54,7 @@ impl Measured {
         for figure in RESIDUALS.into_iter().chain(SCORES) {
             measured.lacks(figure, "no result is given; add --results RESULT.json");
         }
-        measured.lacks_certificate();
+        measured.lacks("certificate", NO_CERTIFICATE);
         measured
     }
 
@@ -62,7 +66,7 @@ impl Measured {
         Ok(Measured::of_report(&report_of(path)?, channel, date))
     }
 
-    pub(super) fn of_report(found: &Found, channel: &Channel, _date: Option<Date>) -> Measured {
+    pub(super) fn of_report(found: &Found, channel: &Channel, date: Option<Date>) -> Measured {
         let subject = &found.report.subject;
         let mut measured = Measured {
             sensor: Some(subject.sensor.clone()),
@@ -76,7 +80,7 @@ impl Measured {
                 Err(reason) => measured.lacks(figure, &reason),
             }
         }
-        measured.lacks_certificate();
+        measured.add_certificate(found, channel, date);
         measured
     }
 
@@ -104,10 +108,18 @@ impl Measured {
         self.absent.push(Missing::new(figure, reason));
     }
 
-    fn lacks_certificate(&mut self) {
-        let remedy =
-            "the recording has none; add --certificate CERTIFICATE.toml, or state `U` and `k`";
-        self.lacks("certificate", remedy);
+    /// Takes the certificate of the reference, if the result has one for the channel.
+    fn add_certificate(&mut self, found: &Found, channel: &Channel, date: Option<Date>) {
+        let stated = &found.report.provenance.traceability;
+        let mut all = Certificate::of_references(stated, &channel.name, date);
+        match (all.next(), all.next()) {
+            (Some(only), None) => self.take(|evidence| evidence.with_certificate(only)),
+            (Some(_), Some(_)) => {
+                let reason = "the recordings have several; add --certificate CERTIFICATE.toml";
+                self.lacks("certificate", reason);
+            }
+            (None, _) => self.lacks("certificate", NO_CERTIFICATE),
+        }
     }
 
     fn add_residuals(&mut self, found: &Found, channel: &Channel) {

@@ -169,6 +169,34 @@ fn a_certificate_gives_the_uncertainty_of_the_reference_and_its_number() {
 }
 
 #[test]
+fn a_result_gives_the_certificate_of_its_recording_and_none_if_there_are_two() {
+    let bench = certified("");
+    let stated = |number: &str| {
+        format!(
+            r#"{{"instrument": "force", "serial": "42", "certificate": {{"number": "{number}", "laboratory": "L", "issued": "2026-05-12", "serial": "42", "k": 2.0, "U": {{"Fz": "3.0 mN"}}}}}}"#
+        )
+    };
+    let result = |all: &str| {
+        let text = format!(
+            r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "drawn", "source": "recorded"}}, "metrics": {{}}, "provenance": {{"traceability": [{all}]}}}}"#
+        );
+        taceva_files::seal::json::seal(&text).expect("JSON")
+    };
+    bench.write("r.json", &result(&stated("D-K-1")));
+    let budget = bench.json("budget budget.toml --results r.json --mc 0");
+    super::near(super::number(&budget["u"]), 0.0015, 1e-12);
+    assert_eq!(budget["traceability"]["number"], "D-K-1");
+    let both = [stated("D-K-1"), stated("D-K-2")].join(", ");
+    bench.write("r.json", &result(&both));
+    bench.refused(
+        "budget budget.toml --results r.json",
+        3,
+        "line 6, `from`: `certificate` is not measured here: the recordings have several",
+    );
+    bench.ok("budget budget.toml --results r.json --certificate cert.toml --mc 0");
+}
+
+#[test]
 fn a_certificate_that_does_not_hold_is_refused_and_an_expired_one_is_named_in_every_format() {
     let bench = certified("[force.certificate]\n");
     let words = "budget budget.toml --certificate cert.toml --mc 0";

@@ -69,14 +69,23 @@ impl Certificate {
                 parsed(text)?,
             )?);
         }
-        let mut references = all.iter().filter(|of| of.instrument != Instrument::Sensor);
-        let found = references.find_map(|of| Certificate::of(of, channel, recorded_on));
+        let found = Certificate::of_references(&all, channel, recorded_on).next();
         found.ok_or_else(|| {
             refused(format!(
                 "no certificate of a reference with `U` or `U_relative` of {}",
                 shown(channel)
             ))
         })
+    }
+
+    /// Certificates of `channel` among those of the instruments that labels come from.
+    pub fn of_references(
+        all: &[Traceability],
+        channel: &str,
+        recorded_on: Option<Date>,
+    ) -> impl Iterator<Item = Certificate> {
+        let references = all.iter().filter(|of| REFERENCES.contains(&of.instrument));
+        references.filter_map(move |of| Certificate::of(of, channel, recorded_on))
     }
 }
 

@@ -113,6 +113,11 @@ impl BudgetTemplate<'_> {
             Err(error) => return format!("\n# not yet a budget: {}\n", line(&error.to_string())),
         };
         let mut out = String::new();
+        let is_measured = |figure: &&str| self.evidence.figure(figure).is_some();
+        let inside = ["repeatability", "noise"].into_iter().filter(is_measured);
+        for figure in inside.filter(|_| self.evidence.figure("error.within").is_some()) {
+            out += &format!("\n# {figure}: measured, and inside `error.within`\n");
+        }
         let missing = missing.unwrap_or_default();
         for of in &missing {
             out += &self.remark(of);
