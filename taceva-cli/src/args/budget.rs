@@ -19,7 +19,10 @@ Sources:
   coverage = 0.95
   [[source]]
   name = \"place to place\"
-  from = \"error.between\"    # measured by the result: also error.within, bias, repeatability, noise, drift, r_light; of a study: gauge.json#unit
+  from = \"error.between\"    # measured: also error.within, bias, repeatability, drift, r_light, certificate
+  [[source]]
+  name = \"unit to unit\"
+  from = \"gauge.json#unit\"   # a component of a gauge study
   [[source]]
   name = \"lamp\"
   half_width = \"10 mN\"      # or u; U with k; s with dof; rows

@@ -41,7 +41,7 @@ pub(crate) fn run(args: &Budget) -> anyhow::Result<u8> {
     let most = most.transpose()?;
     let channel = Channel::of(budget.measurand(), budget.unit());
     let mut measured = match &args.results {
-        Some(result) => Measured::of_result(result, &channel, args.date)?,
+        Some(result) => Measured::of_report(&evidence::report_of(result)?, &channel, args.date),
         None => Measured::without_result(),
     };
     certify(&mut measured, args, &channel)?;

@@ -193,6 +193,69 @@ fn a_budget_of_a_result_holds_the_components_of_its_residuals_by_contact_point()
     }
 }
 
+/// Scores of repeats and of time as `r.json`, with samples under two lights.
+fn scored() -> Bench {
+    let bench = Bench::new();
+    let result = r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "drawn", "source": "recorded"}, "metrics": {
+        "repeatability": {"Fz": {"value": 0.02, "unit": "N", "n": 40, "definition": "repeatability/1",
+            "counts": {"cells_valid": 10, "cells_total": 10}, "pooled": {"value": 0.03, "unit": "N"}}},
+        "drift": {"Fz": {"value": -0.002, "unit": "N/h", "n": 40, "definition": "drift/1"}}}}"#;
+    let sealed = taceva_files::seal::json::seal(result).expect("JSON");
+    bench.write("r.json", &sealed);
+    let mut table = String::from("sample,protocol,point_id,scene,Fz,Fz_predicted\n");
+    let residuals = [
+        ("dim", 0.01),
+        ("dim", 0.03),
+        ("bright", 0.05),
+        ("bright", 0.07),
+    ];
+    for (at, (scene, residual)) in residuals.into_iter().enumerate() {
+        let predicted = 0.5 - residual;
+        table.push_str(&format!("s{at},light-sweep,a,{scene},0.5,{predicted:?}\n"));
+    }
+    bench.write("r.samples.csv", &table);
+    bench
+}
+
+#[test]
+fn repeats_drift_and_lights_of_a_result_are_sources() {
+    let bench = scored();
+    bench.write(
+        "budget.toml",
+        &of_force(
+            "[[source]]\nname = \"repeats\"\nfrom = \"repeatability\"\nreadings = 4\n\
+             [[source]]\nname = \"time\"\nfrom = \"drift\"\nhours = 8\n\
+             [[source]]\nname = \"light\"\nfrom = \"r_light\"\n",
+        ),
+    );
+    let budget = bench.json("budget budget.toml --results r.json --mc 0");
+    let repeats = source(&budget, "repeats");
+    near(number(&repeats["u"]), 0.015, 1e-12);
+    near(number(&repeats["nu"]), 30.0, 1e-12);
+    let time = source(&budget, "time");
+    near(number(&time["u"]), 0.016 / 3_f64.sqrt(), 1e-12);
+    assert_eq!(
+        (&time["type"], &time["shape"]),
+        (&"B".into(), &"rectangular".into())
+    );
+    // Mean squares 0.0016 and 0.0002, two samples under each light.
+    let light = source(&budget, "light");
+    near(number(&light["u"]), 0.0007_f64.sqrt(), 1e-9);
+    let missing = budget["missing"].as_array().expect("a list").iter();
+    let missing: Vec<&str> = missing.filter_map(|of| of["source"].as_str()).collect();
+    assert_eq!(missing, ["hysteresis", "gauge", "certificate"]);
+    // Repeats are live in a template without residuals.
+    let template = bench.ok("budget --template r.json");
+    assert!(
+        template.contains("\nfrom = \"repeatability\"\n"),
+        "{template}"
+    );
+    assert!(
+        template.contains("# error.within: 0 rows of 0 points"),
+        "{template}"
+    );
+}
+
 #[test]
 fn an_uncertainty_above_the_greatest_allowed_one_ends_with_exit_code_1() {
     let bench = Bench::new();

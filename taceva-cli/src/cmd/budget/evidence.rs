@@ -14,11 +14,9 @@ use crate::cmd::{Usage, results};
 /// Figures of the residuals of presses.
 const RESIDUALS: [&str; 4] = ["error", "error.between", "error.within", "bias"];
 /// Figures of scores.
-const SCORES: [&str; 5] = ["repeatability", "noise", "drift", "r_light", "hysteresis"];
+const SCORES: [&str; 4] = ["repeatability", "drift", "r_light", "hysteresis"];
 /// Channels of a template, the usual one first.
 const CHANNELS: [&str; 6] = ["Fz", "Fx", "Fy", "Pz", "Px", "Py"];
-/// Factor between the variant `known_deviation` of `noise_equivalent_force` and the deviation.
-const KNOWN_DEVIATION: f64 = 3.29;
 
 /// Reason and remedy of a certificate that is not there.
 const NO_CERTIFICATE: &str =
@@ -56,14 +54,6 @@ impl Measured {
         }
         measured.lacks("certificate", NO_CERTIFICATE);
         measured
-    }
-
-    pub(super) fn of_result(
-        path: &Path,
-        channel: &Channel,
-        date: Option<Date>,
-    ) -> anyhow::Result<Measured> {
-        Ok(Measured::of_report(&report_of(path)?, channel, date))
     }
 
     pub(super) fn of_report(found: &Found, channel: &Channel, date: Option<Date>) -> Measured {
@@ -220,7 +210,7 @@ impl Found {
             let message = self.without_samples.as_deref();
             let message = message.unwrap_or("the result has no samples");
             return Err(format!(
-                "{message}; evaluate with --samples-out writes them"
+                "{message}; `--samples-out` of evaluate writes them"
             ));
         };
         let pairs = samples.channel(&channel.name);
@@ -254,16 +244,13 @@ impl Found {
     fn figure(&self, figure: &str, channel: &Channel) -> Result<Figure, String> {
         match figure {
             "repeatability" => self.repeatability(channel),
-            "noise" => self.noise(channel),
             "drift" => {
                 let score = self.score("drift", channel)?;
                 let slope = Figure::of_drift(number(&score)?);
                 Ok(noted(slope, &score))
             }
             "r_light" => self.light(channel),
-            _ => {
-                Err("no predictions while unloading; the hysteresis of a result is work".to_owned())
-            }
+            _ => Err("no predictions while unloading".to_owned()),
         }
     }
 
@@ -279,34 +266,13 @@ impl Found {
         Ok(noted(figure, &score))
     }
 
-    /// Deviation of predictions without contact.
-    fn noise(&self, channel: &Channel) -> Result<Figure, String> {
-        let score = self.score("noise_equivalent_force", channel)?;
-        let known = score.variant("known_deviation");
-        let known = known.and_then(|variant| variant.value.number());
-        let clusters = score
-            .interval
-            .as_ref()
-            .and_then(|interval| interval.clusters());
-        let clusters = clusters.map_or(score.n, |clusters| clusters as u64);
-        let freedom = clusters.saturating_sub(1).max(1);
-        let deviation = known.map(|known| known / KNOWN_DEVIATION);
-        let reason = || score.value.reason();
-        let reason =
-            || reason().unwrap_or_else(|| "the result has no `known_deviation`".to_owned());
-        let deviation = deviation.ok_or_else(reason)?;
-        let figure = Figure::new(deviation, Freedom::Finite(freedom as f64));
-        Ok(noted(figure, &score))
-    }
-
     /// Deviation between lights of the mean residual.
     fn light(&self, channel: &Channel) -> Result<Figure, String> {
         let samples = self.report.samples.as_ref();
         if samples.is_some_and(|samples| !samples.has("protocol")) {
             return Err("the samples name no light sweep".to_owned());
         }
-        let found = self.components(channel, "light-sweep", "scene")?;
-        let mut figure = found.between;
+        let mut figure = self.components(channel, "light-sweep", "scene")?.between;
         figure
             .digest
             .clone_from(&self.report.provenance.samples_table);
@@ -315,19 +281,14 @@ impl Found {
 }
 
 fn number(score: &Score) -> Result<f64, String> {
-    let reason = || {
-        score
-            .value
-            .reason()
-            .unwrap_or_else(|| "not a number".to_owned())
-    };
+    let reason = score.value.reason();
+    let reason = || reason.unwrap_or_else(|| "not a number".to_owned());
     score.value.number().ok_or_else(reason)
 }
 
 /// The figure with the number of samples and the reservation of its score.
-fn noted(figure: Figure, score: &Score) -> Figure {
-    let mut noted = figure;
-    noted.n = Some(score.n);
-    noted.note = score.standing.reason().map(str::to_owned);
-    noted
+fn noted(mut figure: Figure, score: &Score) -> Figure {
+    figure.n = Some(score.n);
+    figure.note = score.standing.reason().map(str::to_owned);
+    figure
 }

@@ -229,6 +229,11 @@ fn a_certificate_that_does_not_hold_is_refused_and_an_expired_one_is_named_in_ev
         ),
     );
     bench.refused(words, 3, "`U` is stated without its coverage");
+    bench.write(
+        "cert.toml",
+        "[force.certificate]\nnumber = \"1\"\nlaboratry = \"L\"\n",
+    );
+    bench.refused(words, 3, "cert.toml: line 3");
     bench.write("cert.toml", &CERTIFICATE.replace("Fz", "Fx"));
     bench.refused(
         words,

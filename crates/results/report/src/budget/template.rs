@@ -7,16 +7,17 @@ use crate::escape::terminal as line;
 use crate::number::FormattedValue;
 
 /// Sources by figure, each with its name and further keys.
-const SOURCES: [(&str, &str, &str); 6] = [
+const SOURCES: [(&str, &str, &str); 7] = [
     ("bias", "mean residual", ""),
     ("error.between", "place to place", ""),
     ("error.within", "one reading", "readings = 1\n"),
+    (REPEATS, "repeats", "readings = 1\n"),
     ("r_light", "other light", ""),
     ("drift", "drift since calibration", "hours = 8\n"),
     ("certificate", "reference", ""),
 ];
-/// Figures that are inside `error.within`.
-const REPEATS: [(&str, &str, &str); 1] = [("repeatability", "repeats", "readings = 1\n")];
+/// Figure that is inside `error.within`.
+const REPEATS: &str = "repeatability";
 
 /// Facts of which the file is made.
 #[derive(Clone, Copy, Debug)]
@@ -59,9 +60,11 @@ impl BudgetTemplate<'_> {
             quoted(self.measurand),
             quoted(&at)
         );
-        let has_residuals = self.evidence.figure("error.within").is_some();
-        let repeats = REPEATS.into_iter().filter(|_| !has_residuals);
-        for (figure, name, keys) in SOURCES.into_iter().chain(repeats) {
+        for (figure, name, keys) in SOURCES {
+            if self.is_inside(figure) {
+                out += &format!("\n# {figure}: measured, and inside `error.within`\n");
+                continue;
+            }
             if let Some(found) = self.found(figure) {
                 out += &format!(
                     "\n# {}\n[[source]]\nname = {}\nfrom = {}\n{keys}",
@@ -73,6 +76,11 @@ impl BudgetTemplate<'_> {
         }
         let remarks = self.remarks(&out);
         out + &remarks
+    }
+
+    fn is_inside(&self, figure: &str) -> bool {
+        let is_measured = |figure: &str| self.evidence.figure(figure).is_some();
+        figure == REPEATS && is_measured(figure) && is_measured("error.within")
     }
 
     /// Measured figure in words; `None` if it has no value.
@@ -113,11 +121,6 @@ impl BudgetTemplate<'_> {
             Err(error) => return format!("\n# not yet a budget: {}\n", line(&error.to_string())),
         };
         let mut out = String::new();
-        let is_measured = |figure: &&str| self.evidence.figure(figure).is_some();
-        let inside = ["repeatability", "noise"].into_iter().filter(is_measured);
-        for figure in inside.filter(|_| self.evidence.figure("error.within").is_some()) {
-            out += &format!("\n# {figure}: measured, and inside `error.within`\n");
-        }
         let missing = missing.unwrap_or_default();
         for of in &missing {
             out += &self.remark(of);
