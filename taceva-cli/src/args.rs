@@ -1,6 +1,7 @@
 //! Arguments of the program. `cmd/` executes them; nothing here has a side effect.
 
 mod bench;
+mod budget;
 mod cache;
 mod curve;
 mod dataset;
@@ -22,6 +23,7 @@ use std::path::PathBuf;
 use clap::{Args, CommandFactory as _, Parser, Subcommand};
 
 pub(crate) use self::bench::{Bench, BenchKernels, BenchModels, BenchSubject};
+pub(crate) use self::budget::Budget;
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
 pub(crate) use self::curve::Curve;
 pub(crate) use self::dataset::{Check, Export, Import, Reseal};
@@ -137,6 +139,8 @@ pub(crate) enum Command {
     Gauge(Gauge),
     /// Fit a calibration curve: bands, the reference value of a reading, limits of detection
     Curve(Curve),
+    /// Combine uncertainties to that of a reading: sources, measured or stated, and effects that none of them covers
+    Budget(Budget),
     /// Published numbers of sensors, each with its source
     Catalogue(CatalogueArgs),
     /// List the results kept for later runs, or remove old ones

@@ -102,6 +102,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Accept(args) => cmd::accept::run(args, context),
         Command::Gauge(args) => cmd::gauge::run(args, context),
         Command::Curve(args) => cmd::curve::run(args, context),
+        Command::Budget(args) => cmd::budget::run(args),
         Command::Catalogue(args) => cmd::catalogue::run(args, context),
         Command::Cache(args) => cmd::cache::run(args, context),
         Command::Bench(args) => cmd::bench::run(args, context),

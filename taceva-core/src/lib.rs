@@ -4,6 +4,7 @@ mod args;
 mod batch;
 mod channel;
 mod count;
+mod date;
 mod driver;
 mod error;
 mod estimator_factory;
@@ -36,6 +37,7 @@ mod specimen;
 mod stamp;
 mod stream;
 mod suggestion;
+mod traceability;
 mod unit;
 mod wrench;
 
@@ -43,6 +45,7 @@ pub use args::{ArgError, ArgKind, ArgSpec, ArgValue, Args, Presence};
 pub use batch::{Batch, BatchBuilder, Column, Labels};
 pub use channel::{Channel, ChannelError, Channels};
 pub use count::{by_count, counted};
+pub use date::{Date, DateError};
 pub use driver::{
     Axes, Axis, Changer, Deadline, Device, DriverError, DriverKind, EXPIRES, EnablingSwitch,
     ExpiringMotion, Fault, ForceTransducer, Guard, GuardedMotion, GuardedStop, Halt, Interrupt,
@@ -86,7 +89,10 @@ pub use specimen::Specimen;
 pub use stamp::{Clock, Stamp};
 pub use stream::{SampleSink, Select, SinkError, Tee};
 pub use suggestion::{nearest, suggestion};
-pub use unit::{SourceUnit, Unit, UnitError};
+pub use traceability::{
+    Certificate, CertificateError, Coverage, Instrument, StatedCorrelation, Traceability,
+};
+pub use unit::{Amount, AmountError, SourceUnit, Unit, UnitError};
 pub use wrench::Wrench;
 
 // For `submit_builtin!`, so that its user need not depend on it.

@@ -1,7 +1,9 @@
 //! Stored units of channels, and accepted units of labels.
 
+mod amount;
 mod source;
 
+pub use amount::{Amount, AmountError};
 pub use source::{SourceUnit, UnitError};
 
 use std::fmt;

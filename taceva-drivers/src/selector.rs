@@ -29,6 +29,25 @@ impl Selector {
         &self.arguments
     }
 
+    /// Serial number that chooses the device among several of its kind; `None` if the arguments state none.
+    ///
+    /// ```
+    /// use taceva_drivers::Selector;
+    /// let selector: Selector = "hid/scale:usb=0922:8003; serial=B2".parse()?;
+    /// assert_eq!(selector.serial(), Some("B2"));
+    /// # Ok::<(), taceva_drivers::SelectorError>(())
+    /// ```
+    pub fn serial(&self) -> Option<&str> {
+        self.argument("serial")
+    }
+
+    fn argument(&self, key: &str) -> Option<&str> {
+        let arguments = self.arguments.split(';').map(str::trim);
+        let mut pairs = arguments.filter_map(|argument| argument.split_once('='));
+        let found = pairs.find(|(name, _)| name.trim() == key);
+        found.map(|(_, value)| value.trim())
+    }
+
     /// Name of the simulated bench that the device would belong to, as [`Rig::bench`](taceva_core::Rig::bench) knows it. `None` if the
     /// driver's key has no `/`.
     ///
@@ -40,9 +59,8 @@ impl Selector {
     /// ```
     pub fn bench(&self) -> Option<String> {
         let (makers, _) = self.driver.rsplit_once('/')?;
-        let mut arguments = self.arguments.split(';').map(str::trim);
-        let name = arguments.find_map(|argument| argument.strip_prefix("rig="));
-        Some(format!("{makers} {}", name.unwrap_or("bench").trim()))
+        let name = self.argument("rig");
+        Some(format!("{makers} {}", name.unwrap_or("bench")))
     }
 }
 

@@ -17,7 +17,7 @@ const SOME: usize = 8;
 const MOST: usize = 24;
 
 /// Commands, each in a folder `work` in which only they create names. Inputs are in `given` beside it.
-const COMMANDS: [(&str, &str); 27] = [
+const COMMANDS: [(&str, &str); 28] = [
     (
         "import",
         "import ../given/lab --map ../given/map.toml --out set",
@@ -84,6 +84,10 @@ const COMMANDS: [(&str, &str); 27] = [
         "curve",
         "curve ../given/study.csv --x trial --y Fz --format csv --out curve.csv",
     ),
+    (
+        "budget",
+        "budget ../given/budget.toml --mc 0 --format csv --out budget.csv --html budget.html",
+    ),
     ("catalogue site", "catalogue site --out pages"),
     (
         "capture",
@@ -128,6 +132,7 @@ impl Bench {
             ("scene.toml", SCENE),
             ("limits.toml", LIMITS),
             ("study.csv", STUDY),
+            ("budget.toml", BUDGET),
         ] {
             std::fs::write(given.join(name), text).expect("room");
         }
@@ -225,6 +230,8 @@ const SWEEP: &str =
 
 /// Two parts, measured twice by two units.
 const STUDY: &str = "part,unit,trial,Fz\na,1,1,0.1\na,1,2,0.11\na,2,1,0.13\na,2,2,0.12\nb,1,1,0.5\nb,1,2,0.52\nb,2,1,0.53\nb,2,2,0.55\n";
+
+const BUDGET: &str = "budget_version = 1\nmeasurand = \"Fz\"\nat = [\"1 N\"]\n[[source]]\nname = \"lamp\"\nu = \"10 mN\"\n";
 
 const LIMITS: &str = "[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 1000\n";
 

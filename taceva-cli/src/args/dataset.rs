@@ -37,6 +37,9 @@ pub(crate) struct Import {
     /// Append the rows to this dataset, imported earlier with a map of the same sensor; earlier rows keep their part of every split
     #[arg(long, value_name = "DATASET", conflicts_with_all = ["out", "draft", "force"])]
     pub(crate) extend: Option<PathBuf>,
+    /// Append rows whose labels have another calibration certificate than those of the dataset, which then names both
+    #[arg(long, requires = "extend")]
+    pub(crate) new_certificate: bool,
     #[command(flatten)]
     pub(crate) explain: ExplainArgs,
     /// Replace a dataset that exists already

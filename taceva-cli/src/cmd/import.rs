@@ -89,7 +89,8 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
     let report = match (args.extend.is_some(), args.force) {
         (true, _) => {
             let named = args.source.as_deref().unwrap_or(source.folder());
-            let added = Addition::new(today(), named.to_string_lossy());
+            let added = Addition::new(today(), named.to_string_lossy())
+                .with_new_certificate(args.new_certificate);
             plan.extend(target, &added, jobs, progress)
         }
         (false, true) => plan.replace(target, jobs, progress),

@@ -1,6 +1,6 @@
 //! Gauge studies of tables of readings.
 
-mod tables;
+pub(crate) mod tables;
 
 use serde_json::Value;
 use taceva_report::FormattedValue;

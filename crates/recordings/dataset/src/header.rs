@@ -24,7 +24,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use taceva_core::{Channel, ChannelError, Channels, Clock, PressOutcome, Unit};
+use taceva_core::{Channel, ChannelError, Channels, Clock, PressOutcome, Traceability, Unit};
 
 use crate::digest::Digest;
 use crate::error::DatasetError;
@@ -115,6 +115,8 @@ pub struct Header {
     pub footprint: Option<Footprint>,
     /// Camera settings that were set and read back, by name: `exposure_ms` is `15.7`; empty if unknown.
     pub settings: BTreeMap<String, String>,
+    /// Instruments of the labels with their certificates; empty if none is stated.
+    pub traceability: Vec<Traceability>,
     /// The channels measured besides the frames, each with its unit.
     pub channels: Channels,
     /// The names of the text columns kept for splits.
@@ -206,6 +208,8 @@ struct Written {
     pictures: Vec<MappedPictures>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     classes: Vec<MappedClass>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    traceability: Vec<Traceability>,
     /// Edits that were accepted before rows were added; parsed with the seal.
     #[serde(default, skip_deserializing, skip_serializing_if = "Vec::is_empty")]
     history: Vec<Edit>,
@@ -263,6 +267,7 @@ impl Header {
             sensor: written.sensor,
             footprint: written.footprint,
             settings: written.settings,
+            traceability: written.traceability,
             channels,
             attributes: written.attributes,
             unmentioned_columns: written.unmentioned_columns,
@@ -295,6 +300,7 @@ impl Header {
             sensor: self.sensor.clone(),
             footprint: self.footprint,
             settings: self.settings.clone(),
+            traceability: self.traceability.clone(),
         }
     }
 
@@ -343,6 +349,7 @@ impl Header {
             joins: self.joins.clone(),
             pictures: self.pictures.clone(),
             classes: self.classes.clone(),
+            traceability: self.traceability.clone(),
             history: self.seal.history.clone(),
         };
         toml::to_string(&written).expect("text, numbers and tables of them can be written as TOML")

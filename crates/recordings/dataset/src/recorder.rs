@@ -197,6 +197,12 @@ impl Recorder {
             Err(DatasetError::NoDataset { .. }) => return Recorder::create(path, spec),
             resumed => resumed?,
         };
+        if recorder.facts.traceability != spec.facts.traceability {
+            return Err(DatasetError::request(
+                path,
+                "the existing recording has another certificate, serial number or driver of an instrument; record into a new folder",
+            ));
+        }
         let taxels = recorder.signals.as_ref().map(SignalsWriter::spec);
         if recorder.facts != spec.facts
             || recorder.table.channels() != &spec.channels

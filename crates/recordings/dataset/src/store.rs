@@ -67,6 +67,7 @@ pub fn write_table_and_header(
         sensor: facts.sensor.clone(),
         footprint: facts.footprint,
         settings: facts.settings.clone(),
+        traceability: facts.traceability.clone(),
         channels: table.channels().clone(),
         attributes: table.attribute_names().to_vec(),
         unmentioned_columns: beside.unmentioned_columns,

@@ -6,3 +6,4 @@ mod recording;
 mod signals;
 mod streams;
 mod support;
+mod traced;

@@ -5,6 +5,7 @@
 mod amount;
 mod assembly;
 mod certificate;
+mod certificate_text;
 mod correlation;
 mod digits;
 mod dual;

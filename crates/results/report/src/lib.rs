@@ -2,6 +2,7 @@
 
 mod accept;
 mod bench;
+mod budget;
 pub mod catalogue;
 mod choose;
 mod compare;
@@ -32,6 +33,7 @@ pub use accept::{
     ACCEPTANCE_SCHEMA, Acceptance, Limit, LimitCheck, LimitsError, LimitsFile, accept,
     limits_template,
 };
+pub use budget::{BudgetReport, BudgetTemplate};
 pub use choose::{
     Bound, CHOICE_SCHEMA, Candidate, Choice, Dropped, Evidence, Need, NeedError, Property, Step,
     choose, choose_results,

@@ -5,6 +5,7 @@ mod model_bench;
 mod provenance;
 mod standing;
 mod statement;
+mod traceability;
 
 pub use fact::Fact;
 pub use model_bench::{
@@ -175,6 +176,12 @@ impl Study {
     pub(crate) fn stated(&self, key: &str) -> Option<&str> {
         let found = self.provenance.iter().find(|(name, _)| name == key);
         found.map(|(_, text)| text.as_str())
+    }
+
+    /// Line on the certificates of measured labels; `None` if nothing was measured, or the origin is unknown.
+    pub(crate) fn traceability(&self) -> Option<&str> {
+        let line = self.stated("traceability");
+        (self.source == "recorded").then(|| line.unwrap_or(traceability::NOT_TRACEABLE))
     }
 
     /// Scores of one metric.

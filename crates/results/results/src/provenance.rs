@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
-use taceva_core::PressOutcome;
+use taceva_core::{PressOutcome, Traceability};
 
 /// Text in every note of optimistic scores: neighbours or copies of test samples were in the training part.
 ///
@@ -54,6 +54,9 @@ pub struct Provenance {
     /// Press outcomes of each recording, by its digest, if a protocol pressed.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub presses: BTreeMap<String, BTreeMap<PressOutcome, u64>>,
+    /// Instruments of the labels with their certificates; those of all recordings.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub traceability: Vec<Traceability>,
     /// Number of frames behind the result, each counted once for training and once for prediction, whether decoded now or for cached
     /// features.
     pub frames_decoded: u64,
@@ -78,6 +81,24 @@ impl Provenance {
             *counts.entry(*outcome).or_default() += count;
         }
         counts
+    }
+
+    /// Adds the instruments of a recording. Different certificates of one instrument both stay.
+    ///
+    /// ```
+    /// use taceva_core::{Instrument, Traceability};
+    /// let mut provenance = taceva_results::Provenance::default();
+    /// let (force, robot) = (Instrument::Force, Instrument::Robot);
+    /// provenance.add_traceability(&[Traceability::new(force), Traceability::new(robot)]);
+    /// provenance.add_traceability(&[Traceability::new(force)]);
+    /// assert_eq!(provenance.traceability.len(), 2);
+    /// ```
+    pub fn add_traceability(&mut self, of: &[Traceability]) {
+        for traced in of {
+            if !self.traceability.contains(traced) {
+                self.traceability.push(traced.clone());
+            }
+        }
     }
 
     /// Provenance of a combined result: common values, and the inputs of both.
@@ -116,6 +137,7 @@ impl Provenance {
         let presses = other.presses.iter();
         self.presses
             .extend(presses.map(|(digest, counts)| (digest.clone(), counts.clone())));
+        self.add_traceability(&other.traceability);
         // No table of samples is written for several states.
         self.samples_table = None;
         self.frames_decoded += other.frames_decoded;
@@ -166,4 +188,48 @@ pub struct RecordingProvenance {
     pub digest: String,
     /// Number of its samples, scored or not.
     pub samples: usize,
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{Certificate, Coverage, Instrument};
+
+    use super::*;
+
+    fn of(number: &str) -> Provenance {
+        let issued = "2026-05-12".parse().expect("a day");
+        let coverage = Coverage::Factor(2.0);
+        let mut force = Traceability::new(Instrument::Force);
+        let mut certificate = Certificate::new(number, "a laboratory", issued, "42", coverage);
+        let u = "3 mN".parse().expect("an amount");
+        certificate.expanded.insert("Fz".to_owned(), u);
+        force.certificate = Some(certificate);
+        Provenance {
+            traceability: vec![force],
+            ..Provenance::default()
+        }
+    }
+
+    #[test]
+    fn a_joined_result_names_conflicting_certificates_both_and_equal_ones_once() {
+        let joined = of("D-K-1").joined(&of("D-K-1")).joined(&of("D-K-2"));
+        let numbers = joined.traceability.iter();
+        let numbers: Vec<Option<&str>> = numbers
+            .map(|of| Some(of.certificate.as_ref()?.number.as_str()))
+            .collect();
+        assert_eq!(numbers, [Some("D-K-1"), Some("D-K-2")]);
+    }
+
+    #[test]
+    fn certificates_read_back_from_a_result_and_no_key_is_written_without_them() {
+        let provenance = of("D-K-1");
+        let text = serde_json::to_string(&provenance).expect("JSON");
+        assert!(text.contains(r#""U":{"Fz":"0.003 N"}"#), "{text}");
+        assert_eq!(
+            serde_json::from_str::<Provenance>(&text).expect("reads"),
+            provenance
+        );
+        let text = serde_json::to_string(&Provenance::default()).expect("JSON");
+        assert!(!text.contains("traceability"), "{text}");
+    }
 }

@@ -164,7 +164,8 @@ pub fn capture(
     }
     let channels = channels(live);
     let facts = RecordingFacts::new(source(live), Clock::Monotonic, request.sensor.clone())
-        .with_settings(live.settings());
+        .with_settings(live.settings())
+        .with_traceability(live.traceability());
     let mut recorder =
         Recorder::create(&request.path, &RecordingSpec::new(facts, channels.clone()))?;
     recorder.append_reference(&untouched)?;

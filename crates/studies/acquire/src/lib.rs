@@ -2,6 +2,7 @@
 
 mod capture;
 mod error;
+mod instruments;
 mod presses;
 mod rig;
 mod scene;

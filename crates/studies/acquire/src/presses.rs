@@ -31,6 +31,7 @@ use taceva_drivers::{Drivers, Selector};
 use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, Setting, StopCause};
 
 use crate::error::AcquireError;
+use crate::instruments;
 use crate::scene::{PlannedStudy, RigSpec, StudySource};
 pub(crate) use device::Opened;
 pub(crate) use devices::written_latencies_ms;
@@ -234,6 +235,8 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> Recor
     let mut facts = RecordingFacts::new(source, taceva_core::Clock::Monotonic, sensor);
     facts.footprint = footprint(plan);
     facts.settings = open.settings_of_sensor();
+    let rig = study.study.rig.as_deref();
+    facts.traceability = rig.map(instruments::of_rig).unwrap_or_default();
     RecordingSpec::new(facts, plan.truth_channels())
 }
 

@@ -39,6 +39,7 @@ fn add_recording(provenance: &mut Provenance, dataset: &Dataset, folder: &str) {
         let digest = dataset.digest().to_string();
         provenance.presses.insert(digest, header.presses.clone());
     }
+    provenance.add_traceability(&header.traceability);
     let edits = header.seal.history.iter();
     provenance
         .edits

@@ -13,6 +13,7 @@ pub use registration::Registration;
 pub use teach::{Jogged, Taught, TeachError};
 
 use serde::Deserialize;
+use taceva_core::{Certificate, Instrument};
 
 use changers::WrittenChangers;
 
@@ -79,6 +80,8 @@ pub struct RigRobot {
     pub turned_deg: Option<[f64; 3]>,
     /// Delay between a pose and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
+    /// Calibration certificate.
+    pub certificate: Option<Certificate>,
 }
 
 /// Body that a robot moves.
@@ -100,6 +103,8 @@ pub struct RigForce {
     pub axes: Setting<SignedAxes>,
     /// Delay between a reading and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
+    /// Calibration certificate.
+    pub certificate: Option<Certificate>,
 }
 
 /// A sensor of a rig.
@@ -109,6 +114,8 @@ pub struct RigSensor {
     pub driver: Setting<String>,
     /// Delay between a frame and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
+    /// Calibration certificate.
+    pub certificate: Option<Certificate>,
 }
 
 /// Operator of a rig, with the enabling switch.
@@ -145,6 +152,7 @@ struct WrittenRobot {
     axes: Setting<[String; 3]>,
     turned_deg: Option<Setting<[f64; 3]>>,
     latency_ms: Option<Setting<f64>>,
+    certificate: Option<Setting<Certificate>>,
 }
 
 #[derive(Deserialize)]
@@ -153,6 +161,7 @@ struct WrittenForce {
     driver: Setting<String>,
     axes: Setting<[String; 3]>,
     latency_ms: Option<Setting<f64>>,
+    certificate: Option<Setting<Certificate>>,
 }
 
 #[derive(Deserialize)]
@@ -160,6 +169,7 @@ struct WrittenForce {
 struct WrittenSensor {
     driver: Setting<String>,
     latency_ms: Option<Setting<f64>>,
+    certificate: Option<Setting<Certificate>>,
 }
 
 #[derive(Deserialize)]
@@ -177,6 +187,7 @@ impl RigFile {
     ///
     /// - invalid TOML, or an unknown key, with the most similar known key;
     /// - axes that form no right-handed frame;
+    /// - a certificate of another instrument, or one that contradicts itself;
     /// - a place, latency, patience or limit out of range.
     pub fn parse(source_name: &str, text: &str) -> Result<RigFile, SceneError> {
         let text = Text::new(source_name, text)?;
@@ -192,9 +203,10 @@ impl RigFile {
         let robot = written.robot.map(|robot| check.robot(robot)).transpose()?;
         let force = written.force.map(|force| check.force(force)).transpose()?;
         let sensor = match written.sensor {
-            Some(WrittenSensor { driver, latency_ms }) => Some(RigSensor {
-                driver,
-                latency_ms: check.latency(latency_ms)?,
+            Some(sensor) => Some(RigSensor {
+                driver: sensor.driver,
+                latency_ms: check.latency(sensor.latency_ms)?,
+                certificate: check.certificate(Instrument::Sensor, sensor.certificate)?,
             }),
             None => None,
         };
@@ -292,6 +304,7 @@ impl Check<'_> {
             axes,
             turned_deg,
             latency_ms,
+            certificate,
         } = robot;
         self.within("origin_mm", "mm", &origin_mm, GREATEST_PLACE_MM)?;
         if let Some(turned) = &turned_deg {
@@ -304,6 +317,7 @@ impl Check<'_> {
             axes: self.axes(axes)?,
             turned_deg: turned_deg.map(|turned| turned.value),
             latency_ms: self.latency(latency_ms)?,
+            certificate: self.certificate(Instrument::Robot, certificate)?,
         })
     }
 
@@ -312,7 +326,25 @@ impl Check<'_> {
             driver: force.driver,
             axes: self.axes(force.axes)?,
             latency_ms: self.latency(force.latency_ms)?,
+            certificate: self.certificate(Instrument::Force, force.certificate)?,
         })
+    }
+
+    fn certificate(
+        &self,
+        of: Instrument,
+        certificate: Option<Setting<Certificate>>,
+    ) -> Result<Option<Certificate>, SceneError> {
+        let Some(Setting { value, .. }) = &certificate else {
+            return Ok(None);
+        };
+        match value.check(of) {
+            Ok(()) => Ok(certificate.map(|certificate| certificate.value)),
+            Err(error) => self.refuse(
+                certificate.as_ref().and_then(Setting::at),
+                format!("[{of}.certificate]: {error}"),
+            ),
+        }
     }
 
     fn axes(&self, axes: Setting<[String; 3]>) -> Result<Setting<SignedAxes>, SceneError> {

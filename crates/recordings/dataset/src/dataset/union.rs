@@ -308,6 +308,11 @@ fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
         header
             .settings
             .retain(|name, value| other.settings.get(name) == Some(value));
+        for traced in &other.traceability {
+            if !header.traceability.contains(traced) {
+                header.traceability.push(traced.clone());
+            }
+        }
         for (outcome, count) in &other.presses {
             *header.presses.entry(*outcome).or_default() += count;
         }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::Clock;
+use taceva_core::{Clock, Traceability};
 
 use super::{Footprint, SensorFacts, Source};
 
@@ -29,6 +29,8 @@ pub struct RecordingFacts {
     pub footprint: Option<Footprint>,
     /// Camera settings that were set and read back, by name: `exposure_ms` is `15.7`; empty if unknown.
     pub settings: BTreeMap<String, String>,
+    /// Instruments of the labels with their certificates; empty if none is stated.
+    pub traceability: Vec<Traceability>,
 }
 
 impl RecordingFacts {
@@ -40,6 +42,7 @@ impl RecordingFacts {
             sensor,
             footprint: None,
             settings: BTreeMap::new(),
+            traceability: Vec::new(),
         }
     }
 
@@ -47,6 +50,15 @@ impl RecordingFacts {
     #[must_use]
     pub fn with_settings(self, settings: BTreeMap<String, String>) -> RecordingFacts {
         RecordingFacts { settings, ..self }
+    }
+
+    /// The same facts with the instruments of the labels.
+    #[must_use]
+    pub fn with_traceability(self, traceability: Vec<Traceability>) -> RecordingFacts {
+        RecordingFacts {
+            traceability,
+            ..self
+        }
     }
 
     /// The same facts with the sensing area.

@@ -27,6 +27,7 @@ fn header() -> Header {
             depth_max_mm: Some(2.5),
         }),
         settings: BTreeMap::from([("exposure_ms".to_owned(), "15.7".to_owned())]),
+        traceability: vec![Traceability::new(taceva_core::Instrument::Force)],
         channels: Channels::new([Channel::FZ, Channel::PZ, yaw()]).expect("distinct"),
         attributes: vec!["video".to_owned()],
         views: Vec::new(),

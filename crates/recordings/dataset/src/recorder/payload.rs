@@ -5,7 +5,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{
-    Channel, Channels, Clock, FrameInfo, GratingKind, Limit, Nanometre, Phase, PressOutcome, Unit,
+    Channel, Channels, Clock, FrameInfo, GratingKind, Limit, Nanometre, Phase, PressOutcome,
+    Traceability, Unit,
 };
 
 use super::RecordingSpec;
@@ -33,6 +34,8 @@ pub(super) struct WrittenStart {
     signals: Option<WrittenSignals>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     reduced: Option<ReducedFrames>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    traceability: Vec<Traceability>,
 }
 
 impl WrittenStart {
@@ -50,6 +53,7 @@ impl WrittenStart {
                 .collect(),
             signals: spec.signals.as_ref().map(WrittenSignals::of),
             reduced: spec.reduced.clone(),
+            traceability: spec.facts.traceability.clone(),
         }
     }
 
@@ -77,6 +81,7 @@ impl WrittenStart {
                 sensor: written.sensor,
                 footprint: written.footprint,
                 settings: written.settings,
+                traceability: written.traceability,
             },
             channels,
             reduced: written.reduced,

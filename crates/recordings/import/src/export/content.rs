@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use taceva_core::Progress;
+use taceva_core::{Instrument, Progress, Traceability};
 
 use super::picture::Pictures;
 use crate::error::ImportError;
@@ -34,6 +34,10 @@ impl Exported<'_> {
         let pictures = table.frames().iter().flatten().count();
         let parts = [
             (!header.settings.is_empty(), "the settings of the camera"),
+            (
+                has_several(&header.traceability),
+                "instruments with several certificates",
+            ),
             (!header.presses.is_empty(), "counts of presses by outcome"),
             (header.stream.is_some(), "losses of the stream"),
             (
@@ -108,4 +112,13 @@ impl Exported<'_> {
             false => Ok(()),
         }
     }
+}
+
+/// True if samples rest on several certificates or devices of one instrument.
+fn has_several(of: &[Traceability]) -> bool {
+    let is_several = |instrument: Instrument| {
+        let of = of.iter().filter(|of| of.instrument == instrument);
+        of.count() > 1
+    };
+    Instrument::ALL.into_iter().any(is_several)
 }

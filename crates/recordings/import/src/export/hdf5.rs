@@ -67,16 +67,22 @@ pub(super) fn write(
     let source = format!("{:?}", header.source).to_lowercase();
     let (clock, digest) = (header.clock.to_string(), dataset.digest().to_string());
     let sensor = &header.sensor;
-    writer
-        .finish(&[
-            ("source", &source),
-            ("clock", &clock),
-            ("sensor", &sensor.model),
-            ("serial", &sensor.serial),
-            ("gel", &sensor.gel),
-            ("dataset", &digest),
-        ])
-        .map_err(of_arrays)?;
+    let traced: Vec<String> = { header.traceability.iter() }
+        .map(ToString::to_string)
+        .collect();
+    let traced = traced.join("; ");
+    let mut attributes = vec![
+        ("source", source.as_str()),
+        ("clock", clock.as_str()),
+        ("sensor", sensor.model.as_str()),
+        ("serial", sensor.serial.as_str()),
+        ("gel", sensor.gel.as_str()),
+        ("dataset", digest.as_str()),
+    ];
+    if !traced.is_empty() {
+        attributes.push(("traceability", traced.as_str()));
+    }
+    writer.finish(&attributes).map_err(of_arrays)?;
     let written = Written {
         table: quoted(FILE),
         frames,

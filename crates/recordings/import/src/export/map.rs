@@ -2,13 +2,14 @@
 
 use std::fmt::Write as _;
 
-use taceva_core::SourceUnit;
+use serde::Serialize;
+use taceva_core::{Certificate, Instrument, SourceUnit, Traceability};
 
 use super::content::Exported;
 use crate::import::IdMap;
 use crate::unit_suffix::UnitSuffix;
 use taceva_dataset::internal::{RESERVED, column_kind, column_of};
-use taceva_dataset::{Footprint, ReducedFrames, SensorFacts};
+use taceva_dataset::{Header, ReducedFrames, SensorFacts};
 
 /// Locations of the map's items in an export form.
 pub(super) struct Written {
@@ -188,14 +189,64 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
             line(format_args!("rest = [{}]", rest.join(", ")));
         }
     }
-    text + &facts(&header.sensor, header.footprint)
+    text + &facts(header)
 }
 
-/// Sensor and footprint, as in the header.
-fn facts(sensor: &SensorFacts, footprint: Option<Footprint>) -> String {
+/// Instruments of the labels and the sensor, in the order of TOML.
+#[derive(Serialize)]
+struct Devices<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    force: Option<Device<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    robot: Option<Device<'a>>,
+    sensor: Sensor<'a>,
+}
+
+#[derive(Serialize)]
+struct Device<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    driver: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    serial: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certificate: Option<&'a Certificate>,
+}
+
+#[derive(Serialize)]
+struct Sensor<'a> {
+    #[serde(flatten)]
+    facts: &'a SensorFacts,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    certificate: Option<&'a Certificate>,
+}
+
+/// The entry of `instrument`; `None` if there is none, or if there are several, which no map can hold.
+fn only(of: &[Traceability], instrument: Instrument) -> Option<&Traceability> {
+    let mut of = of.iter().filter(|of| of.instrument == instrument);
+    of.next().filter(|_| of.next().is_none())
+}
+
+/// Instruments, sensor and footprint, as in the header.
+fn facts(header: &Header) -> String {
     let words = "texts, numbers and truth values can be written as TOML";
-    let mut text = format!("\n[sensor]\n{}", toml::to_string(sensor).expect(words));
-    if let Some(footprint) = footprint {
+    let device = |instrument| {
+        only(&header.traceability, instrument).map(|traced| Device {
+            driver: traced.driver.as_deref(),
+            serial: traced.serial.as_deref(),
+            certificate: traced.certificate.as_ref(),
+        })
+    };
+    let sensor = only(&header.traceability, Instrument::Sensor);
+    let devices = Devices {
+        force: device(Instrument::Force),
+        robot: device(Instrument::Robot),
+        sensor: Sensor {
+            facts: &header.sensor,
+            certificate: sensor.and_then(|traced| traced.certificate.as_ref()),
+        },
+    };
+    let mut text = format!("\n{}", toml::to_string(&devices).expect(words));
+    if let Some(footprint) = header.footprint {
         text += &format!(
             "\n[footprint]\n{}",
             toml::to_string(&footprint).expect(words)

@@ -1,5 +1,6 @@
 //! Adds rows to an imported dataset: writes a successor beside it that shares its files, then replaces it atomically.
 
+mod certificates;
 mod duplicates;
 mod successor;
 
@@ -13,6 +14,7 @@ use super::frame_plan::PlannedFrames;
 use super::plan::ImportPlan;
 use crate::error::ImportError;
 use crate::source_sums::list_of;
+use certificates::check_certificates;
 use duplicates::refuse_twice;
 use successor::{Written, share_files, write_header, write_signals};
 use taceva_dataset::internal::{
@@ -34,6 +36,8 @@ pub struct Addition {
     pub date: String,
     /// Folder as named by the caller.
     pub from: String,
+    /// True if the rows may have another certificate than the dataset.
+    pub new_certificate: bool,
 }
 
 impl Addition {
@@ -42,6 +46,16 @@ impl Addition {
         Addition {
             date: date.into(),
             from: from.into(),
+            new_certificate: false,
+        }
+    }
+
+    /// The same rows, which may have another certificate than the dataset.
+    #[must_use]
+    pub fn with_new_certificate(self, new_certificate: bool) -> Addition {
+        Addition {
+            new_certificate,
+            ..self
         }
     }
 }
@@ -89,6 +103,7 @@ impl ImportPlan {
         let staged = StagedFolder::create(target, Place::OfDataset)?;
         let before = Dataset::open(target)?;
         self.check_alike(&before, None)?;
+        check_certificates(&before, &self.facts, added)?;
         let mut folders = share_files(&before, &staged)?;
         let first = before.table().rows();
         for frames in &mut self.frames {

@@ -6,6 +6,7 @@ mod columns;
 mod drop;
 mod drop_schema;
 mod frame_schema;
+mod instruments;
 mod join;
 mod matrix;
 mod path_pattern;

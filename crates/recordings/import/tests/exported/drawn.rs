@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, ImageFormat, Rgb, RgbImage};
 use taceva_core::{
-    Channel, Channels, Clock, Frame, FrameInfo, Limit, Phase, PixelFormat, Readings, Sample,
-    SignalInfo, Signals, SilentProgress, Stamp, Unit,
+    Certificate, Channel, Channels, Clock, Coverage, Frame, FrameInfo, Instrument, Limit, Phase,
+    PixelFormat, Readings, Sample, SignalInfo, Signals, SilentProgress, Stamp, Traceability, Unit,
 };
 use taceva_dataset::{
     Dataset, Footprint, Recorder, RecordingFacts, RecordingSpec, SensorFacts, SignalsSpec, Source,
@@ -25,6 +25,7 @@ pub(crate) fn recorded(folder: &Path) -> Dataset {
         .with_serial("7")
         .with_opaque(true);
     let facts = RecordingFacts::new(Source::Simulated, Clock::Monotonic, sensor)
+        .with_traceability(traced())
         .with_footprint(Footprint::rectangle(8.5, 10.0).with_depth_max(2.25));
     let channels = [
         Channel::FX,
@@ -76,6 +77,28 @@ pub(crate) fn recorded(folder: &Path) -> Dataset {
     recorder.append_reference(&frame(9000)).expect("recorded");
     recorder.close().expect("closed");
     Dataset::open(&path).expect("a dataset")
+}
+
+/// A transducer and a sensor with certificates, and a robot without.
+fn traced() -> Vec<Traceability> {
+    let day = |text: &str| text.parse().expect("a day");
+    let amount = |text: &str| text.parse().expect("an amount");
+    let certificate = |number: &str| {
+        let coverage = Coverage::Factor(2.0);
+        let mut certificate = Certificate::new(number, "π", day("2026-05-12"), "42", coverage);
+        certificate.valid_until = Some(day("2027-05-12"));
+        certificate.expanded.insert("Fz".to_owned(), amount("3 mN"));
+        let range = [amount("50 mN"), amount("50 N")];
+        certificate.range.insert("Fz".to_owned(), range);
+        Some(certificate)
+    };
+    let force = Traceability::new(Instrument::Force);
+    let mut force = force.with_driver("ati/netft", Some("42".to_owned()));
+    force.certificate = certificate("D-K-1");
+    let robot = Traceability::new(Instrument::Robot).with_driver("lab/arm", None);
+    let mut sensor = Traceability::new(Instrument::Sensor);
+    sensor.certificate = certificate("D-K-2");
+    vec![force, robot, sensor]
 }
 
 /// A recording of taxels; the first rows are without contact.

@@ -28,6 +28,7 @@ fn comes_back(dataset: &Dataset, form: ExportForm) -> Dataset {
     assert_eq!(after.clock, before.clock);
     assert_eq!(after.sensor, before.sensor);
     assert_eq!(after.footprint, before.footprint);
+    assert_eq!(after.traceability, before.traceability);
     assert_eq!(after.channels, before.channels);
     let spec = |dataset: &Dataset| {
         dataset

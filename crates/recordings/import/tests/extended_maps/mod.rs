@@ -2,6 +2,7 @@
 
 mod added;
 mod arrays;
+mod certificates;
 mod classes;
 mod codecs;
 mod dropped;

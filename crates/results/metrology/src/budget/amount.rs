@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, Visitor};
-use taceva_core::{SourceUnit, Unit};
+use taceva_core::Unit;
 
 use super::error::BudgetProblem;
 
@@ -74,17 +74,9 @@ impl Amount {
         let (number, unit) = match self {
             Amount::Number(number) => (*number, None),
             Amount::Text(text) => {
-                let parted = text.trim().split_once(char::is_whitespace);
-                let percent = || text.trim().strip_suffix('%').map(|number| (number, "%"));
-                let (number, symbol) = parted
-                    .or_else(percent)
-                    .ok_or_else(|| wrong("a number, a blank and a unit, such as \"10 mN\""))?;
-                let unit =
-                    SourceUnit::parse(symbol.trim()).map_err(|error| wrong(&error.to_string()))?;
-                let number = number
-                    .parse()
-                    .map_err(|_| wrong("a number before the unit"))?;
-                (number, Some(unit))
+                let amount = text.parse::<taceva_core::Amount>();
+                let amount = amount.map_err(|expected| wrong(&expected.to_string()))?;
+                (amount.value, Some(amount.unit))
             }
         };
         if !f64::is_finite(number) {
@@ -92,17 +84,12 @@ impl Amount {
         }
         match (wanted, unit) {
             (Wanted::Any | Wanted::Plain | Wanted::Share, None) => Ok(number),
-            (Wanted::Any | Wanted::Plain | Wanted::Angle, Some(unit))
-                if unit.unit() == Unit::Degree =>
-            {
-                Ok(unit.convert(number).to_radians())
+            (Wanted::Any | Wanted::Plain | Wanted::Angle, Some(Unit::Degree)) => {
+                Ok(number.to_radians())
             }
-            (Wanted::Any, Some(unit)) => Ok(unit.convert(number)),
-            (Wanted::In(Unit::One), None) => Ok(number),
-            (Wanted::In(kept), Some(unit)) if unit.unit() == kept => Ok(unit.convert(number)),
-            (Wanted::Share | Wanted::Plain, Some(unit)) if unit.unit() == Unit::One => {
-                Ok(unit.convert(number))
-            }
+            (Wanted::Any, Some(_)) | (Wanted::In(Unit::One), None) => Ok(number),
+            (Wanted::In(kept), Some(unit)) if unit == kept => Ok(number),
+            (Wanted::Share | Wanted::Plain, Some(Unit::One)) => Ok(number),
             (Wanted::In(kept), _) => Err(wrong(&format!(
                 "an amount in {kept} or a unit of the same quantity"
             ))),

@@ -1,6 +1,7 @@
 //! Calibration certificate of the reference of one channel.
 
 use super::freedom::Freedom;
+use taceva_core::{Date, Traceability};
 use taceva_metrics::distributions::student_t;
 
 /// Meaning of an expanded uncertainty: its coverage factor, or its coverage probability.
@@ -24,6 +25,18 @@ pub enum Coverage {
         /// Degrees of freedom.
         freedom: Freedom,
     },
+}
+
+impl From<taceva_core::Coverage> for Coverage {
+    fn from(stated: taceva_core::Coverage) -> Coverage {
+        match stated {
+            taceva_core::Coverage::Factor(k) => Coverage::Factor(k),
+            taceva_core::Coverage::Probability { p, dof } => Coverage::Probability {
+                p,
+                freedom: dof.map_or(Freedom::Infinite, Freedom::Finite),
+            },
+        }
+    }
 }
 
 impl Coverage {
@@ -90,6 +103,47 @@ impl Certificate {
         }
     }
 
+    /// The certificate of a recording's instrument, reduced to `channel`; `None` if it has none, or none with an uncertainty of this channel.
+    ///
+    /// ```
+    /// use taceva_core::{Coverage, Instrument, Traceability};
+    /// use taceva_metrology::budget::Certificate;
+    /// let issued = "2026-05-12".parse()?;
+    /// let coverage = Coverage::Factor(2.0);
+    /// let mut whole = taceva_core::Certificate::new("D-K-1", "a laboratory", issued, "42", coverage);
+    /// whole.expanded.insert("Fz".to_owned(), "3.0 mN".parse()?);
+    /// let traced = Traceability::new(Instrument::Force).with_certificate(whole)?;
+    /// let reduced = Certificate::of(&traced, "Fz", None);
+    /// assert!(reduced.is_some_and(|one| one.absolute == 0.003 && one.serial == "42"));
+    /// assert!(Certificate::of(&traced, "Fx", None).is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn of(
+        traced: &Traceability,
+        channel: &str,
+        recorded_on: Option<Date>,
+    ) -> Option<Certificate> {
+        let stated = traced.certificate.as_ref()?;
+        let absolute = stated.expanded.get(channel).map(|amount| amount.value);
+        let relative = stated.relative.get(channel).copied();
+        if absolute.is_none() && relative.is_none() {
+            return None;
+        }
+        let range = stated.range.get(channel);
+        Some(Certificate {
+            number: stated.number.clone(),
+            laboratory: stated.laboratory.clone(),
+            serial: stated.serial.clone(),
+            instrument_serial: traced.serial.clone(),
+            coverage: stated.coverage.into(),
+            absolute: absolute.unwrap_or_default(),
+            relative: relative.unwrap_or_default(),
+            range: range.map(|[least, most]| [least.value, most.value]),
+            valid_until: stated.valid_until.map(|until| until.to_string()),
+            recorded_on: recorded_on.map(|day| day.to_string()),
+        })
+    }
+
     /// Standard uncertainty at a reading: u² = (U/k)² + (U_relative × reading / k)².
     pub fn standard_uncertainty(&self, reading: f64) -> Option<f64> {
         let k = self.coverage.factor()?;
@@ -104,14 +158,17 @@ impl Certificate {
         }
     }
 
-    /// The sentence of a certificate that had expired when the recording was made. Dates of one form compare as texts.
+    /// The sentence of a certificate that had expired when the recording was made, or may have. Dates of one form compare as texts.
     pub(super) fn expiry(&self) -> Option<String> {
-        let (until, on) = (self.valid_until.as_ref()?, self.recorded_on.as_ref()?);
-        (on > until).then(|| {
-            format!(
-                "certificate {} was valid until {until}, the recording is of {on}",
-                self.number
-            )
-        })
+        let (number, until) = (&self.number, self.valid_until.as_ref()?);
+        match &self.recorded_on {
+            Some(on) if on > until => Some(format!(
+                "certificate {number} was valid until {until}, the recording is of {on}"
+            )),
+            Some(_) => None,
+            None => Some(format!(
+                "certificate {number} is valid until {until}, the day of the recording is unknown"
+            )),
+        }
     }
 }

@@ -90,6 +90,14 @@ pub enum BudgetProblem {
         /// The nearest name, or all of them.
         suggestion: String,
     },
+    /// A measured figure without a value.
+    #[error("`{name}` is not measured here: {reason}")]
+    NotMeasured {
+        /// Name of the figure.
+        name: String,
+        /// Reason.
+        reason: String,
+    },
     /// Two sources of one name, or two that use one figure.
     #[error("`{name}` is used twice, here and in line {other}")]
     Twice {

@@ -163,7 +163,8 @@ pub struct Missing {
 }
 
 impl Missing {
-    pub(super) fn new(source: &str, reason: &str) -> Missing {
+    /// An effect that the figure `source` would cover.
+    pub fn new(source: &str, reason: &str) -> Missing {
         Missing {
             source: source.to_owned(),
             reason: reason.to_owned(),
@@ -199,6 +200,45 @@ impl Budget {
         self.expanded.map(two_digits)
     }
 
+    /// Half-width of the interval, the greater one if its ends are unequally far from the value. It is U, unless the interval is of draws.
+    pub fn half_width(&self) -> Option<f64> {
+        match self.method {
+            Method::FirstOrder => self.expanded,
+            Method::MonteCarlo => self.interval.map(|ends| {
+                let [low, high] = ends.map(|end| (end - self.value).abs());
+                low.max(high)
+            }),
+        }
+    }
+
+    /// Value, U in two digits, coverage and degrees of freedom, in one line.
+    pub fn statement(&self) -> String {
+        let (unit, name) = (shown(&self.unit), shown(&self.measurand));
+        let value = beside(self.value, self.scale());
+        let uncertainty = match (self.rounded(), self.k) {
+            (Some(expanded), Some(k)) => {
+                format!("U = {} {unit} (k = {k:.3}", beside(expanded, expanded))
+            }
+            (Some(expanded), None) => format!("U = {expanded} {unit} (no k"),
+            _ => format!("u = {} {unit} (no U", beside(self.u, self.u)),
+        };
+        let (p, freedom) = (self.p * 100.0, self.nu_eff);
+        format!("{name} = {value} {unit}, {uncertainty}, p = {p} %, nu_eff {freedom})")
+    }
+
+    /// Interval with its method, in words.
+    pub fn interval_in_words(&self) -> Option<String> {
+        let [low, high] = self.interval?.map(|end| beside(end, self.scale()));
+        let unit = shown(&self.unit);
+        Some(format!("interval {low} to {high} {unit}, {}", self.method))
+    }
+
+    /// Uncertainty whose two digits give the decimals of values.
+    fn scale(&self) -> f64 {
+        let wide = self.expanded.filter(|expanded| *expanded > 0.0);
+        wide.unwrap_or(self.u)
+    }
+
     /// Correlation of the values of two budgets of the same sources; `None` if either has no uncertainty.
     ///
     /// # Reference
@@ -224,24 +264,13 @@ impl Budget {
 
 impl fmt::Display for Budget {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (unit, name) = (shown(&self.unit), shown(&self.measurand));
-        let wide = self.expanded.filter(|expanded| *expanded > 0.0);
-        let scale = wide.unwrap_or(self.u);
+        let unit = shown(&self.unit);
         for warning in &self.warnings {
             writeln!(f, "warning: {warning}")?;
         }
-        write!(f, "{name} = {} {unit}, ", beside(self.value, scale))?;
-        match (self.rounded(), self.k) {
-            (Some(expanded), Some(k)) => {
-                write!(f, "U = {} {unit} (k = {k:.3}", beside(expanded, expanded))?
-            }
-            (Some(expanded), None) => write!(f, "U = {expanded} {unit} (no k")?,
-            _ => write!(f, "u = {} {unit} (no U", beside(self.u, self.u))?,
-        }
-        writeln!(f, ", p = {} %, nu_eff {})", self.p * 100.0, self.nu_eff)?;
-        if let Some([low, high]) = self.interval {
-            let (low, high) = (beside(low, scale), beside(high, scale));
-            writeln!(f, "interval {low} to {high} {unit}, {}", self.method)?;
+        writeln!(f, "{}", self.statement())?;
+        if let Some(interval) = self.interval_in_words() {
+            writeln!(f, "{interval}")?;
         }
         for source in &self.sources {
             let (kind, name, shape, nu) =

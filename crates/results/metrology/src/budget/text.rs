@@ -136,6 +136,48 @@ impl BudgetText {
         Ok(())
     }
 
+    /// Name of the measurand.
+    pub fn measurand(&self) -> &str {
+        self.written.measurand.get_ref()
+    }
+
+    /// Unit of the measurand and of its uncertainty.
+    pub fn unit(&self) -> &str {
+        &self.unit
+    }
+
+    /// Values of the measurand at which a budget is made, in its unit.
+    pub fn at(&self) -> &[f64] {
+        &self.at
+    }
+
+    /// The same budget at these values of the measurand, in its unit.
+    #[must_use]
+    pub fn with_at(self, at: Vec<f64>) -> BudgetText {
+        BudgetText { at, ..self }
+    }
+
+    /// Measured figures that sources name by `from`, in the order of the file.
+    pub fn figures(&self) -> impl Iterator<Item = &str> {
+        let named = self.written.source.iter();
+        let named = named.filter_map(|source| source.get_ref().from.as_ref());
+        named.map(|from| from.get_ref().as_str())
+    }
+
+    /// Refusal of the source that names `figure`, for a figure without a value.
+    pub fn not_measured(&self, figure: &str, reason: &str) -> BudgetError {
+        let mut named = self.written.source.iter();
+        let from = named.find_map(|source| {
+            let from = source.get_ref().from.as_ref();
+            from.filter(|from| from.get_ref() == figure)
+        });
+        let problem = BudgetProblem::NotMeasured {
+            name: shown(figure).to_string(),
+            reason: reason.to_owned(),
+        };
+        BudgetError::new(from.map(|from| self.line(from)), "from", problem)
+    }
+
     /// The quantity of the measurand, and of what is added to it.
     pub(super) fn wanted(&self) -> Wanted {
         match (self.kept_unit, &self.written.expression) {
@@ -170,7 +212,7 @@ pub(super) fn value(found: f64, expected: &str) -> BudgetProblem {
 }
 
 /// The parser's message in one line, with the nearest key for an unknown one.
-fn explained(message: &str) -> String {
+pub(super) fn explained(message: &str) -> String {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match quoted.as_slice() {
         [wrong, known @ ..] if message.starts_with("unknown field") => {

@@ -59,6 +59,9 @@ impl Acceptance<'_> {
         for finding in self.findings {
             table.push(row(finding));
         }
+        if let Some(line) = self.study.traceability() {
+            table.note(line.to_owned());
+        }
         let trainings = self.findings.iter().map(|finding| finding.trainings);
         if let Some(trainings) = trainings.max().filter(|trainings| *trainings > 0) {
             table.note(format!(

@@ -2,6 +2,7 @@
 
 use std::fmt::Display;
 
+use super::traceability::traceability_line;
 use taceva_results::{ModelProvenance, Provenance};
 
 /// Entries of `provenance` except the notes, in file order. Skips empty ones.
@@ -17,6 +18,11 @@ pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
     let predicted_once = provenance.predicted_once();
     let part = provenance.part.as_ref();
     let part = part.filter(|_| predicted_once.is_none()).cloned();
+    // Results of drawn labels and of tables name no instrument at all.
+    let traceability = match provenance.traceability.is_empty() {
+        true => String::new(),
+        false => traceability_line(provenance),
+    };
     let all = [
         ("taceva", provenance.taceva.clone()),
         ("dataset", text(&provenance.dataset)),
@@ -39,6 +45,7 @@ pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
             predicted_once.unwrap_or_else(|| pairs(&provenance.samples)),
         ),
         ("presses", joined(presses)),
+        ("traceability", traceability),
         ("frames_decoded", provenance.frames_decoded.to_string()),
         ("plugins", provenance.plugins.join(", ")),
         ("samples_table", text(&provenance.samples_table)),

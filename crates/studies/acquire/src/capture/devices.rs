@@ -7,8 +7,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use taceva_core::{
-    Axis, Deadline, Descriptor, DriverError, DriverKey, DriverSource, ErrorKind, Facts, Frame,
-    FrameInfo, FrameMut, Rig, Sensor, SensorFacts, Wrench,
+    Axis, Certificate, Deadline, Descriptor, DriverError, DriverKey, DriverSource, ErrorKind,
+    Facts, Frame, FrameInfo, FrameMut, Instrument, Rig, Sensor, SensorFacts, Traceability, Wrench,
 };
 use taceva_drivers::{Drivers, OpenError, Selector};
 use taceva_protocol::{RigFile, Setting, SignedAxes};
@@ -20,6 +20,7 @@ use super::streams::{Counts, Streams};
 use super::track::Track;
 use super::transducer::Transducer;
 use crate::error::AcquireError;
+use crate::instruments::traced;
 use crate::presses::{HeldRigs, Opened, Turned};
 use crate::scene::read_rig_file;
 
@@ -42,6 +43,8 @@ struct Named {
     selector: Selector,
     /// Latency in the rig file, in ms.
     latency_ms: Option<f64>,
+    /// Certificate in the rig file.
+    certificate: Option<Certificate>,
     /// Source of the selector, for messages: a command-line option or the rig file.
     by: String,
 }
@@ -61,21 +64,29 @@ impl LiveSpec {
         let of_rig = |driver: &str, latency_ms: Option<Setting<f64>>| Wanted {
             text: driver.to_owned(),
             latency_ms: latency_ms.map(|latency| latency.value),
+            certificate: None,
             by: rig.map_or_else(String::new, |rig| rig.name().to_owned()),
         };
         let typed = |option: &str, text: &str| Wanted {
             text: text.to_owned(),
             latency_ms: None,
+            certificate: None,
             by: option.to_owned(),
         };
         let rig_sensor = rig.and_then(|rig| rig.sensor.as_ref());
         let rig_force = rig.and_then(|rig| rig.force.as_ref());
         let wanted_sensor = sensor
             .map(|text| typed("--sensor", text))
-            .or(rig_sensor.map(|sensor| of_rig(&sensor.driver.value, sensor.latency_ms)));
+            .or(rig_sensor.map(|sensor| Wanted {
+                certificate: sensor.certificate.clone(),
+                ..of_rig(&sensor.driver.value, sensor.latency_ms)
+            }));
         let wanted_force = force
             .map(|text| typed("--force", text))
-            .or(rig_force.map(|force| of_rig(&force.driver.value, force.latency_ms)));
+            .or(rig_force.map(|force| Wanted {
+                certificate: force.certificate.clone(),
+                ..of_rig(&force.driver.value, force.latency_ms)
+            }));
         let Some(wanted_sensor) = wanted_sensor else {
             let place = rig.map_or_else(String::new, |rig| {
                 format!("{} has no [sensor]: ", taceva_core::shown(rig.name()))
@@ -97,6 +108,19 @@ impl LiveSpec {
     /// Selector of the sensor.
     pub fn sensor(&self) -> &Selector {
         &self.sensor.selector
+    }
+
+    /// Instruments of the labels: the transducer, and the sensor if it has a certificate.
+    fn traceability(&self) -> Vec<Traceability> {
+        let traced_as = |instrument, named: &Named| {
+            let selector = named.selector.to_string();
+            traced(instrument, &selector, named.certificate.as_ref())
+        };
+        let force = self.force.as_ref();
+        let force = force.map(|force| traced_as(Instrument::Force, force));
+        let sensor = Some(&self.sensor).filter(|sensor| sensor.certificate.is_some());
+        let sensor = sensor.map(|sensor| traced_as(Instrument::Sensor, sensor));
+        force.into_iter().chain(sensor).collect()
     }
 
     /// Real devices, which only one command at a time may use.
@@ -172,6 +196,7 @@ impl LiveSpec {
             sensor_facts,
             force,
             is_emulated: self.is_emulated,
+            traceability: self.traceability(),
             _held: held,
         })
     }
@@ -181,6 +206,7 @@ impl LiveSpec {
 struct Wanted {
     text: String,
     latency_ms: Option<f64>,
+    certificate: Option<Certificate>,
     by: String,
 }
 
@@ -192,6 +218,7 @@ impl Wanted {
         Ok(Named {
             selector,
             latency_ms: self.latency_ms,
+            certificate: self.certificate,
             by: self.by,
         })
     }
@@ -205,6 +232,7 @@ pub struct LiveDevices {
     sensor_facts: SensorFacts,
     force: Option<Transducer>,
     is_emulated: bool,
+    traceability: Vec<Traceability>,
     _held: HeldRigs,
 }
 
@@ -223,6 +251,11 @@ impl LiveDevices {
     pub fn measures(&self, axis: Axis) -> bool {
         let force = self.force.as_ref();
         force.is_some_and(|force| force.device.axes().contains(axis))
+    }
+
+    /// Instruments of the labels, with their certificates.
+    pub(super) fn traceability(&self) -> Vec<Traceability> {
+        self.traceability.clone()
     }
 
     /// Settings of the camera, read back.

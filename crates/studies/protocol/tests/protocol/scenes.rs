@@ -1,5 +1,6 @@
 //! Tests of valid scenes, and of every kind of invalid scene.
 
+mod certificates;
 mod on_a_rig;
 mod planning;
 mod reading;

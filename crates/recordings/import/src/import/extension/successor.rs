@@ -10,6 +10,7 @@ use taceva_dataset::internal::{
 use taceva_dataset::{Dataset, DatasetError, Extension, Header, SignalsInfo, SourcesInfo, Table};
 
 use super::Addition;
+use super::certificates::all_instruments;
 use crate::error::ImportError;
 use crate::import::copy::CopiedFrames;
 use crate::import::plan::ImportPlan;
@@ -128,7 +129,8 @@ pub(super) fn write_header(
         added.date.clone(),
         added.from.clone(),
     ));
-    let facts = header.recording_facts();
+    let mut facts = header.recording_facts();
+    facts.traceability = all_instruments(header, &plan.facts);
     Ok(write_table_and_header(
         &staged.path().join(layout::SAMPLES),
         &staged.path().join(layout::HEADER),

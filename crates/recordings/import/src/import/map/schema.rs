@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::Deserialize;
-use taceva_core::{Channel, Channels, Clock, is_scorable};
+use taceva_core::{Channel, Channels, Clock, Instrument, is_scorable};
 use toml::Spanned;
 
 use super::check::{Check, ColumnName};
 use super::drop_schema::WrittenDrop;
 use super::frame_schema::WrittenFrames;
+use super::instruments::{WrittenInstrument, WrittenSensor};
 use super::rotation::WrittenRotations;
 use super::sections::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
 use super::signals::WrittenSignals;
@@ -20,7 +21,7 @@ use crate::open_places::open_places;
 
 use super::{ColumnMap, IdMap, ImportMap, MatrixMap, OriginMap, TimeMap};
 use taceva_dataset::internal::{RESERVED, is_attribute_name, parse_toml, shown, toml_error};
-use taceva_dataset::{DatasetError, Footprint, RecordingFacts, SensorFacts, Source};
+use taceva_dataset::{DatasetError, Footprint, RecordingFacts, Source};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
@@ -54,7 +55,9 @@ struct WrittenMap {
     gravity: Option<Spanned<WrittenGravity>>,
     #[serde(default)]
     drop: WrittenDrop,
-    sensor: SensorFacts,
+    sensor: WrittenSensor,
+    force: Option<WrittenInstrument>,
+    robot: Option<WrittenInstrument>,
     footprint: Option<Spanned<Footprint>>,
 }
 
@@ -141,7 +144,19 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
              accepted",
         ));
     }
-    let mut facts = RecordingFacts::new(written.source, written.time.clock, written.sensor);
+    let sensor = written.sensor.facts();
+    let mut facts = RecordingFacts::new(written.source, written.time.clock, sensor);
+    let instruments = [
+        (Instrument::Force, written.force),
+        (Instrument::Robot, written.robot),
+        (Instrument::Sensor, written.sensor.instrument()),
+    ];
+    for (instrument, stated) in instruments {
+        if let Some(stated) = stated {
+            let traced = check.instrument(instrument, stated)?;
+            facts.traceability.push(traced);
+        }
+    }
     facts.footprint = written.footprint.map(Spanned::into_inner);
     let rotations = check.rotations(written.rotation, &channels, &columns)?;
     let zero = written.zero.map(|zero| check.zero(zero, &channels));

@@ -113,6 +113,31 @@ fn each_row_has_the_limit_what_was_found_and_why_it_is_not_enough() {
 }
 
 #[test]
+fn a_sheet_of_measured_labels_begins_with_their_certificate_or_says_that_there_is_none() {
+    let first_note = |provenance: &str| {
+        let text = format!(
+            r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "drawn", "source": "recorded"}},
+                "metrics": {{"mae": {{"Fz": {{"value": 0.5, "unit": "N", "n": 80}}}}}}, "provenance": {{{provenance}}}}}"#
+        );
+        let study = crate::results::unsealed(&text).expect("a result").remove(0);
+        let findings = held(&study, &[KEPT]);
+        let table = sheet(&study, &findings).table();
+        table.notes[0].plain().to_owned()
+    };
+    assert_eq!(
+        first_note(""),
+        "not traceable: no certificate of the force transducer"
+    );
+    let certificate = r#"{"number": "D-K-1", "laboratory": "a laboratory", "issued": "2026-05-12", "serial": "42", "k": 2, "U": {"Fz": "3 mN"}}"#;
+    let traced =
+        format!(r#""traceability": [{{"instrument": "force", "certificate": {certificate}}}]"#);
+    assert_eq!(
+        first_note(&traced),
+        "force: certificate D-K-1 of a laboratory, 2026-05-12, serial 42"
+    );
+}
+
+#[test]
 fn a_sheet_without_name_and_date_speaks_of_neither() {
     let study = study();
     let findings = held(&study, &[KEPT]);

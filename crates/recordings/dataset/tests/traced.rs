@@ -1,0 +1,112 @@
+//! Instruments and certificates of a recording, in its journal, its header and in joined recordings.
+
+use std::path::Path;
+
+use taceva_core::{
+    Certificate, Channel, Channels, Clock, Coverage, Instrument, Readings, Sample, Traceability,
+};
+use taceva_dataset::{
+    Dataset, DatasetError, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
+};
+
+/// A transducer with the certificate of this number.
+fn traced(number: &str) -> Traceability {
+    let day = |text: &str| text.parse().expect("a day");
+    let amount = |text: &str| text.parse().expect("an amount");
+    let coverage = Coverage::Probability {
+        p: 0.95,
+        dof: Some(9.0),
+    };
+    let mut certificate = Certificate::new(number, "a \"b\"", day("2026-05-12"), "42", coverage);
+    certificate.valid_until = Some(day("2027-05-12"));
+    certificate.expanded.insert("Fz".to_owned(), amount("3 mN"));
+    certificate.relative.insert("Fx".to_owned(), 0.001);
+    let range = [amount("50 mN"), amount("50 N")];
+    certificate.range.insert("Fz".to_owned(), range);
+    let stated = |coefficient| taceva_core::StatedCorrelation {
+        between: ["Fx".to_owned(), "Fz".to_owned()],
+        coefficient,
+    };
+    certificate.correlation = vec![stated(Some(0.5)), stated(None)];
+    certificate.temperature = Some("23 ± 2 C".to_owned());
+    let force = Traceability::new(Instrument::Force);
+    let force = force.with_driver("ati/netft", Some("42".to_owned()));
+    force.with_certificate(certificate).expect("accepted")
+}
+
+fn spec(number: &str) -> RecordingSpec {
+    let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("gel"));
+    let robot = Traceability::new(Instrument::Robot);
+    let facts = facts.with_traceability(vec![traced(number), robot]);
+    RecordingSpec::new(facts, Channels::new([Channel::FZ]).expect("one"))
+}
+
+fn sample(name: &str, force: f64) -> Sample {
+    Sample::new(name).with_truth(Readings::from_values([force]))
+}
+
+fn record(path: &Path, number: &str, force: f64) -> Dataset {
+    let mut recorder = Recorder::create(path, &spec(number)).expect("created");
+    recorder.append(&sample("1", force)).expect("recorded");
+    recorder.close().expect("closed");
+    Dataset::open(path).expect("opens")
+}
+
+#[test]
+fn a_recording_keeps_its_instruments_and_their_certificates() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let dataset = record(&folder.path().join("set"), "D-K-1", 0.5);
+    let robot = Traceability::new(Instrument::Robot);
+    assert_eq!(dataset.header().traceability, [traced("D-K-1"), robot]);
+    let text = std::fs::read_to_string(folder.path().join("set/dataset.toml")).expect("read");
+    assert!(
+        text.contains("[[traceability]]\ninstrument = \"force\"\n"),
+        "{text}"
+    );
+    assert!(text.contains("issued = \"2026-05-12\""), "{text}");
+}
+
+#[test]
+fn an_interrupted_recording_goes_on_with_its_certificate_and_with_no_other() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    let mut recorder = Recorder::create(&path, &spec("D-K-1")).expect("created");
+    recorder.append(&sample("1", 0.5)).expect("recorded");
+    drop(recorder);
+    let other = Recorder::open(&path, &spec("D-K-2")).map(drop);
+    let message = other.expect_err("another certificate").to_string();
+    assert!(message.contains("another certificate"), "{message}");
+    let recorder = Recorder::open(&path, &spec("D-K-1")).expect("goes on");
+    let header = recorder.close().expect("closed");
+    assert_eq!(header.traceability[0], traced("D-K-1"));
+}
+
+#[test]
+fn joined_recordings_name_the_certificates_of_both_once() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let one = record(&folder.path().join("one"), "D-K-1", 0.5);
+    let two = record(&folder.path().join("two"), "D-K-2", 0.6);
+    let three = record(&folder.path().join("three"), "D-K-2", 0.7);
+    let joined = Dataset::joined(vec![one, two, three]).expect("alike");
+    let robot = Traceability::new(Instrument::Robot);
+    let expected = [traced("D-K-1"), robot, traced("D-K-2")];
+    assert_eq!(joined.header().traceability, expected);
+}
+
+#[test]
+fn a_header_whose_certificate_is_of_another_instrument_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    drop(record(&path, "D-K-1", 0.5));
+    let header = path.join("dataset.toml");
+    let text = std::fs::read_to_string(&header).expect("read");
+    let (body, _) = text.split_once("\n[seal]").expect("sealed");
+    let wrong = body.replacen("instrument = \"force\"", "instrument = \"robot\"", 1);
+    let sealed = taceva_files::seal::toml_text::seal(&wrong).expect("TOML");
+    std::fs::write(&header, sealed).expect("written");
+    let refused = Dataset::open(&path).map(drop);
+    assert!(
+        matches!(&refused, Err(error @ DatasetError::Text { .. }) if error.to_string().contains("a channel of the robot")),
+        "{refused:?}"
+    );
+}

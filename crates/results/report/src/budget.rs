@@ -1,0 +1,205 @@
+//! Uncertainty budgets of one measurand, as tables for people and for programs, and as a page.
+
+mod contributions;
+mod numbers;
+mod template;
+
+pub use template::BudgetTemplate;
+
+use maud::html;
+use serde::Serialize;
+use taceva_metrology::budget::{Budget, MonteCarloResult};
+use taceva_results::not_measured;
+
+use crate::html::{Document, drawn};
+use crate::number::FormattedValue;
+use crate::table::{Align, Cell, Column, Table, Words};
+
+/// Budgets of one file, with the facts behind them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BudgetReport {
+    /// Budgets, one for each value of the measurand.
+    pub budgets: Vec<Budget>,
+    /// Sensor of the result that measured figures are from.
+    pub sensor: Option<String>,
+    /// Origins of the samples behind these figures, such as `recorded` and `simulated`.
+    pub origins: Vec<String>,
+    /// Digest of the file of sources.
+    pub digest: String,
+    /// Greatest expanded uncertainty that is allowed, in the unit of the measurand.
+    pub most: Option<f64>,
+}
+
+/// JSON of one budget: its form, and the files behind it.
+#[derive(Serialize)]
+struct SealedBudget<'a> {
+    #[serde(flatten)]
+    budget: &'a Budget,
+    #[serde(rename = "most_U")]
+    most: Option<f64>,
+    passed: Option<bool>,
+    sensor: Option<&'a str>,
+    digest: &'a str,
+    origins: &'a [String],
+    not_measured: Option<String>,
+}
+
+impl BudgetReport {
+    /// True unless an expanded uncertainty is above the greatest allowed one, or is undefined beside such a limit.
+    pub fn is_passed(&self) -> bool {
+        self.budgets.iter().all(|of| self.meets(of) != Some(false))
+    }
+
+    fn meets(&self, budget: &Budget) -> Option<bool> {
+        let half_width = budget.half_width();
+        self.most
+            .map(|most| half_width.is_some_and(|half_width| half_width <= most))
+    }
+
+    /// Table for people with one row for each source, and the results below.
+    pub fn table(&self) -> Table {
+        let first = self.budgets.first();
+        let unit = first.map_or("", |budget| budget.unit.as_str());
+        let measurand = first.map_or("", |budget| budget.measurand.as_str());
+        let is_one = self.budgets.len() < 2;
+        let at = (!is_one).then(|| Column::new("at").unit(unit));
+        let columns = at.into_iter().chain([
+            Column::new("source"),
+            Column::new("type"),
+            Column::new("shape"),
+            Column::new("u"),
+            Column::new(Words::new("ν").latex("$\\nu$")).align(Align::ByCell),
+            Column::new("c"),
+            Column::new("contribution").unit(unit),
+            Column::new("share").unit("%"),
+        ]);
+        let mut table = Table::new(format!("Uncertainty budget of {measurand}"), columns);
+        for budget in &self.budgets {
+            for source in &budget.sources {
+                let at = (!is_one).then(|| Cell::from(number(budget.at)));
+                table.push(at.into_iter().chain([
+                    Cell::text(source.name.as_str()),
+                    Cell::text(source.kind.to_string()),
+                    Cell::text(source.shape.as_str()),
+                    Cell::from(number(Some(source.u))),
+                    Cell::from(source.nu.to_string()),
+                    Cell::from(number(Some(source.c))),
+                    Cell::from(number(Some(source.contribution))),
+                    Cell::from(number(source.share.map(|share| 100.0 * share))),
+                ]));
+            }
+        }
+        for words in self.notes() {
+            table.note(words);
+        }
+        table
+    }
+
+    /// Sentences below the table: results, draws, warnings, and effects without a source, each once.
+    fn notes(&self) -> Vec<String> {
+        let mut notes: Vec<String> = Vec::new();
+        let mut add = |words: String| {
+            if !notes.contains(&words) {
+                notes.push(words);
+            }
+        };
+        for budget in &self.budgets {
+            let interval = budget.interval_in_words();
+            let interval = interval.map_or_else(String::new, |words| format!("; {words}"));
+            add(format!("{}{interval}.", budget.statement()));
+            if let Some(found) = &budget.mcm {
+                add(draws(found, &budget.unit));
+            }
+        }
+        let warnings = self.budgets.iter().flat_map(|of| &of.warnings);
+        warnings.for_each(|warning| add(format!("Warning: {warning}.")));
+        if self.budgets.iter().any(|of| !of.correlations.is_empty()) {
+            add("Shares do not add up to 100 %: sources are correlated.".to_owned());
+        }
+        let missing = self.budgets.iter().flat_map(|of| &of.missing);
+        missing.for_each(|of| add(format!("Missing: {} ({}).", of.source, of.reason)));
+        if let Some(words) = self.verdict() {
+            add(words);
+        }
+        self.not_measured().into_iter().for_each(add);
+        notes
+    }
+
+    /// Verdict on the greatest allowed expanded uncertainty.
+    fn verdict(&self) -> Option<String> {
+        let (most, budget) = (self.most?, self.budgets.first()?);
+        let found = match self.is_passed() {
+            true => "at most",
+            false => "not shown to be at most",
+        };
+        let most = FormattedValue::number(most, None).value;
+        Some(format!("U is {found} {most} {}.", budget.unit))
+    }
+
+    /// Sealed JSON of the schema `taceva.budget/1` for one budget, with the files behind it.
+    pub fn json(&self, budget: &Budget) -> String {
+        let document = SealedBudget {
+            budget,
+            most: self.most,
+            passed: self.meets(budget),
+            sensor: self.sensor.as_deref(),
+            digest: &self.digest,
+            origins: &self.origins,
+            not_measured: self.not_measured(),
+        };
+        let text = taceva_results::sealed(&document);
+        format!("{}\n", text.expect("an object of texts and numbers"))
+    }
+
+    /// Page with the figure of contributions, HTML.
+    pub fn page(&self) -> String {
+        let table = self.table();
+        let lead = html! {
+            @if let Some(words) = self.not_measured() { p.badge { (words) } }
+            @if let Some(words) = self.verdict() {
+                @if self.is_passed() { p.pass { (words) } } @else { p.fail { (words) } }
+            }
+        };
+        let mut document = Document::new(&table.caption, lead);
+        let results = html! {
+            ul.verdicts { @for budget in &self.budgets { li { (budget.statement()) } "\n" } }
+        };
+        document.section("result", "Result", results);
+        document.section("sources", "Sources", table.html());
+        let budgets = (1_usize..).zip(&self.budgets);
+        let mut figures = budgets.filter_map(|(number, of)| contributions::draw(of, number));
+        let first = figures.next();
+        if let Some(first) = first {
+            let figures = html! { (drawn(&first)) @for figure in figures { (drawn(&figure)) } };
+            document.section("contributions", "Contributions", figures);
+        }
+        document.finish()
+    }
+
+    fn not_measured(&self) -> Option<String> {
+        not_measured(self.origins.iter().map(String::as_str))
+    }
+}
+
+/// Result of the draws beside that of first order.
+fn draws(found: &MonteCarloResult, unit: &str) -> String {
+    let value =
+        FormattedValue::number(found.mean, Some(found.symmetric)).phrase(&format!(" {unit}"));
+    let tolerance = FormattedValue::number(found.tolerance, None).value;
+    let verdict = match found.validated {
+        true => "it confirms the interval of first order",
+        false => "it does not confirm the interval of first order",
+    };
+    format!(
+        "Monte Carlo, {} draws of seed {}: {value}; {verdict}, within {tolerance} {unit} and chance.",
+        found.draws, found.seed
+    )
+}
+
+/// A number to four digits; a dash without one.
+fn number(value: Option<f64>) -> String {
+    value.map_or_else(
+        || "–".to_owned(),
+        |value| FormattedValue::number(value, None).value,
+    )
+}

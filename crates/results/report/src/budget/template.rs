@@ -1,0 +1,156 @@
+//! Initial file of sources for a budget, with every measured figure and with comments on the others.
+
+use taceva_metrology::budget::{BudgetText, Evidence, Figure, Missing, MonteCarlo};
+use taceva_results::not_measured;
+
+use crate::escape::terminal as line;
+use crate::number::FormattedValue;
+
+/// Sources by figure, each with its name and further keys.
+const SOURCES: [(&str, &str, &str); 7] = [
+    ("bias", "mean residual", ""),
+    ("error.between", "place to place", ""),
+    ("error.within", "one reading", "readings = 1\n"),
+    (REPEATS, "repeats", "readings = 1\n"),
+    ("r_light", "other light", ""),
+    ("drift", "drift since calibration", "hours = 8\n"),
+    ("certificate", "reference", ""),
+];
+/// Figure that is inside `error.within`.
+const REPEATS: &str = "repeatability";
+
+/// Facts of which the file is made.
+#[derive(Clone, Copy, Debug)]
+pub struct BudgetTemplate<'a> {
+    /// Sensor of the result.
+    pub sensor: &'a str,
+    /// Origin of its samples.
+    pub origin: &'a str,
+    /// Result as an argument of a command.
+    pub result: &'a str,
+    /// Channel.
+    pub measurand: &'a str,
+    /// Unit of the channel.
+    pub unit: &'a str,
+    /// Reading of the budget, in the unit.
+    pub at: f64,
+    /// Measured figures.
+    pub evidence: &'a Evidence,
+    /// Figures without a value, each with its reason.
+    pub absent: &'a [Missing],
+}
+
+impl BudgetTemplate<'_> {
+    /// Text that the command reads without a change.
+    pub fn text(&self) -> String {
+        let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
+        let at = format!("{} {}", self.at, self.unit);
+        let mut out = format!(
+            "# Uncertainty budget of {}, from a result of {}, samples {}.\n# then: taceva budget THIS.toml --results {}\n",
+            line(self.measurand),
+            line(self.sensor),
+            line(self.origin),
+            line(self.result)
+        );
+        if let Some(words) = not_measured([self.origin]) {
+            out += &format!("# {words}\n");
+        }
+        out += &format!(
+            "budget_version = 1\nmeasurand = {}\nat = [{}]\ncoverage = 0.95\n",
+            quoted(self.measurand),
+            quoted(&at)
+        );
+        for (figure, name, keys) in SOURCES {
+            if self.is_inside(figure) {
+                out += &format!("\n# {figure}: measured, and inside `error.within`\n");
+                continue;
+            }
+            if let Some(found) = self.found(figure) {
+                out += &format!(
+                    "\n# {}\n[[source]]\nname = {}\nfrom = {}\n{keys}",
+                    line(&found),
+                    quoted(name),
+                    quoted(figure)
+                );
+            }
+        }
+        let remarks = self.remarks(&out);
+        out + &remarks
+    }
+
+    fn is_inside(&self, figure: &str) -> bool {
+        let is_measured = |figure: &str| self.evidence.figure(figure).is_some();
+        figure == REPEATS && is_measured(figure) && is_measured("error.within")
+    }
+
+    /// Measured figure in words; `None` if it has no value.
+    fn found(&self, figure: &str) -> Option<String> {
+        if figure == "certificate" {
+            let found = self.evidence.certificate()?;
+            return Some(format!(
+                "certificate {} of {}, serial {}",
+                found.number, found.laboratory, found.serial
+            ));
+        }
+        let found: &Figure = self.evidence.figure(figure)?;
+        let phrase = |value: f64, unit: &str| {
+            FormattedValue::number(value, None).phrase(&format!(" {unit}"))
+        };
+        if figure == "drift" {
+            let slope = phrase(found.value, &format!("{}/h", self.unit));
+            return Some(format!(
+                "slope {slope}; hours since the calibration are yours to state"
+            ));
+        }
+        let rows = found.n.map_or_else(String::new, |n| format!(", {n} rows"));
+        let clusters = found.clusters;
+        let clusters = clusters.map_or_else(String::new, |count| format!(" in {count} clusters"));
+        Some(format!(
+            "u = {}{rows}{clusters}, nu {}",
+            phrase(found.u, self.unit),
+            found.freedom
+        ))
+    }
+
+    /// Comments on effects without a source, by the budget of the `written` sources.
+    fn remarks(&self, written: &str) -> String {
+        let parsed = BudgetText::parse(written);
+        let budgets = parsed.and_then(|text| text.budgets(self.evidence, None::<MonteCarlo>));
+        let missing = match budgets {
+            Ok(budgets) => budgets.into_iter().next().map(|of| of.missing),
+            Err(error) => return format!("\n# not yet a budget: {}\n", line(&error.to_string())),
+        };
+        let mut out = String::new();
+        let missing = missing.unwrap_or_default();
+        for of in &missing {
+            out += &self.remark(of);
+        }
+        let is_named = |absent: &&Missing| {
+            let mut missing = missing.iter();
+            missing.any(|of| of.source == absent.source)
+        };
+        for absent in self.absent.iter().filter(|absent| !is_named(absent)) {
+            out += &format!("\n# {}: {}\n", absent.source, line(&absent.reason));
+        }
+        out
+    }
+
+    fn remark(&self, missing: &Missing) -> String {
+        let source = missing.source.as_str();
+        let absent = self.absent.iter().find(|absent| absent.source == source);
+        let why = absent.map_or_else(String::new, |absent| format!(": {}", absent.reason));
+        let (effect, reason) = missing
+            .reason
+            .split_once(": ")
+            .unwrap_or(("", &missing.reason));
+        let words = match source {
+            "certificate" => format!("no certificate{why}"),
+            _ => format!("{reason}: {effect} ({source}){why}"),
+        };
+        let mut out = format!("\n# {}\n", line(&words));
+        if source == "gauge" {
+            out += "# after `taceva gauge … --format json --out gauge.json`:\n# [[source]]\n# name = \"unit to unit\"\n# from = \"gauge.json#unit\"\n";
+        }
+        out
+    }
+}

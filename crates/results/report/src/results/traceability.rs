@@ -1,0 +1,77 @@
+//! Traceability of a result's labels in one line.
+
+use taceva_core::Instrument;
+use taceva_results::Provenance;
+
+/// Line of labels that no certificate makes traceable.
+pub(super) const NOT_TRACEABLE: &str = "not traceable: no certificate of the force transducer";
+
+/// Certificates behind the labels, in the order of the recordings. The line begins with what is missing.
+pub(super) fn traceability_line(provenance: &Provenance) -> String {
+    let of_force = provenance.traceability.iter();
+    let of_force = of_force.filter(|of| of.instrument == Instrument::Force);
+    let (with, without): (Vec<_>, Vec<_>) = of_force.partition(|of| of.certificate.is_some());
+    let missing = match (with.is_empty(), without.is_empty()) {
+        (true, _) => Some(NOT_TRACEABLE.to_owned()),
+        (false, true) => None,
+        (false, false) => Some(
+            "not traceable in part: some forces have no certificate of the force transducer"
+                .to_owned(),
+        ),
+    };
+    let stated = provenance.traceability.iter();
+    let stated = stated.filter(|of| of.certificate.is_some());
+    let lines = missing.into_iter().chain(stated.map(ToString::to_string));
+    lines.collect::<Vec<_>>().join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{Certificate, Coverage, Traceability};
+
+    use super::*;
+
+    fn traced(instrument: Instrument, number: &str) -> Traceability {
+        let issued = "2026-05-12".parse().expect("a day");
+        let coverage = Coverage::Factor(2.0);
+        let mut traced = Traceability::new(instrument);
+        traced.certificate = Some(Certificate::new(
+            number,
+            "a laboratory",
+            issued,
+            "42",
+            coverage,
+        ));
+        traced
+    }
+
+    fn line(traceability: Vec<Traceability>) -> String {
+        traceability_line(&Provenance {
+            traceability,
+            ..Provenance::default()
+        })
+    }
+
+    #[test]
+    fn labels_without_a_certificate_of_the_transducer_are_not_traceable() {
+        let force = Traceability::new(Instrument::Force);
+        assert_eq!(line(Vec::new()), NOT_TRACEABLE);
+        assert_eq!(line(vec![force]), NOT_TRACEABLE);
+        assert_eq!(
+            line(vec![traced(Instrument::Robot, "R-1")]),
+            "not traceable: no certificate of the force transducer; robot: certificate R-1 of a laboratory, 2026-05-12, serial 42"
+        );
+    }
+
+    #[test]
+    fn certificates_are_named_and_a_recording_without_one_is_said_first() {
+        let force = traced(Instrument::Force, "D-K-1");
+        assert_eq!(
+            line(vec![force.clone()]),
+            "force: certificate D-K-1 of a laboratory, 2026-05-12, serial 42"
+        );
+        let joined = line(vec![force, Traceability::new(Instrument::Force)]);
+        assert!(joined.starts_with("not traceable in part: "), "{joined}");
+        assert!(joined.contains("; force: certificate D-K-1"), "{joined}");
+    }
+}

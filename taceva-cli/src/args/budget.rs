@@ -1,0 +1,78 @@
+//! Arguments of `taceva budget`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use taceva_core::Date;
+
+use super::{Output, PageArgs};
+
+/// Greatest number of draws that `--mc` takes; they are kept in memory.
+const MOST_DRAWS: u64 = 100_000_000;
+
+/// An example of a file of sources.
+const SOURCES_HELP: &str = "\
+Sources:
+  budget_version = 1
+  measurand = \"Fz\"
+  at = [\"0.5 N\"]            # one budget for each value
+  coverage = 0.95
+  [[source]]
+  name = \"place to place\"
+  from = \"error.between\"    # measured: also error.within, bias, repeatability, drift, r_light, certificate
+  [[source]]
+  name = \"unit to unit\"
+  from = \"gauge.json#unit\"   # a component of a gauge study
+  [[source]]
+  name = \"lamp\"
+  half_width = \"10 mN\"      # or u; U with k; s with dof; rows
+  shape = \"rectangular\"
+
+A file to start from, with every measured figure:
+  taceva budget --template RESULT.json > budget.toml";
+
+/// The sources are combined by the law of propagation, and checked by draws. If the draws contradict it, the interval is theirs. Effects without a
+/// source are named. The exit code is 1 if an expanded uncertainty is above `--most-U`.
+#[derive(Debug, Args)]
+#[command(after_help = SOURCES_HELP)]
+pub(crate) struct Budget {
+    /// The sources: `[[source]]` with a name and an uncertainty, or with `from` and a measured figure
+    #[arg(value_name = "BUDGET.toml", required_unless_present = "template")]
+    pub(crate) sources: Option<PathBuf>,
+    /// The result of one sensor whose figures sources name, with its samples beside it: JSON of evaluate or score, or a report of a run
+    #[arg(long, value_name = "RESULT")]
+    pub(crate) results: Option<PathBuf>,
+    /// The certificate of the reference, in place of that of the result: a table `[force.certificate]` or `[robot.certificate]`, as in a rig file
+    #[arg(long, value_name = "CERTIFICATE.toml")]
+    pub(crate) certificate: Option<PathBuf>,
+    /// The day of the recording, on which the certificate must be valid
+    #[arg(long, value_name = "YYYY-MM-DD")]
+    pub(crate) date: Option<Date>,
+    /// The values of the measurand with their unit, separated by commas, such as 0.5N; JSON holds one [default: those of the file]
+    #[arg(
+        long,
+        value_name = "VALUES",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub(crate) at: Vec<String>,
+    /// The greatest number of Monte Carlo draws; they end once two digits are stable. 0: none
+    #[arg(long = "mc", value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(..=MOST_DRAWS))]
+    pub(crate) draws: u64,
+    /// The seed of the draws
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// The greatest expanded uncertainty that is allowed, with its unit, such as 0.05N
+    #[arg(long = "most-U", value_name = "U")]
+    pub(crate) most: Option<String>,
+    /// Write sources for every figure that this result measures, and name the others in comments
+    #[arg(long, value_name = "RESULT", conflicts_with_all = ["sources", "results", "at", "draws", "seed", "most", "html", "format"])]
+    pub(crate) template: Option<PathBuf>,
+    /// The channel of the template [default: Fz, or the first predicted one]
+    #[arg(long, value_name = "CHANNEL", requires = "template")]
+    pub(crate) channel: Option<String>,
+    #[command(flatten)]
+    pub(crate) page: PageArgs,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}

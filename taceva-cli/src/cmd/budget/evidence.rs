@@ -1,0 +1,294 @@
+//! Figures that a result and its samples measure of one channel.
+
+use std::path::Path;
+
+use taceva_core::{Date, shown};
+use taceva_metrology::budget::{
+    BudgetError, BudgetText, Certificate, Components, Evidence, Figure, Freedom, Missing, Residuals,
+};
+use taceva_results::{EvaluationReport, Score};
+
+use crate::cmd::quantity::unit_of_six;
+use crate::cmd::{Usage, results};
+
+/// Figures of the residuals of presses.
+const RESIDUALS: [&str; 4] = ["error", "error.between", "error.within", "bias"];
+/// Figures of scores.
+const SCORES: [&str; 4] = ["repeatability", "drift", "r_light", "hysteresis"];
+/// Channels of a template, the usual one first.
+const CHANNELS: [&str; 6] = ["Fz", "Fx", "Fy", "Pz", "Px", "Py"];
+
+/// Reason and remedy of a certificate that is not there.
+const NO_CERTIFICATE: &str =
+    "the recording has none; add --certificate CERTIFICATE.toml, or state `U` and `k`";
+
+/// Measurand of a budget.
+pub(super) struct Channel {
+    pub(super) name: String,
+    pub(super) unit: String,
+}
+
+impl Channel {
+    pub(super) fn of(name: &str, unit: &str) -> Channel {
+        Channel {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+        }
+    }
+}
+
+/// Measured figures, with the reasons of those without a value.
+#[derive(Default)]
+pub(super) struct Measured {
+    pub(super) evidence: Evidence,
+    pub(super) origins: Vec<String>,
+    pub(super) sensor: Option<String>,
+    pub(super) absent: Vec<Missing>,
+}
+
+impl Measured {
+    pub(super) fn without_result() -> Measured {
+        let mut measured = Measured::default();
+        for figure in RESIDUALS.into_iter().chain(SCORES) {
+            measured.lacks(figure, "no result is given; add --results RESULT.json");
+        }
+        measured.lacks("certificate", NO_CERTIFICATE);
+        measured
+    }
+
+    pub(super) fn of_report(found: &Found, channel: &Channel, date: Option<Date>) -> Measured {
+        let subject = &found.report.subject;
+        let mut measured = Measured {
+            sensor: Some(subject.sensor.clone()),
+            origins: vec![subject.source.clone()],
+            ..Measured::default()
+        };
+        measured.add_residuals(found, channel);
+        for figure in SCORES {
+            match found.figure(figure, channel) {
+                Ok(value) => measured.take(|evidence| evidence.with(figure, value)),
+                Err(reason) => measured.lacks(figure, &reason),
+            }
+        }
+        measured.add_certificate(found, channel, date);
+        measured
+    }
+
+    /// Replaces the evidence.
+    pub(super) fn take(&mut self, change: impl FnOnce(Evidence) -> Evidence) {
+        self.evidence = change(std::mem::take(&mut self.evidence));
+    }
+
+    /// Refuses a source that names a figure without a value.
+    pub(super) fn check(&self, budget: &BudgetText) -> Result<(), BudgetError> {
+        for figure in budget.figures() {
+            let is_there = match figure {
+                "certificate" => self.evidence.certificate().is_some(),
+                _ => self.evidence.figure(figure).is_some(),
+            };
+            let absent = self.absent.iter().find(|absent| absent.source == figure);
+            if let Some(absent) = absent.filter(|_| !is_there) {
+                return Err(budget.not_measured(figure, &absent.reason));
+            }
+        }
+        Ok(())
+    }
+
+    fn lacks(&mut self, figure: &str, reason: &str) {
+        self.absent.push(Missing::new(figure, reason));
+    }
+
+    /// Takes the certificate of the reference, if the result has one for the channel.
+    fn add_certificate(&mut self, found: &Found, channel: &Channel, date: Option<Date>) {
+        let stated = &found.report.provenance.traceability;
+        let mut all = Certificate::of_references(stated, &channel.name, date);
+        match (all.next(), all.next()) {
+            (Some(only), None) => self.take(|evidence| evidence.with_certificate(only)),
+            (Some(_), Some(_)) => {
+                let reason = "the recordings have several; add --certificate CERTIFICATE.toml";
+                self.lacks("certificate", reason);
+            }
+            (None, _) => self.lacks("certificate", NO_CERTIFICATE),
+        }
+    }
+
+    fn add_residuals(&mut self, found: &Found, channel: &Channel) {
+        match found.components(channel, "calibration", "point_id") {
+            Ok(mut components) => {
+                let note = found.score("mae", channel).ok();
+                let note = note.and_then(|score| score.standing.reason());
+                let all = [
+                    &mut components.rmse,
+                    &mut components.between,
+                    &mut components.within,
+                    &mut components.bias,
+                ];
+                for figure in all {
+                    figure
+                        .digest
+                        .clone_from(&found.report.provenance.samples_table);
+                }
+                for figure in [&mut components.rmse, &mut components.within] {
+                    figure.note = note.map(str::to_owned);
+                }
+                self.take(|evidence| components.feed(evidence));
+            }
+            Err(reason) => RESIDUALS
+                .into_iter()
+                .for_each(|figure| self.lacks(figure, &reason)),
+        }
+    }
+}
+
+/// The result of one sensor.
+pub(super) struct Found {
+    report: EvaluationReport,
+    /// A message if its samples were not found.
+    without_samples: Option<String>,
+}
+
+/// Reads the result of the single sensor at `path`, with its samples.
+pub(super) fn report_of(path: &Path) -> anyhow::Result<Found> {
+    let results::Reports {
+        mut reports,
+        mut missing,
+    } = results::reports(path)?;
+    match (reports.pop(), reports.len()) {
+        (Some(report), 0) => Ok(Found {
+            report,
+            without_samples: missing.pop(),
+        }),
+        (found, others) => Err(Usage::error(format!(
+            "{}: {} sensors, expected the result of one; the folder `reports` of a run has a result for each sensor",
+            shown(path),
+            others + usize::from(found.is_some())
+        ))),
+    }
+}
+
+impl Found {
+    /// The channel called `asked`, or the first of the usual ones that is scored.
+    pub(super) fn channel(&self, asked: Option<&str>) -> anyhow::Result<Channel> {
+        let scores = || self.report.scores.iter();
+        let is_scored = |name: &&str| scores().any(|score| score.channel == *name);
+        let known: Vec<&str> = CHANNELS.into_iter().filter(is_scored).collect();
+        let found = known
+            .iter()
+            .find(|name| asked.is_none_or(|asked| asked == **name));
+        let unit = found.and_then(|name| unit_of_six(name));
+        match (found, unit) {
+            (Some(name), Some(unit)) => Ok(Channel::of(name, unit.symbol())),
+            _ => Err(Usage::error(format!(
+                "--channel {}: the result has no score of it, expected one of {}",
+                shown(asked.unwrap_or("Fz")),
+                known.join(", ")
+            ))),
+        }
+    }
+
+    /// Half of the label that is farthest from 0, to two digits; 1 without labels.
+    pub(super) fn middle_of(&self, channel: &Channel) -> f64 {
+        let samples = self.report.samples.as_ref();
+        let labels = samples.and_then(|samples| samples.channel(&channel.name));
+        let truths = labels.into_iter().flat_map(|of| of.truths());
+        let farthest = truths.fold(0.0_f64, |far, truth| match truth.abs() > far.abs() {
+            true => truth,
+            false => far,
+        });
+        let half = format!("{:.1e}", farthest / 2.0).parse().unwrap_or(0.0_f64);
+        if half.abs() > 0.0 { half } else { 1.0 }
+    }
+
+    /// Components of the residuals of one part of the protocol, by the words of a column.
+    fn components(
+        &self,
+        channel: &Channel,
+        part: &str,
+        column: &str,
+    ) -> Result<Components, String> {
+        let Some(samples) = &self.report.samples else {
+            let message = self.without_samples.as_deref();
+            let message = message.unwrap_or("the result has no samples");
+            return Err(format!(
+                "{message}; `--samples-out` of evaluate writes them"
+            ));
+        };
+        let pairs = samples.channel(&channel.name);
+        let Some(pairs) = pairs.filter(|of| of.is_predicted()) else {
+            return Err("the samples have no prediction of it".to_owned());
+        };
+        if !samples.has(column) {
+            return Err(format!("the samples have no column `{column}`"));
+        }
+        let mut residuals = Residuals::default();
+        for row in samples.of_protocol(part) {
+            let word = samples.word(column, row);
+            if let (Some([truth, prediction]), Some(word)) = (pairs.pair(row), word) {
+                residuals.add(word, truth, prediction);
+            }
+        }
+        residuals.components().map_err(|error| error.to_string())
+    }
+
+    /// Score of the channel, by the variant that decides verdicts.
+    fn score(&self, metric: &str, channel: &Channel) -> Result<Score, String> {
+        let Some(score) = self.report.score(metric, &channel.name) else {
+            let what = format!("metric:{metric}");
+            let skip = self.report.skipped.iter().find(|skip| skip.what == what);
+            return Err(skip.map_or_else(|| "not scored".to_owned(), |skip| skip.reason.clone()));
+        };
+        Ok(score.deciding())
+    }
+
+    /// Figure of a score, or of the samples behind it.
+    fn figure(&self, figure: &str, channel: &Channel) -> Result<Figure, String> {
+        match figure {
+            "repeatability" => self.repeatability(channel),
+            "drift" => {
+                let score = self.score("drift", channel)?;
+                let slope = Figure::of_drift(number(&score)?);
+                Ok(noted(slope, &score))
+            }
+            "r_light" => self.light(channel),
+            _ => Err("no predictions while unloading".to_owned()),
+        }
+    }
+
+    /// Pooled deviation of repeats, with n − cells degrees of freedom.
+    fn repeatability(&self, channel: &Channel) -> Result<Figure, String> {
+        let score = self.score("repeatability", channel)?;
+        let mut counts = score.counts.iter();
+        let cells = counts.find(|(name, _)| name == "cells_total");
+        let freedom = cells.and_then(|(_, cells)| score.n.checked_sub(*cells));
+        let freedom = freedom.filter(|freedom| *freedom > 0);
+        let freedom = freedom.ok_or_else(|| "the result states no number of repeats".to_owned())?;
+        let figure = Figure::new(number(&score)?, Freedom::Finite(freedom as f64));
+        Ok(noted(figure, &score))
+    }
+
+    /// Deviation between lights of the mean residual.
+    fn light(&self, channel: &Channel) -> Result<Figure, String> {
+        let samples = self.report.samples.as_ref();
+        if samples.is_some_and(|samples| !samples.has("protocol")) {
+            return Err("the samples name no light sweep".to_owned());
+        }
+        let mut figure = self.components(channel, "light-sweep", "scene")?.between;
+        figure
+            .digest
+            .clone_from(&self.report.provenance.samples_table);
+        Ok(figure)
+    }
+}
+
+fn number(score: &Score) -> Result<f64, String> {
+    let reason = score.value.reason();
+    let reason = || reason.unwrap_or_else(|| "not a number".to_owned());
+    score.value.number().ok_or_else(reason)
+}
+
+/// The figure with the number of samples and the reservation of its score.
+fn noted(mut figure: Figure, score: &Score) -> Figure {
+    figure.n = Some(score.n);
+    figure.note = score.standing.reason().map(str::to_owned);
+    figure
+}

@@ -1,0 +1,133 @@
+//! A day of the calendar.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// A day of the Gregorian calendar, written `2026-05-12`. Days compare by time.
+///
+/// ```
+/// use taceva_core::Date;
+/// let issued: Date = "2026-05-12".parse()?;
+/// assert!(issued < Date::of_unix_s(1_800_000_000));
+/// assert!("2026-02-29".parse::<Date>().is_err());
+/// # Ok::<(), taceva_core::DateError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Date {
+    year: u64,
+    month: u64,
+    day: u64,
+}
+
+impl Date {
+    /// The UTC day of a time in seconds since 1970.
+    pub fn of_unix_s(seconds: u64) -> Date {
+        // In the calendar that repeats every 400 years, with years that begin in March.
+        let days = seconds / 86_400 + 719_468;
+        let (era, day) = (days / 146_097, days % 146_097);
+        let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;
+        let day = day - (365 * year + year / 4 - year / 100);
+        let month = (5 * day + 2) / 153;
+        let day = day - (153 * month + 2) / 5 + 1;
+        let (month, next) = if month < 10 {
+            (month + 3, 0)
+        } else {
+            (month - 9, 1)
+        };
+        Date {
+            year: era * 400 + year + next,
+            month,
+            day,
+        }
+    }
+}
+
+impl fmt::Display for Date {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:04}-{:02}-{:02}", self.year, self.month, self.day)
+    }
+}
+
+impl FromStr for Date {
+    type Err = DateError;
+
+    fn from_str(text: &str) -> Result<Date, DateError> {
+        let mut parts = text.split('-').map(|part| {
+            let is_of_digits = part.bytes().all(|byte| byte.is_ascii_digit());
+            part.parse::<u64>().ok().filter(|_| is_of_digits)
+        });
+        let mut next = || parts.next().flatten().ok_or(DateError);
+        let (year, month, day) = (next()?, next()?, next()?);
+        let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+        let length = match month {
+            2 => 28 + u64::from(is_leap),
+            4 | 6 | 9 | 11 => 30,
+            1..=12 => 31,
+            _ => return Err(DateError),
+        };
+        let date = Date { year, month, day };
+        let is_written_so = year <= 9_999 && date.to_string() == text;
+        match (1..=length).contains(&day) && is_written_so {
+            true => Ok(date),
+            false => Err(DateError),
+        }
+    }
+}
+
+/// A text that is no day of the calendar.
+///
+/// ```
+/// use taceva_core::Date;
+/// let error = "12.05.2026".parse::<Date>().unwrap_err();
+/// assert_eq!(error.to_string(), "a day such as 2026-05-12");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DateError;
+
+impl fmt::Display for DateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a day such as 2026-05-12")
+    }
+}
+
+impl std::error::Error for DateError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn days_have_their_dates() {
+        for (day, date) in [
+            (0_u64, "1970-01-01"),
+            (59, "1970-03-01"),
+            (11_016, "2000-02-29"),
+            (20_779, "2026-11-22"),
+            (47_540, "2100-02-28"),
+            (47_541, "2100-03-01"),
+        ] {
+            assert_eq!(Date::of_unix_s(day * 86_400).to_string(), date);
+            assert_eq!(date.parse(), Ok(Date::of_unix_s(day * 86_400 + 86_399)));
+        }
+    }
+
+    #[test]
+    fn a_day_that_the_calendar_lacks_or_that_is_written_otherwise_is_refused() {
+        for text in [
+            "2026-02-29",
+            "2026-13-01",
+            "2026-00-10",
+            "2026-05-00",
+            "2026-5-12",
+            "２026-11-2",
+            "2026-05-12T10:00:00",
+            "2026-05-12-01",
+            "+026-05-12",
+            "12.05.2026",
+            "12026-05-12",
+            "",
+        ] {
+            assert_eq!(text.parse::<Date>(), Err(DateError), "{text}");
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Traceability of labels: the instrument that measured them, and its calibration certificate.
+
+mod certificate;
+mod coverage;
+mod error;
+mod instrument;
+#[cfg(feature = "serde")]
+mod written;
+
+pub use certificate::{Certificate, StatedCorrelation};
+pub use coverage::Coverage;
+pub use error::CertificateError;
+pub use instrument::Instrument;
+
+use crate::date::Date;
+
+/// Traceability of one instrument's labels.
+///
+/// ```
+/// use taceva_core::{Amount, Certificate, Coverage, Instrument, Traceability};
+/// let issued = "2026-05-12".parse()?;
+/// let mut certificate = Certificate::new("D-K-1", "a laboratory", issued, "M3813B-0042", Coverage::Factor(2.0));
+/// certificate.expanded.insert("Fz".to_owned(), "3 mN".parse()?);
+/// let traced = Traceability::new(Instrument::Force).with_certificate(certificate)?;
+/// assert_eq!(traced.to_string(), "force: certificate D-K-1 of a laboratory, 2026-05-12, serial M3813B-0042");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Traceability {
+    /// Instrument that measured the labels.
+    pub instrument: Instrument,
+    /// Driver that read the instrument: `ati/netft`; `None` of an import.
+    pub driver: Option<String>,
+    /// Serial number that the driver read; `None` if it reads none.
+    pub serial: Option<String>,
+    /// Calibration certificate; `None` if the labels are not traceable.
+    pub certificate: Option<Certificate>,
+}
+
+impl Traceability {
+    /// An instrument without driver and certificate.
+    pub fn new(instrument: Instrument) -> Traceability {
+        Traceability {
+            instrument,
+            driver: None,
+            serial: None,
+            certificate: None,
+        }
+    }
+
+    /// The same instrument, read by `driver`, which reads this serial number.
+    #[must_use]
+    pub fn with_driver(self, driver: impl Into<String>, serial: Option<String>) -> Traceability {
+        Traceability {
+            driver: Some(driver.into()),
+            serial,
+            ..self
+        }
+    }
+
+    /// The same instrument with a certificate.
+    ///
+    /// # Errors
+    /// [`CertificateError`] as of [`Certificate::check`].
+    pub fn with_certificate(
+        self,
+        certificate: Certificate,
+    ) -> Result<Traceability, CertificateError> {
+        certificate.check(self.instrument)?;
+        Ok(Traceability {
+            certificate: Some(certificate),
+            ..self
+        })
+    }
+
+    /// The certificate, and the serial number of the instrument, if these contradict each other.
+    pub fn other_serial(&self) -> Option<(&Certificate, &str)> {
+        let certificate = self.certificate.as_ref()?;
+        let read = self.serial.as_deref()?;
+        (read != certificate.serial).then_some((certificate, read))
+    }
+
+    /// The certificate, and its last day, if it had expired on `day`.
+    pub fn expired_on(&self, day: Date) -> Option<(&Certificate, Date)> {
+        let certificate = self.certificate.as_ref()?;
+        let until = certificate.valid_until?;
+        (day > until).then_some((certificate, until))
+    }
+}
+
+impl std::fmt::Display for Traceability {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: ", self.instrument)?;
+        match &self.certificate {
+            Some(certificate) => certificate.fmt(f),
+            None => f.write_str("no certificate"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,270 @@
+//! Calibration certificate of an instrument.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use super::coverage::Coverage;
+use super::error::CertificateError;
+use super::instrument::Instrument;
+use crate::date::Date;
+use crate::printable::shown;
+use crate::suggestion::suggestion;
+use crate::unit::{Amount, Unit};
+
+/// Calibration certificate of an instrument, by channel.
+///
+/// ```
+/// use taceva_core::{Certificate, Coverage, Instrument};
+/// let issued = "2026-05-12".parse()?;
+/// let mut certificate = Certificate::new("D-K-1", "a laboratory", issued, "M3813B-0042", Coverage::Factor(2.0));
+/// certificate.expanded.insert("Fz".to_owned(), "3.0 mN".parse()?);
+/// certificate.range.insert("Fz".to_owned(), ["0.05 N".parse()?, "50 N".parse()?]);
+/// certificate.check(Instrument::Force)?;
+/// assert!(!certificate.covers("Fz", 80.0) && certificate.covers("Fx", 80.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Certificate {
+    /// Number of the certificate.
+    pub number: String,
+    /// Laboratory that issued it.
+    pub laboratory: String,
+    /// Accreditation of the laboratory: `DAkkS D-K-15063-01-00`.
+    pub accreditation: Option<String>,
+    /// Day of issue.
+    pub issued: Date,
+    /// Last day of validity.
+    pub valid_until: Option<Date>,
+    /// Serial number of the instrument.
+    pub serial: String,
+    /// Coverage of all expanded uncertainties.
+    pub coverage: Coverage,
+    /// Expanded uncertainty by channel, equal at all readings: `U`.
+    pub expanded: BTreeMap<String, Amount>,
+    /// Expanded uncertainty by channel, as a share of the reading: `U_relative`.
+    pub relative: BTreeMap<String, f64>,
+    /// Least and greatest calibrated value by channel.
+    pub range: BTreeMap<String, [Amount; 2]>,
+    /// Correlations of uncertainties; those of other pairs are 0.
+    pub correlation: Vec<StatedCorrelation>,
+    /// Temperature of the calibration, as stated: `23 ± 2 C`.
+    pub temperature: Option<String>,
+    /// Name of the certificate's file.
+    pub file: Option<String>,
+    /// SHA-256 of that file, as 64 hexadecimal digits.
+    pub sha256: Option<String>,
+}
+
+/// Correlation of the uncertainties of two channels, as a certificate states it. It gets no further field.
+///
+/// ```
+/// use taceva_core::StatedCorrelation;
+/// let unknown = StatedCorrelation { between: ["Fx".to_owned(), "Fy".to_owned()], coefficient: None };
+/// assert!(unknown.coefficient.is_none());
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct StatedCorrelation {
+    /// The two channels.
+    pub between: [String; 2],
+    /// Coefficient from -1 to 1; `None` if the certificate leaves it unknown.
+    pub coefficient: Option<f64>,
+}
+
+impl Certificate {
+    /// A certificate without uncertainties and ranges yet.
+    pub fn new(
+        number: impl Into<String>,
+        laboratory: impl Into<String>,
+        issued: Date,
+        serial: impl Into<String>,
+        coverage: Coverage,
+    ) -> Certificate {
+        Certificate {
+            number: number.into(),
+            laboratory: laboratory.into(),
+            accreditation: None,
+            issued,
+            valid_until: None,
+            serial: serial.into(),
+            coverage,
+            expanded: BTreeMap::new(),
+            relative: BTreeMap::new(),
+            range: BTreeMap::new(),
+            correlation: Vec::new(),
+            temperature: None,
+            file: None,
+            sha256: None,
+        }
+    }
+
+    /// True if `value` lies in the range of `channel`, or the certificate states none. The value is in the channel's stored unit.
+    pub fn covers(&self, channel: &str, value: f64) -> bool {
+        let range = self.range.get(channel);
+        range.is_none_or(|[least, most]| (least.value..=most.value).contains(&value))
+    }
+
+    /// Checks that the certificate can be one of `instrument`.
+    ///
+    /// # Errors
+    /// [`CertificateError`], which names the key, the value and what is expected.
+    pub fn check(&self, instrument: Instrument) -> Result<(), CertificateError> {
+        self.check_texts()?;
+        self.check_coverage()?;
+        if self.expanded.is_empty() && self.relative.is_empty() {
+            return Err(CertificateError::NoUncertainty);
+        }
+        for (channel, amount) in &self.expanded {
+            let key = format!("U.{channel}");
+            check_amount(instrument, &key, channel, amount)?;
+            check_size(&key, amount.to_string(), amount.value)?;
+        }
+        for (channel, share) in &self.relative {
+            let key = format!("U_relative.{channel}");
+            check_channel(instrument, &key, channel)?;
+            check_size(&key, share.to_string(), *share)?;
+        }
+        for (channel, [least, most]) in &self.range {
+            let key = format!("range.{channel}");
+            check_amount(instrument, &key, channel, least)?;
+            check_amount(instrument, &key, channel, most)?;
+            if least.value > most.value {
+                let found = format!("{least} to {most}");
+                let expected = "the least value before the greatest";
+                return Err(CertificateError::value(key, found, expected));
+            }
+        }
+        for correlation in &self.correlation {
+            correlation.check(instrument)?;
+        }
+        Ok(())
+    }
+
+    fn check_texts(&self) -> Result<(), CertificateError> {
+        let required = [
+            ("number", &self.number),
+            ("laboratory", &self.laboratory),
+            ("serial", &self.serial),
+        ];
+        for (key, text) in required {
+            if text.trim().is_empty() {
+                let expected = "a text that is not empty";
+                return Err(CertificateError::value(key, text, expected));
+            }
+        }
+        if let Some(until) = self.valid_until.filter(|until| *until < self.issued) {
+            let expected = format!("a day not before `issued`, {}", self.issued);
+            return Err(CertificateError::value(
+                "valid_until",
+                until.to_string(),
+                expected,
+            ));
+        }
+        let is_digest =
+            |text: &str| text.len() == 64 && text.bytes().all(|letter| letter.is_ascii_hexdigit());
+        match &self.sha256 {
+            Some(text) if !is_digest(text) => Err(CertificateError::value(
+                "sha256",
+                text,
+                "64 hexadecimal digits",
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_coverage(&self) -> Result<(), CertificateError> {
+        let refused = |key: &str, number: f64, expected: &str| {
+            Err(CertificateError::value(key, number.to_string(), expected))
+        };
+        match self.coverage {
+            Coverage::Factor(k) if !(k > 0.0 && k.is_finite()) => {
+                refused("k", k, "a number above 0")
+            }
+            Coverage::Probability { p, .. } if !(p > 0.0 && p < 1.0) => {
+                refused("p", p, "a number between 0 and 1")
+            }
+            Coverage::Probability { dof: Some(dof), .. } if !(dof > 0.0 && dof.is_finite()) => {
+                refused("dof", dof, "a number above 0")
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl StatedCorrelation {
+    fn check(&self, instrument: Instrument) -> Result<(), CertificateError> {
+        let [first, second] = &self.between;
+        for channel in [first, second] {
+            check_channel(instrument, "correlation", channel)?;
+        }
+        if first == second {
+            let expected = "two different channels";
+            return Err(CertificateError::value("correlation", first, expected));
+        }
+        let is_wrong = |r: &f64| !(-1.0..=1.0).contains(r);
+        match self.coefficient.filter(is_wrong) {
+            Some(r) => Err(CertificateError::value(
+                "correlation",
+                r.to_string(),
+                "a number from -1 to 1, or \"unknown\"",
+            )),
+            None => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for Certificate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "certificate {} of {}, {}, serial {}",
+            shown(&self.number),
+            shown(&self.laboratory),
+            self.issued,
+            shown(&self.serial)
+        )?;
+        match self.valid_until {
+            Some(until) => write!(f, ", valid until {until}"),
+            None => Ok(()),
+        }
+    }
+}
+
+fn check_channel(
+    instrument: Instrument,
+    key: &str,
+    channel: &str,
+) -> Result<Unit, CertificateError> {
+    instrument.unit_of(channel).ok_or_else(|| {
+        let known: Vec<&str> = instrument.channels().map(|(name, _)| name).collect();
+        let expected = format!(
+            "a channel of the {}: {}",
+            instrument.noun(),
+            suggestion(channel, &known)
+        );
+        CertificateError::value(key, channel, expected)
+    })
+}
+
+fn check_amount(
+    instrument: Instrument,
+    key: &str,
+    channel: &str,
+    amount: &Amount,
+) -> Result<(), CertificateError> {
+    let unit = check_channel(instrument, key, channel)?;
+    match amount.unit == unit && amount.value.is_finite() {
+        true => Ok(()),
+        false => {
+            let expected = format!("an amount in {unit} or a unit of the same quantity");
+            Err(CertificateError::value(key, amount.to_string(), expected))
+        }
+    }
+}
+
+fn check_size(key: &str, found: String, number: f64) -> Result<(), CertificateError> {
+    match number >= 0.0 && number.is_finite() {
+        true => Ok(()),
+        false => Err(CertificateError::value(key, found, "0 or more")),
+    }
+}

@@ -1,0 +1,93 @@
+//! The instruments whose certificates make labels traceable.
+
+use std::fmt;
+
+use crate::unit::Unit;
+
+/// An instrument of a rig whose readings become labels, or the sensor itself.
+///
+/// ```
+/// use taceva_core::{Instrument, Unit};
+/// assert_eq!(Instrument::Force.to_string(), "force");
+/// assert_eq!(Instrument::Force.unit_of("Fz"), Some(Unit::Newton));
+/// assert_eq!(Instrument::Force.unit_of("Pz"), None);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+#[non_exhaustive]
+pub enum Instrument {
+    /// Force transducer: forces and torques.
+    Force,
+    /// Robot: positions and angles.
+    Robot,
+    /// Tactile sensor: all of these.
+    Sensor,
+}
+
+/// Channels that a certificate can state, with their units.
+const CHANNELS: [(&str, Unit); 13] = [
+    ("Fx", Unit::Newton),
+    ("Fy", Unit::Newton),
+    ("Fz", Unit::Newton),
+    ("Tx", Unit::NewtonMillimetre),
+    ("Ty", Unit::NewtonMillimetre),
+    ("Tz", Unit::NewtonMillimetre),
+    ("Px", Unit::Millimetre),
+    ("Py", Unit::Millimetre),
+    ("Pz", Unit::Millimetre),
+    ("Rx", Unit::Degree),
+    ("Ry", Unit::Degree),
+    ("Rz", Unit::Degree),
+    ("tilt", Unit::Degree),
+];
+
+impl Instrument {
+    /// Every instrument.
+    pub const ALL: [Instrument; 3] = [Instrument::Force, Instrument::Robot, Instrument::Sensor];
+
+    /// Name of its table in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Instrument::Force => "force",
+            Instrument::Robot => "robot",
+            Instrument::Sensor => "sensor",
+        }
+    }
+
+    /// Name of the instrument in sentences.
+    pub const fn noun(self) -> &'static str {
+        match self {
+            Instrument::Force => "force transducer",
+            Instrument::Robot => "robot",
+            Instrument::Sensor => "sensor",
+        }
+    }
+
+    /// Channels that its certificate can state, with their units.
+    pub fn channels(self) -> impl Iterator<Item = (&'static str, Unit)> {
+        let channels = CHANNELS.into_iter();
+        channels.filter(move |(_, unit)| self.measures(*unit))
+    }
+
+    /// Unit of such a channel; `None` of every other one.
+    pub fn unit_of(self, channel: &str) -> Option<Unit> {
+        let mut channels = self.channels();
+        channels.find_map(|(known, unit)| (known == channel).then_some(unit))
+    }
+
+    fn measures(self, unit: Unit) -> bool {
+        let is_force = matches!(unit, Unit::Newton | Unit::NewtonMillimetre);
+        match self {
+            Instrument::Force => is_force,
+            Instrument::Robot => !is_force,
+            Instrument::Sensor => true,
+        }
+    }
+}
+
+impl fmt::Display for Instrument {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

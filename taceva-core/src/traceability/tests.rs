@@ -1,0 +1,176 @@
+use std::collections::BTreeMap;
+
+use super::*;
+use crate::unit::Amount;
+
+fn certificate() -> Certificate {
+    let issued = "2026-05-12".parse().expect("a day");
+    let mut certificate = Certificate::new(
+        "D-K-1",
+        "a laboratory",
+        issued,
+        "M3813B-0042",
+        Coverage::Factor(2.0),
+    );
+    certificate.valid_until = Some("2027-05-12".parse().expect("a day"));
+    certificate.expanded = BTreeMap::from([("Fz".to_owned(), amount("3.0 mN"))]);
+    certificate.range = BTreeMap::from([("Fz".to_owned(), [amount("0.05 N"), amount("50 N")])]);
+    certificate
+}
+
+fn amount(text: &str) -> Amount {
+    text.parse().expect("an amount")
+}
+
+/// The message about a certificate of a force transducer with one change.
+fn refused(change: impl FnOnce(&mut Certificate)) -> String {
+    let mut certificate = certificate();
+    change(&mut certificate);
+    let checked = certificate.check(Instrument::Force);
+    checked.expect_err("refused").to_string()
+}
+
+#[test]
+fn a_whole_certificate_of_the_instrument_is_accepted_and_covers_its_range_alone() {
+    let certificate = certificate();
+    assert_eq!(certificate.check(Instrument::Force), Ok(()));
+    assert_eq!(certificate.check(Instrument::Sensor), Ok(()));
+    assert!(certificate.covers("Fz", 50.0) && !certificate.covers("Fz", 50.1));
+    assert!(!certificate.covers("Fz", 0.0) && !certificate.covers("Fz", f64::NAN));
+    assert!(certificate.covers("Fx", 1e6));
+}
+
+#[test]
+fn a_channel_of_another_instrument_is_refused_with_those_of_this_one() {
+    let checked = certificate().check(Instrument::Robot);
+    assert_eq!(
+        checked.expect_err("refused").to_string(),
+        "`U.Fz` is `Fz`, expected a channel of the robot: expected one of `Px`, `Py`, `Pz`, `Rx`, `Ry`, `Rz`, `tilt`"
+    );
+    let message = refused(|certificate| {
+        certificate.range = BTreeMap::from([("Fzz".to_owned(), [amount("0 N"), amount("1 N")])]);
+    });
+    assert!(
+        message.starts_with(
+            "`range.Fzz` is `Fzz`, expected a channel of the force transducer: did you mean"
+        ),
+        "{message}"
+    );
+}
+
+#[test]
+fn an_uncertainty_in_a_unit_of_another_quantity_is_refused() {
+    let message = refused(|certificate| {
+        certificate.expanded = BTreeMap::from([("Fz".to_owned(), amount("2 mm"))]);
+    });
+    assert_eq!(
+        message,
+        "`U.Fz` is `2 mm`, expected an amount in N or a unit of the same quantity"
+    );
+}
+
+#[test]
+fn a_negative_uncertainty_and_one_that_is_no_number_are_refused() {
+    let message = refused(|certificate| {
+        certificate.expanded = BTreeMap::from([("Fz".to_owned(), amount("-2 mN"))]);
+    });
+    assert_eq!(message, "`U.Fz` is `-0.002 N`, expected 0 or more");
+    for share in [-0.1, f64::NAN, f64::INFINITY] {
+        let message = refused(|certificate| {
+            certificate.relative.insert("Fz".to_owned(), share);
+        });
+        assert!(message.starts_with("`U_relative.Fz` is "), "{message}");
+    }
+}
+
+#[test]
+fn a_certificate_without_any_uncertainty_is_refused() {
+    let message = refused(|certificate| certificate.expanded.clear());
+    assert!(message.contains("states no uncertainty"), "{message}");
+}
+
+#[test]
+fn a_coverage_that_is_no_factor_and_no_probability_is_refused() {
+    for (coverage, start) in [
+        (Coverage::Factor(0.0), "`k` is `0`"),
+        (Coverage::Factor(f64::NAN), "`k` is `NaN`"),
+        (Coverage::Probability { p: 1.0, dof: None }, "`p` is `1`"),
+        (
+            Coverage::Probability {
+                p: 0.95,
+                dof: Some(0.0),
+            },
+            "`dof` is `0`",
+        ),
+    ] {
+        let message = refused(|certificate| certificate.coverage = coverage);
+        assert!(message.starts_with(start), "{message}");
+    }
+}
+
+#[test]
+fn a_certificate_issued_after_its_last_day_is_refused() {
+    let message = refused(|certificate| {
+        certificate.valid_until = Some("2026-05-11".parse().expect("a day"));
+    });
+    assert_eq!(
+        message,
+        "`valid_until` is `2026-05-11`, expected a day not before `issued`, 2026-05-12"
+    );
+}
+
+#[test]
+fn empty_texts_and_a_digest_that_is_none_are_refused() {
+    let message = refused(|certificate| certificate.serial = " ".to_owned());
+    assert!(message.starts_with("`serial` is"), "{message}");
+    let message = refused(|certificate| certificate.sha256 = Some("ab".to_owned()));
+    assert!(
+        message.ends_with("expected 64 hexadecimal digits"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_range_backwards_and_a_correlation_beyond_one_are_refused() {
+    let message = refused(|certificate| {
+        certificate.range = BTreeMap::from([("Fz".to_owned(), [amount("5 N"), amount("1 N")])]);
+    });
+    assert!(
+        message.starts_with("`range.Fz` is `5 N to 1 N`"),
+        "{message}"
+    );
+    for (second, coefficient, end) in [
+        ("Fy", 1.1, "a number from -1 to 1, or \"unknown\""),
+        ("Fx", 0.5, "two different channels"),
+    ] {
+        let between = ["Fx".to_owned(), second.to_owned()];
+        let stated = StatedCorrelation {
+            between,
+            coefficient: Some(coefficient),
+        };
+        let message = refused(|certificate| certificate.correlation.push(stated));
+        assert!(message.ends_with(end), "{message}");
+    }
+}
+
+#[test]
+fn another_serial_number_and_an_expired_day_are_found() {
+    let traced = Traceability::new(Instrument::Force).with_driver("ati/netft", None);
+    let traced = traced.with_certificate(certificate()).expect("accepted");
+    assert!(traced.other_serial().is_none());
+    let same = traced
+        .clone()
+        .with_driver("ati/netft", Some("M3813B-0042".to_owned()));
+    assert!(same.other_serial().is_none());
+    let other = traced
+        .clone()
+        .with_driver("ati/netft", Some("M3813B-0043".to_owned()));
+    assert!(
+        other
+            .other_serial()
+            .is_some_and(|(_, read)| read == "M3813B-0043")
+    );
+    let day = |text: &str| text.parse().expect("a day");
+    assert!(traced.expired_on(day("2027-05-12")).is_none());
+    assert!(traced.expired_on(day("2027-05-13")).is_some());
+}
