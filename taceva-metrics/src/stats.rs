@@ -40,6 +40,7 @@ pub use by_intervals::by_intervals;
 pub use cluster_sums::{ClusterSum, ClusterSums};
 pub use clusters::{Clusters, NAMED_CLUSTERS};
 pub use difference::{Difference, DifferenceTest, decide};
+pub(crate) use difference_line::chance;
 pub use difference_line::{DifferenceLine, Proportional};
 pub(crate) use ends::Estimated;
 pub use error::ComparisonError;

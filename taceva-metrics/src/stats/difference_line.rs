@@ -88,7 +88,7 @@ impl DifferenceLine {
 }
 
 /// Probability that chance alone gives a slope as far from 0; without uncertainty, 1 for no slope and 0 for any other.
-fn chance(slope: f64, standard_error: f64, freedom: f64) -> f64 {
+pub(crate) fn chance(slope: f64, standard_error: f64, freedom: f64) -> f64 {
     match standard_error > 0.0 {
         true => 2.0 * student_t::above(slope.abs() / standard_error, freedom),
         false if slope.abs() > 0.0 => 0.0,

@@ -70,7 +70,9 @@ pub struct OneWaySums {
     squared_sizes: u64,
     sum: ExactSum,
     squares: ExactSum,
-    /// Σ (Σ x)² of the groups of each size, so that a quotient is formed once a size.
+    /// Σ x² of the groups of one reading.
+    singles: ExactSum,
+    /// Σ (Σ x)² of the larger groups of each size, so that a quotient is formed once a size.
     of_sizes: BTreeMap<u64, Dyadic>,
 }
 
@@ -86,8 +88,12 @@ impl OneWaySums {
         self.squared_sizes = self.squared_sizes.saturating_add(squared_size);
         self.sum.merge(&group.sum);
         self.squares.merge(&group.squares);
-        let of_group = group.sum.to_dyadic();
-        self.add_of_size(group.n, &(&of_group * &of_group));
+        if group.n == 1 {
+            self.singles.merge(&group.squares);
+        } else {
+            let of_group = group.sum.to_dyadic();
+            self.add_of_size(group.n, &(&of_group * &of_group));
+        }
     }
 
     /// Adds other groups.
@@ -97,6 +103,7 @@ impl OneWaySums {
         self.squared_sizes = self.squared_sizes.saturating_add(other.squared_sizes);
         self.sum.merge(&other.sum);
         self.squares.merge(&other.squares);
+        self.singles.merge(&other.singles);
         for (size, above) in &other.of_sizes {
             self.add_of_size(*size, above);
         }
@@ -125,7 +132,8 @@ impl OneWaySums {
             return None;
         }
         let of_sizes = self.of_sizes.iter();
-        let of_groups = of_sizes.fold(Fraction::zero(), |all, (size, above)| {
+        let singles = Fraction::of(self.singles.to_dyadic(), 1);
+        let of_groups = of_sizes.fold(singles, |all, (size, above)| {
             all.plus(&Fraction::of(above.clone(), *size))
         });
         let sum = self.sum.to_dyadic();
