@@ -241,6 +241,26 @@ fn limits_of_errors_say_why_there_are_none() {
 }
 
 #[test]
+fn a_bootstrap_of_other_scores_leaves_the_intervals_of_limits_as_they_are() {
+    let methods = [
+        taceva_metrics::IntervalMethod::Jackknife,
+        taceva_metrics::IntervalMethod::PoissonBootstrap(Default::default()),
+    ];
+    let [one, other] = methods.map(|method| {
+        let channels = Channels::new([Channel::FZ]).expect("one channel");
+        let wanted = catalogue::select(["agreement", "tolerance_interval"]).expect("known names");
+        let plan = MetricPlan::new(&wanted, channels, FieldSet::PAIRS).with_interval_method(method);
+        let mut evaluator = Evaluator::new(&plan);
+        for sample in clusters() {
+            evaluator.accept(&sample).expect("the plan's channels");
+        }
+        format!("{:?}", evaluator.finish().expect("scores"))
+    });
+    assert!(one.contains("Components") && one.contains("Jackknife"));
+    assert_eq!(one, other);
+}
+
+#[test]
 fn limits_of_a_plane_are_the_means_of_both_axes() {
     let samples: Vec<Sample> = (0..12_u32)
         .map(|row| {
