@@ -29,6 +29,8 @@ const IDLE_METRICS: [&str; 2] = ["noise_equivalent_force", "zero_error"];
 const LIGHT: u32 = 30;
 /// Metric of light presses.
 const LIGHT_METRIC: &str = "detection_limit";
+/// Metric whose value falls with the number of contact points by its definition, so that no study of many states its expected score.
+const FALLING: &str = "tolerance_interval";
 /// Studies whose mean is the expected score of light presses.
 const LIGHT_STUDIES: u32 = 4000;
 /// Channels that the table shows.
@@ -171,7 +173,9 @@ fn scores(evaluation: &Evaluation) -> BTreeMap<Name, (f64, Option<[f64; 2]>)> {
     let ends = |interval: Option<Interval>| interval.and_then(|interval| interval.ends());
     let mut found = BTreeMap::new();
     let shown = |label: &str| LABELS.contains(&label);
-    for (metric, label, score) in evaluation.scores().filter(|(_, label, _)| shown(label)) {
+    let scores = evaluation.scores();
+    let scores = scores.filter(|(metric, label, _)| shown(label) && metric.id != FALLING);
+    for (metric, label, score) in scores {
         let name = format!("{} {label}", metric.id);
         if let Some(value) = score.value.scalar() {
             found.insert(name.clone(), (value, ends(Some(score.interval))));

@@ -1,5 +1,6 @@
 //! Catalogue of every metric: the only source of names, units, directions, definitions and texts.
 
+mod agreement;
 mod bias;
 mod direction;
 mod entry_points;
@@ -14,6 +15,7 @@ mod signal_to_repeatability;
 mod skill;
 mod smape;
 mod smape_gated;
+mod tolerance_interval;
 mod uniformity;
 mod unknown_metric;
 mod zero_error;
@@ -35,7 +37,7 @@ use crate::families::spatial::R_SPATIAL;
 use crate::families::tolerance::TOLERANCE;
 
 /// Every metric, in the order of reports.
-pub static ALL: [&Metric; 26] = [
+pub static ALL: [&Metric; 28] = [
     &mae::MAE,
     &rmse::RMSE,
     &bias::BIAS,
@@ -61,6 +63,8 @@ pub static ALL: [&Metric; 26] = [
     &CROSSTALK,
     &BIAS_LEVEL,
     &TOLERANCE,
+    &agreement::AGREEMENT,
+    &tolerance_interval::TOLERANCE_INTERVAL,
     &DRIFT,
 ];
 

@@ -21,8 +21,12 @@ pub mod f_ratio;
 mod gamma;
 pub mod noncentral_t;
 pub mod normal;
+mod quadrature;
 pub mod student_t;
 mod tails;
+pub mod tolerance;
+
+pub use quadrature::integral;
 
 #[cfg(test)]
 mod tests {

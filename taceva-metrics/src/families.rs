@@ -12,6 +12,7 @@ pub(crate) mod clustered_excess;
 pub(crate) mod crosstalk;
 pub(crate) mod detection;
 pub(crate) mod drift;
+pub(crate) mod error_limits;
 pub(crate) mod hysteresis;
 pub(crate) mod idle;
 pub(crate) mod inter_sensor;

@@ -20,7 +20,9 @@ pub use error::MetricError;
 pub use evaluate::{
     Evaluation, Evaluator, Metric, MetricPlan, Number, Rows, ScoreUnit, Settings, State,
 };
-pub use exact::{Canonical, CanonicalError, Dyadic, ExactSum, Record, Stream, Streams};
+pub use exact::{
+    Canonical, CanonicalError, Dyadic, ExactSum, Fraction, Moments, Record, Stream, Streams,
+};
 pub use families::accuracy::pair_sums::{PairSpec, PairSums};
 pub use families::accuracy::plane::{PLANES, plane_axes, plane_of};
 pub use families::intrinsic::times::STREAM_S;
@@ -40,10 +42,10 @@ pub use score::{
     Variant,
 };
 pub use stats::{
-    ClusterSum, ClusterSums, Clusters, ComparisonError, Difference, DifferenceTest, Estimate,
-    HASHED_CLUSTERS, IntervalMethod, NAMED_CLUSTERS, PoissonBootstrap, Question, Repeats, Side,
-    Sides, SignFlip, StatedInterval, TrainingSpread, Verdict, by_intervals, decide, holm,
-    paired_over_trainings,
+    ClusterSum, ClusterSums, Clusters, ComparisonError, Difference, DifferenceLine, DifferenceTest,
+    Estimate, HASHED_CLUSTERS, IntervalMethod, NAMED_CLUSTERS, NormalSample, OneWay, OneWaySums,
+    PoissonBootstrap, Proportional, Question, Repeats, Side, Sides, SignFlip, StatedInterval,
+    TrainingSpread, Verdict, by_intervals, decide, holm, paired_over_trainings,
 };
 // Types in these signatures, so that a caller needs no other crate.
 pub use taceva_core::{

@@ -24,6 +24,8 @@ pub(crate) struct FamilyKind {
     pub(crate) is_whole: bool,
     /// True if the plan chooses the clusters; else they are contact points.
     pub(crate) clusters_of_plan: bool,
+    /// True if its intervals do not follow the plan's method: they all come from [`Family::intervals`].
+    pub(crate) own_intervals: bool,
     /// Fields that are read if samples carry them.
     pub(crate) optional: FieldSet,
     /// Obstacle to a value of its metrics, other than missing needs.
@@ -42,6 +44,7 @@ impl FamilyKind {
             schema,
             is_whole: false,
             clusters_of_plan: false,
+            own_intervals: false,
             optional: FieldSet::EMPTY,
             obstacle: |_| None,
             build,

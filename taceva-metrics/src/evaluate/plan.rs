@@ -78,8 +78,8 @@ impl MetricPlan {
     }
 
     /// The same plan for independent samples: every sample is its own cluster in intervals of errors, R², skill, planes, linearity,
-    /// cross-talk, bias by level and tolerance. Each of these intervals says `samples taken as independent`. Metrics that need to know
-    /// which samples belong together keep contact points.
+    /// cross-talk, bias by level, tolerance, agreement and tolerance interval. Each of these intervals says `samples taken as independent`.
+    /// Metrics that need to know which samples belong together keep contact points.
     ///
     /// Presses at one location are not independent: such intervals would contain the truth too seldom (`docs/coverage.md`). A cluster is
     /// named by its sample ([`Batch::with_samples`](taceva_core::Batch::with_samples)). In a batch without these names, samples that are
@@ -102,9 +102,10 @@ impl MetricPlan {
     }
 
     /// The same plan for samples of several recordings, each of which is a cluster. Intervals of errors, R², skill, planes, linearity,
-    /// cross-talk, bias by level and tolerance then show the variation between recordings. Their method is named `by recording`. Batches
-    /// name the recording of each sample ([`Batch::with_recordings`](taceva_core::Batch::with_recordings)); without it these intervals are
-    /// undefined. Metrics that need to know which samples belong together keep contact points.
+    /// cross-talk, bias by level, tolerance, agreement and tolerance interval then show the variation between recordings. Their method is
+    /// named `by recording`. Batches name the recording of each sample
+    /// ([`Batch::with_recordings`](taceva_core::Batch::with_recordings)); without it these intervals are undefined. Metrics that need to
+    /// know which samples belong together keep contact points.
     ///
     /// ```
     /// use taceva_metrics::{Batch, Channel, Channels, Column, Evaluator, FieldSet, Labels, MetricPlan, catalogue};

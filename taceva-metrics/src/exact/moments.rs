@@ -5,23 +5,42 @@ use crate::exact::record::Record;
 use crate::exact::{Dyadic, ExactSum};
 
 /// Count and exact sums of values and of their squares.
+///
+/// ```
+/// use taceva_metrics::Moments;
+/// let mut first: Moments = [1.0, 2.0].into_iter().collect();
+/// let second: Moments = [4.0].into_iter().collect();
+/// first.merge(&second);
+/// assert_eq!((first.n, first.mean()), (3, Some(7.0 / 3.0)));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Moments {
-    pub(crate) n: u64,
-    pub(crate) sum: ExactSum,
-    pub(crate) squares: ExactSum,
+#[non_exhaustive]
+pub struct Moments {
+    /// Number of values.
+    pub n: u64,
+    /// Sum of the values.
+    pub sum: ExactSum,
+    /// Sum of their squares.
+    pub squares: ExactSum,
 }
 
 impl Moments {
     /// Adds `value`, which is finite.
-    pub(crate) fn add(&mut self, value: f64) {
+    pub fn add(&mut self, value: f64) {
         self.n += 1;
         self.sum.add(value);
         self.squares.add_product(value, value);
     }
 
+    /// Adds the values of another part.
+    pub fn merge(&mut self, other: &Moments) {
+        self.n = self.n.saturating_add(other.n);
+        self.sum.merge(&other.sum);
+        self.squares.merge(&other.squares);
+    }
+
     /// RN(S / n); `None` for no value.
-    pub(crate) fn mean(&self) -> Option<f64> {
+    pub fn mean(&self) -> Option<f64> {
         (self.n > 0).then(|| self.sum.to_dyadic().over(&Dyadic::from(self.n)))
     }
 
@@ -45,7 +64,7 @@ impl Moments {
     }
 
     /// n Sqq − S², exactly.
-    fn scaled_spread(&self) -> Dyadic {
+    pub(crate) fn scaled_spread(&self) -> Dyadic {
         let sum = self.sum.to_dyadic();
         &(&Dyadic::from(self.n) * &self.squares.to_dyadic()) - &(&sum * &sum)
     }
@@ -72,9 +91,7 @@ impl Moments {
 
 impl Merge for Moments {
     fn merge(&mut self, other: &Moments) {
-        self.n = self.n.saturating_add(other.n);
-        self.sum.merge(&other.sum);
-        self.squares.merge(&other.squares);
+        Moments::merge(self, other);
     }
 }
 

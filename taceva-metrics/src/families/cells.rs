@@ -82,13 +82,21 @@ impl<V: Merge + Clone + Default> BatchCells<'_, V> {
 impl<V: Merge + Clone + Default> Cells<V> {
     /// The cells for the rows of `batch`. A batch of rows without locations merges all cells into one, whichever of its rows count.
     pub(crate) fn of_batch<'a>(&'a mut self, batch: &'a Batch) -> BatchCells<'a, V> {
-        let points = batch.points();
-        if points.is_none() && batch.rows() > 0 {
+        self.of_labels(batch.points(), batch.rows())
+    }
+
+    /// The same for `rows` rows that are located by `labels`.
+    pub(crate) fn of_labels<'a>(
+        &'a mut self,
+        labels: Option<&'a Labels>,
+        rows: usize,
+    ) -> BatchCells<'a, V> {
+        if labels.is_none() && rows > 0 {
             self.forget_names();
         }
         BatchCells {
             cells: self,
-            points,
+            points: labels,
         }
     }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Channel};
 
-use crate::evaluate::family::{Details, Family, Numbers, Output, each_row};
+use crate::evaluate::family::{Details, Family, Intervals, Numbers, Output, each_row};
 use crate::evaluate::metric::Metric;
 use crate::evaluate::plan::MetricPlan;
 use crate::exact::merge::Merge;
@@ -47,6 +47,15 @@ pub(crate) trait Channelwise: Send + 'static {
     /// As [`Family::resampled`].
     fn resampled(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers {
         self.numbers(metric, output, sums)
+    }
+    /// As [`Family::intervals`], with the sums of the clusters for each part of the output.
+    fn intervals(
+        &self,
+        _metric: &Metric,
+        _output: &Output,
+        _clusters: &[Vec<&Self::Sums>],
+    ) -> Option<Intervals> {
+        None
     }
     /// Reason why the metric does not apply, if any.
     fn inapplicable(&self, _output: &Output) -> Option<InapplicableReason> {
@@ -130,6 +139,17 @@ impl<K: Channelwise> Family for ByChannel<K> {
 
     fn resampled(&self, metric: &Metric, output: &Output, sums: &K::Sums) -> Numbers {
         self.kind.resampled(metric, output, sums)
+    }
+
+    fn intervals(
+        &self,
+        metric: &Metric,
+        output: &Output,
+        clusters: &[&Vec<K::Sums>],
+    ) -> Option<Intervals> {
+        let of_part = |part: &usize| clusters.iter().map(|sums| &sums[*part]).collect();
+        let parts: Vec<Vec<&K::Sums>> = output.parts.iter().map(of_part).collect();
+        self.kind.intervals(metric, output, &parts)
     }
 
     fn inapplicable(&self, _metric: &Metric, output: &Output) -> Option<InapplicableReason> {

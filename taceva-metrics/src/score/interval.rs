@@ -114,7 +114,7 @@ pub enum Interval {
         /// Kind of the clusters.
         by: ClusteredBy,
     },
-    /// From the variance between and within clusters, for a spread beyond chance.
+    /// From the variance between and within clusters, for a spread beyond chance and for limits of agreement.
     Components {
         /// Lower end.
         low: f64,
@@ -122,7 +122,7 @@ pub enum Interval {
         high: f64,
         /// Half the width over t, on the score's own scale.
         standard_error: f64,
-        /// Degrees of freedom: one less than there are clusters.
+        /// Degrees of freedom: one less than there are clusters, or those of the standard deviation of errors.
         freedom: f64,
         /// Number of clusters with samples.
         clusters: usize,

@@ -142,6 +142,12 @@ pub enum UndefinedReason {
     },
     /// Repeats do not differ at all, so no ratio to them exists.
     EqualRepeats,
+    /// All errors are equal, so there is no scatter to describe.
+    EqualErrors,
+    /// All means of a truth and its prediction are equal, so no slope over them exists.
+    EqualMeans,
+    /// All samples are of one cluster, so the scatter between clusters is unknown.
+    OneCluster,
     /// No point has samples at two depths on both branches.
     ShortBranch,
     /// The compared ranges do not overlap.
@@ -244,6 +250,13 @@ impl fmt::Display for UndefinedReason {
                 write!(f, "{presses}, {least} are needed")
             }
             UndefinedReason::EqualRepeats => f.write_str("repeats do not differ"),
+            UndefinedReason::EqualErrors => f.write_str("errors do not differ"),
+            UndefinedReason::EqualMeans => {
+                f.write_str("means of truth and prediction do not differ")
+            }
+            UndefinedReason::OneCluster => {
+                f.write_str("several samples of one cluster, two clusters are needed")
+            }
             UndefinedReason::ShortBranch => f.write_str("no point has two depths on both branches"),
             UndefinedReason::NoOverlap => f.write_str("no common range"),
             UndefinedReason::NoForce => f.write_str("no force was measured"),

@@ -8,7 +8,7 @@ use taceva_core::{
 };
 use taceva_metrics::{Evaluator, MetricError, MetricPlan, SensorFacts, State, catalogue};
 
-const METRICS: [&str; 13] = [
+const METRICS: [&str; 15] = [
     "repeatability",
     "signal_to_repeatability",
     "hysteresis",
@@ -22,6 +22,8 @@ const METRICS: [&str; 13] = [
     "bias_level",
     "tolerance",
     "drift",
+    "agreement",
+    "tolerance_interval",
 ];
 
 fn config() -> ProptestConfig {

@@ -1,6 +1,7 @@
 //! Scores by press, unit, time and level of samples with a known answer, and reasons for missing ones.
 
 mod detection;
+mod limits;
 mod loops;
 mod predictions;
 mod recording;
@@ -130,6 +131,8 @@ fn values_that_are_no_numbers_are_counted_and_give_none() {
         "bias_level",
         "tolerance",
         "drift",
+        "agreement",
+        "tolerance_interval",
     ] {
         let evaluation = evaluate(metric, &channels, &[broken("a"), broken("b")]);
         for (_, label, score) in evaluation.scores() {

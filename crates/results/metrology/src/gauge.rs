@@ -30,7 +30,6 @@ mod assembly;
 mod cells;
 mod error;
 mod intervals;
-mod one_way;
 mod range;
 mod reading;
 mod report;
@@ -40,8 +39,6 @@ mod table;
 mod text;
 
 pub use error::GaugeError;
-pub(crate) use one_way::GroupSums;
-pub use one_way::OneWay;
 pub use range::{RangeConstants, RangeEstimate};
 pub use report::{
     Band, Component, ComponentName, Flag, GaugeReport, IntervalMethod, Ndc, NdcReason, SCHEMA,
@@ -49,3 +46,4 @@ pub use report::{
 pub use settings::{Design, GaugeSettings, Method};
 pub use study::GaugeStudy;
 pub use table::{Source, TableRow};
+pub use taceva_metrics::OneWay;

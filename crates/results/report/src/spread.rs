@@ -7,12 +7,14 @@ use crate::number::{numeral, spaced};
 use crate::results::Study;
 
 /// Metrics whose values depend on label spread, with the part of the protocol that supplies the labels.
-const OF_LABELS: [(&str, &str); 9] = [
+const OF_LABELS: [(&str, &str); 11] = [
+    ("agreement", CALIBRATION),
     ("mae", CALIBRATION),
     ("mae_euclid", CALIBRATION),
     ("rmse", CALIBRATION),
     ("smape", CALIBRATION),
     ("tolerance", CALIBRATION),
+    ("tolerance_interval", CALIBRATION),
     ("r_spatial", "spatial"),
     ("repeatability", "repeatability"),
     // Nothing is pressed there, so the labels are those of the training.

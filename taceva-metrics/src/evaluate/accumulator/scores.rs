@@ -27,7 +27,7 @@ impl Accumulator {
         let total = self.clustering.total(&self.clusters);
         let mut requests = self.requests(metrics, &total);
         let cells = self.clusters.cells();
-        if let Some(cells) = &cells {
+        if let Some(cells) = cells.as_ref().filter(|_| !self.kind.own_intervals) {
             self.resample(&mut requests, cells);
         }
         let requests = requests.into_iter();
@@ -152,13 +152,12 @@ impl Accumulator {
                 self.family.details(metric, &output, total),
             ),
         };
-        let own = match (self.interval_method, cells) {
-            (IntervalMethod::Jackknife, Some(cells)) => {
-                let cells: Vec<&ErasedSums> = cells.iter().map(|(_, cell)| *cell).collect();
-                self.family.intervals(metric, &output, &cells)
-            }
-            _ => None,
-        };
+        let is_jackknife = matches!(self.interval_method, IntervalMethod::Jackknife);
+        let is_own = self.kind.own_intervals || is_jackknife;
+        let own = cells.filter(|_| is_own).and_then(|cells| {
+            let cells: Vec<&ErasedSums> = cells.iter().map(|(_, cell)| *cell).collect();
+            self.family.intervals(metric, &output, &cells)
+        });
         let of_value = |value: &Value, name: Option<&str>| match value {
             Value::Undefined(reason) => Interval::Undefined(*reason),
             Value::Scalar(_) if cells.is_none() => Interval::Undefined(self.family.unclustered()),

@@ -3,11 +3,10 @@
 use std::collections::BTreeMap;
 
 use taceva_core::is_scorable;
-use taceva_metrics::ExactSum;
+use taceva_metrics::{ExactSum, Moments, OneWaySums};
 
 use super::evidence::{Evidence, Figure};
 use super::freedom::Freedom;
-use crate::gauge::{GroupSums, OneWay};
 
 /// Residuals d = truth − prediction by contact point, as exact sums. States of parts merge, in any order.
 ///
@@ -24,7 +23,7 @@ use crate::gauge::{GroupSums, OneWay};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Residuals {
-    points: BTreeMap<String, GroupSums>,
+    points: BTreeMap<String, Moments>,
     /// Rows whose truth or prediction is no number.
     n_invalid: u64,
 }
@@ -121,11 +120,12 @@ impl Residuals {
         let points = self.points.len() as u64;
         let count: u64 = self.points.values().map(|point| point.n).sum();
         let few = TooFewRows { n: count, points };
-        let model = OneWay::of_sums(self.points.values()).ok_or(few)?;
-        let mut squares = ExactSum::default();
+        let (mut sums, mut squares) = (OneWaySums::default(), ExactSum::default());
         for point in self.points.values() {
+            sums.add(point);
             squares.merge(&point.squares);
         }
+        let model = sums.model().ok_or(few)?;
         let of_points = Freedom::Finite(points as f64 - 1.0);
         let of_rows = Freedom::Finite(model.within_freedom);
         let figure = |u: f64, freedom: Freedom| Figure::new(u, freedom).of_rows(count, points);

@@ -1,10 +1,9 @@
 //! Global risks of accepting and of refusing, for units of one process.
 
-use taceva_metrics::distributions::normal;
+use taceva_metrics::distributions::{integral, normal};
 
 use super::error::check;
 use super::{ConformityError, Limits};
-use crate::quadrature::integral;
 
 /// Distance in standard deviations beyond which nothing is left.
 const FAR: f64 = 12.0;

@@ -1,12 +1,11 @@
 //! Sums of squares and components of variance, exactly.
 
 use taceva_metrics::distributions::f_ratio;
-use taceva_metrics::{Dyadic, ExactSum};
+use taceva_metrics::{Dyadic, ExactSum, Fraction};
 
 use super::cells::Balanced;
 use super::table::{Source, TableRow};
 use super::{Design, GaugeSettings};
-use crate::fraction::Fraction;
 
 /// A sum of squares with its degrees of freedom.
 #[derive(Clone, Debug)]

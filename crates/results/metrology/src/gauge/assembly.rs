@@ -1,5 +1,7 @@
 //! Reports put together from components, intervals and remarks.
 
+use taceva_metrics::Fraction;
+
 use super::anova::{Raw, Squares};
 use super::cells::Balanced;
 use super::intervals::{Intervals, intervals};
@@ -8,7 +10,6 @@ use super::report::{
     Band, Component, ComponentName, Flag, GaugeReport, IntervalMethod, Ndc, NdcReason, SCHEMA,
 };
 use super::{Design, GaugeSettings, Method, RangeConstants};
-use crate::fraction::Fraction;
 
 /// Fewest operators without a remark on their degrees of freedom.
 const FEW_OPERATORS: usize = 5;

@@ -1,12 +1,10 @@
 //! The method of average and range.
 
-use taceva_metrics::distributions::normal;
-use taceva_metrics::{Dyadic, ExactSum};
+use taceva_metrics::distributions::{integral, normal};
+use taceva_metrics::{Dyadic, ExactSum, Fraction};
 
 use super::anova::{count, real};
 use super::cells::Balanced;
-use crate::fraction::Fraction;
-use crate::quadrature::integral;
 
 /// Factors from a range to a standard deviation: 1 / d2 of the trials, 1 / d2* of the operators and of the parts.
 ///

@@ -5,6 +5,7 @@ mod budget;
 mod conformity;
 mod curve;
 mod gauge;
+mod metrics;
 mod quantiles;
 mod support;
 mod tolerance;

@@ -2,15 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use taceva_metrics::{Dyadic, ExactSum};
-
-use super::anova::real;
-use crate::fraction::Fraction;
+use crate::count::as_f64;
+use crate::exact::{Dyadic, ExactSum, Fraction, Moments};
 
 /// Components of variance of groups of unequal size, in the unit of the readings.
 ///
 /// ```
-/// use taceva_metrology::gauge::OneWay;
+/// use taceva_metrics::OneWay;
 /// let found = OneWay::of([[1.0, 2.0].as_slice(), &[4.0, 5.0]]).ok_or("two groups")?;
 /// assert_eq!((found.readings, found.groups, found.mean), (4, 2, 3.0));
 /// assert_eq!(found.within, 0.5_f64.sqrt());
@@ -54,80 +52,102 @@ pub struct OneWay {
     pub total_freedom: Option<f64>,
 }
 
-/// Exact sums of the readings of one group.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct GroupSums {
-    pub(crate) n: u64,
-    pub(crate) sum: ExactSum,
-    pub(crate) squares: ExactSum,
+/// Exact sums of groups, which determine their components of variance. Sums of different groups merge, in any order.
+///
+/// ```
+/// use taceva_metrics::{OneWay, OneWaySums};
+/// let mut sums = OneWaySums::default();
+/// sums.add(&[1.0, 2.0].into_iter().collect());
+/// let mut others = OneWaySums::default();
+/// others.add(&[4.0, 5.0].into_iter().collect());
+/// sums.merge(&others);
+/// assert_eq!(sums.model(), OneWay::of([[1.0, 2.0].as_slice(), &[4.0, 5.0]]));
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct OneWaySums {
+    readings: u64,
+    groups: u64,
+    squared_sizes: u64,
+    sum: ExactSum,
+    squares: ExactSum,
+    /// Σ x² of the groups of one reading.
+    singles: ExactSum,
+    /// Σ (Σ x)² of the larger groups of each size, so that a quotient is formed once a size.
+    of_sizes: BTreeMap<u64, Dyadic>,
 }
 
-impl GroupSums {
-    /// Adds a finite reading.
-    pub(crate) fn add(&mut self, value: f64) {
-        self.n += 1;
-        self.sum.add(value);
-        self.squares.add_product(value, value);
+impl OneWaySums {
+    /// Adds a whole group; one without readings counts as none.
+    pub fn add(&mut self, group: &Moments) {
+        if group.n == 0 {
+            return;
+        }
+        self.readings = self.readings.saturating_add(group.n);
+        self.groups += 1;
+        let squared_size = group.n.saturating_mul(group.n);
+        self.squared_sizes = self.squared_sizes.saturating_add(squared_size);
+        self.sum.merge(&group.sum);
+        self.squares.merge(&group.squares);
+        if group.n == 1 {
+            self.singles.merge(&group.squares);
+        } else {
+            let of_group = group.sum.to_dyadic();
+            self.add_of_size(group.n, &(&of_group * &of_group));
+        }
     }
 
-    /// Adds the readings of another part of the group.
-    pub(crate) fn merge(&mut self, other: &GroupSums) {
-        self.n += other.n;
+    /// Adds other groups.
+    pub fn merge(&mut self, other: &OneWaySums) {
+        self.readings = self.readings.saturating_add(other.readings);
+        self.groups = self.groups.saturating_add(other.groups);
+        self.squared_sizes = self.squared_sizes.saturating_add(other.squared_sizes);
         self.sum.merge(&other.sum);
         self.squares.merge(&other.squares);
-    }
-}
-
-impl OneWay {
-    /// Components of finite readings by group; `None` below two groups, or without two readings in one of them.
-    ///
-    /// # Panics
-    /// If a reading is NaN or infinite.
-    pub fn of<'a>(groups: impl IntoIterator<Item = &'a [f64]>) -> Option<OneWay> {
-        let sums = groups.into_iter().map(|group| {
-            let mut sums = GroupSums::default();
-            group.iter().for_each(|value| sums.add(*value));
-            sums
-        });
-        let sums: Vec<GroupSums> = sums.collect();
-        OneWay::of_sums(&sums)
-    }
-
-    /// As [`of`](OneWay::of), from the sums of each group.
-    pub(crate) fn of_sums<'s>(groups: impl IntoIterator<Item = &'s GroupSums>) -> Option<OneWay> {
-        let (mut n, mut k, mut squared_sizes) = (0, 0, 0_u64);
-        let (mut sum, mut squares) = (ExactSum::default(), ExactSum::default());
-        // Σ (Σ x)² of the groups of each size, so that a quotient is formed once a size.
-        let mut of_sizes: BTreeMap<u64, Dyadic> = BTreeMap::new();
-        for group in groups.into_iter().filter(|group| group.n > 0) {
-            squares.merge(&group.squares);
-            sum.merge(&group.sum);
-            let of_group = group.sum.to_dyadic();
-            let of_size = of_sizes.entry(group.n).or_insert_with(|| Dyadic::from(0));
-            *of_size = &*of_size + &(&of_group * &of_group);
-            n += group.n;
-            k += 1;
-            squared_sizes += group.n * group.n;
+        self.singles.merge(&other.singles);
+        for (size, above) in &other.of_sizes {
+            self.add_of_size(*size, above);
         }
-        let of_sizes = of_sizes.into_iter();
-        let of_groups = of_sizes.fold(Fraction::zero(), |all, (size, above)| {
-            all.plus(&Fraction::of(above, size))
-        });
+    }
+
+    fn add_of_size(&mut self, size: u64, above: &Dyadic) {
+        let of_size = self.of_sizes.entry(size);
+        let of_size = of_size.or_insert_with(|| Dyadic::from(0));
+        *of_size = &*of_size + above;
+    }
+
+    /// Number of readings.
+    pub fn readings(&self) -> u64 {
+        self.readings
+    }
+
+    /// Number of groups.
+    pub fn groups(&self) -> u64 {
+        self.groups
+    }
+
+    /// The components; `None` below two groups, or without two readings in one of them.
+    pub fn model(&self) -> Option<OneWay> {
+        let (n, k) = (self.readings, self.groups);
         if k < 2 || n <= k {
             return None;
         }
-        let sum = sum.to_dyadic();
+        let of_sizes = self.of_sizes.iter();
+        let singles = Fraction::of(self.singles.to_dyadic(), 1);
+        let of_groups = of_sizes.fold(singles, |all, (size, above)| {
+            all.plus(&Fraction::of(above.clone(), *size))
+        });
+        let sum = self.sum.to_dyadic();
         let all = Fraction::of(&sum * &sum, n);
-        let within = Fraction::of(squares.to_dyadic(), 1)
+        let within = Fraction::of(self.squares.to_dyadic(), 1)
             .minus(&of_groups)
             .divided(n - k);
         let between = of_groups.minus(&all).divided(k - 1);
         // n0 = (n − Σ n² / n) / (k − 1).
-        let above = &(&Dyadic::from(n) * &Dyadic::from(n)) - &Dyadic::from(squared_sizes);
+        let above = &(&Dyadic::from(n) * &Dyadic::from(n)) - &Dyadic::from(self.squared_sizes);
         let size = Fraction::of(above, n).divided(k - 1);
         let raw = between.minus(&within);
         let excess = raw.at_least_zero();
-        let freedoms = [real(k - 1), real(n - k)];
+        let freedoms = [as_f64(k - 1), as_f64(n - k)];
         let size_f64 = size.to_f64();
         let (ms_b, ms_w) = (between.to_f64(), within.to_f64());
         // Variance of one reading: MS_b / n0 + (1 − 1 / n0) MS_w, or MS_w alone.
@@ -138,8 +158,8 @@ impl OneWay {
         };
         let total = share * ms_b + (1.0 - share) * ms_w;
         // Variance of the mean of groups of unequal size: s_b² Σ n² / n² + MS_w / n.
-        let n_f64 = real(n);
-        let weight = real(squared_sizes) / (n_f64 * n_f64);
+        let n_f64 = as_f64(n);
+        let weight = as_f64(self.squared_sizes) / (n_f64 * n_f64);
         let of_mean = weight * excess.to_f64() / size_f64 + ms_w / n_f64;
         let spread = |parts: [f64; 2]| {
             let [b, w] = parts.map(|part| part * part);
@@ -164,5 +184,19 @@ impl OneWay {
             total: total.sqrt(),
             total_freedom: (of_total > 0.0).then(|| total * total / of_total),
         })
+    }
+}
+
+impl OneWay {
+    /// Components of finite readings by group; `None` below two groups, or without two readings in one of them.
+    ///
+    /// # Panics
+    /// If a reading is NaN or infinite.
+    pub fn of<'a>(groups: impl IntoIterator<Item = &'a [f64]>) -> Option<OneWay> {
+        let mut sums = OneWaySums::default();
+        for group in groups {
+            sums.add(&group.iter().copied().collect());
+        }
+        sums.model()
     }
 }

@@ -1,0 +1,151 @@
+//! Factors of tolerance limits, which hold a share of a normal distribution with a confidence.
+//!
+//! ```
+//! use taceva_metrics::distributions::tolerance::two_sided_factor;
+//! // 95 % of the values with confidence 95 %, from 20 of them: mean ± 2.76 standard deviations.
+//! let k = two_sided_factor(20.0, 19.0, 0.95, 0.95).ok_or("valid")?;
+//! assert!((k - 2.760_346).abs() < 1e-6);
+//! # Ok::<(), &str>(())
+//! ```
+//!
+//! # Reference
+//! Krishnamoorthy and Mathew, Statistical Tolerance Regions (2009), 2.2 and 2.3; ISO 16269-6:2014.
+
+use super::quadrature::nodes;
+use super::{chi_square, noncentral_t, normal};
+
+fn is_valid(n: f64, freedom: f64, share: f64, confidence: f64) -> bool {
+    let is_positive = |value: f64| value > 0.0 && value.is_finite();
+    let is_share = |value: f64| value > 0.0 && value < 1.0;
+    is_positive(n) && is_positive(freedom) && is_share(share) && is_share(confidence)
+}
+
+/// Factor k of a one-sided limit: mean + k s has `share` of a normal distribution below it, with `confidence`.
+///
+/// The mean has the variance σ²/`n`, and s has `freedom` degrees of freedom: n − 1 for independent values. `None` for an argument out of
+/// range.
+///
+/// ```
+/// use taceva_metrics::distributions::tolerance::one_sided_factor;
+/// let k = one_sided_factor(43.0, 42.0, 0.9, 0.99).ok_or("valid")?;
+/// assert!((k - 1.873_953_605_851_2).abs() < 1e-12);
+/// # Ok::<(), &str>(())
+/// ```
+#[must_use]
+pub fn one_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Option<f64> {
+    is_valid(n, freedom, share, confidence).then(|| {
+        let noncentrality = normal::quantile(share) * n.sqrt();
+        noncentral_t::quantile(confidence, freedom, noncentrality) / n.sqrt()
+    })
+}
+
+/// Factor k of a two-sided interval: mean ± k s holds `share` of a normal distribution, with `confidence`.
+///
+/// Exact by the integral over the error of the mean. Howe's approximation is only its first guess. Arguments are those of
+/// [`one_sided_factor`].
+///
+/// ```
+/// use taceva_metrics::distributions::tolerance::two_sided_factor;
+/// // Howe's approximation is 2.2173.
+/// let k = two_sided_factor(43.0, 42.0, 0.9, 0.99).ok_or("valid")?;
+/// assert!((k - 2.222_825).abs() < 1e-6);
+/// # Ok::<(), &str>(())
+/// ```
+#[must_use]
+pub fn two_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Option<f64> {
+    /// Greatest error of the mean in standard deviations of the mean, and width of a panel.
+    const FAR: f64 = 9.0;
+    const WIDTH: f64 = 0.75;
+    if !is_valid(n, freedom, share, confidence) {
+        return None;
+    }
+    // Half-widths that hold the share about a mean that is off, each with its weight.
+    let halves = nodes(0.0, FAR, WIDTH).into_iter().map(|node| {
+        let half = half_width(node.at / n.sqrt(), share);
+        [half, 2.0 * node.weight * normal::density(node.at)]
+    });
+    let halves: Vec<[f64; 2]> = halves.collect();
+    let off = |k: f64| {
+        let held = halves.iter().map(|[half, weight]| {
+            let ratio = half / k;
+            weight * chi_square::above(freedom * ratio * ratio, freedom)
+        });
+        held.sum::<f64>() - confidence
+    };
+    let spread = (freedom / chi_square::quantile(1.0 - confidence, freedom)).sqrt();
+    let howe = half_width(0.0, share) * (1.0 + 1.0 / n).sqrt() * spread;
+    root(off, howe.min(1e100))
+}
+
+/// Zero of an increasing function, from a guess above 0, by regula falsi in its Illinois form. `None` if it stays below 0.
+///
+/// # Reference
+/// Dowell and Jarratt, BIT 11 (1971).
+fn root(function: impl Fn(f64) -> f64, guess: f64) -> Option<f64> {
+    const MOST: usize = 200;
+    let first = function(guess);
+    let ([mut low, mut high], [mut below, mut above]) = ([guess; 2], [first; 2]);
+    let mut step = 1.01;
+    while below > 0.0 {
+        (high, above) = (low, below);
+        low /= step;
+        step *= step;
+        below = function(low);
+    }
+    while above < 0.0 {
+        (low, below) = (high, above);
+        high *= step;
+        step *= step;
+        // A confidence within rounding of 1 has no factor.
+        if !high.is_finite() {
+            return None;
+        }
+        above = function(high);
+    }
+    let mut last = f64::NAN;
+    for _ in 0..MOST {
+        if below >= 0.0 {
+            return Some(low);
+        }
+        if above <= 0.0 {
+            return Some(high);
+        }
+        let next = high - above * (high - low) / (above - below);
+        let is_settled = (next - last).abs() <= 1e-14 * next;
+        if is_settled || next <= low || next >= high {
+            return Some(next);
+        }
+        let found = function(next);
+        // An end that stays twice counts half, so that the other one crosses the zero.
+        if found < 0.0 {
+            if last <= low {
+                above /= 2.0;
+            }
+            (low, below) = (next, found);
+        } else {
+            if last >= high {
+                below /= 2.0;
+            }
+            (high, above) = (next, found);
+        }
+        last = next;
+    }
+    None
+}
+
+/// The r for which a normal number is within `off` ± r with probability `share`.
+fn half_width(off: f64, share: f64) -> f64 {
+    let missed = |r: f64| normal::above(r - off) + normal::above(r + off);
+    let density = |r: f64| normal::density(r - off) + normal::density(r + off);
+    let outside = 1.0 - share;
+    // From the side where all of one tail is outside, Newton's steps only increase.
+    let mut r = (off + normal::quantile(share)).max(normal::quantile(f64::midpoint(1.0, share)));
+    for _ in 0..60 {
+        let next = r + (missed(r) - outside) / density(r);
+        if (next - r).abs() <= f64::EPSILON * r {
+            return next;
+        }
+        r = next;
+    }
+    r
+}

@@ -1,0 +1,157 @@
+//! Family of limits that hold a share of all errors, from the errors of each cluster.
+
+mod errors;
+mod intervals;
+mod sums;
+
+use taceva_core::{Batch, Field, FieldSet, Labels, Needs, Unit};
+
+use crate::evaluate::family::{FamilyKind, Intervals, Numbers, Output, erased};
+use crate::evaluate::metric::Metric;
+use crate::evaluate::plan::MetricPlan;
+use crate::exact::moments::Moments;
+use crate::exact::record::Record;
+use crate::families::channelwise::{ByChannel, Channelwise, each_pair};
+use crate::score::ClusteredBy;
+use crate::score::value::UndefinedReason;
+use crate::stats::NormalSample;
+pub(crate) use errors::Errors;
+pub(crate) use intervals::{Whole, of_components};
+use sums::{ErrorSums, Totals};
+
+/// Least samples of a standard deviation.
+const LEAST_SAMPLES: u64 = 2;
+
+/// Needs of scores of the limits of errors.
+pub(crate) const LIMIT_NEEDS: Needs =
+    Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
+        .with_least_samples(LEAST_SAMPLES);
+
+/// Formula of a metric that is computed from the errors of clusters.
+pub(crate) struct LimitFormula {
+    /// The numbers, in the unit of the channel.
+    pub(crate) finish: fn(&Errors<'_>, Unit) -> Numbers,
+    /// Factor of the standard deviation in the numbers, which other choices of clusters leave as it is.
+    pub(crate) factor: fn(&NormalSample) -> Option<f64>,
+    /// Replaces intervals of the jackknife by better ones.
+    pub(crate) settle: fn(&mut Intervals, &Whole<'_>),
+}
+
+fn formula(metric: &Metric) -> Option<&'static LimitFormula> {
+    metric.formula.get()
+}
+
+/// Family of the errors of clusters.
+pub(crate) static ERROR_LIMITS: FamilyKind = FamilyKind {
+    clusters_of_plan: true,
+    own_intervals: true,
+    ..FamilyKind::new("taceva.error-limits/1", |plan| {
+        erased(ByChannel::new(ErrorLimits::for_plan(plan), plan))
+    })
+};
+
+/// Errors by cluster.
+pub(crate) struct ErrorLimits {
+    clustered_by: ClusteredBy,
+}
+
+impl ErrorLimits {
+    /// The kind for the clusters of `plan`.
+    pub(crate) fn for_plan(plan: &MetricPlan) -> ErrorLimits {
+        ErrorLimits {
+            clustered_by: plan.clustered_by(),
+        }
+    }
+
+    /// True if the caller declared the samples independent.
+    fn are_declared_independent(&self) -> bool {
+        self.clustered_by == ClusteredBy::Sample
+    }
+
+    /// Clusters of the rows of `batch`; `None` if they are unknown, or every sample is its own.
+    fn labels<'a>(&self, batch: &'a Batch) -> Option<&'a Labels> {
+        match self.clustered_by {
+            ClusteredBy::Point => batch.points(),
+            ClusteredBy::Recording | ClusteredBy::Group => batch.recordings(),
+            ClusteredBy::Sample => None,
+        }
+    }
+}
+
+impl Channelwise for ErrorLimits {
+    type Sums = ErrorSums;
+
+    fn deposit(
+        &mut self,
+        sums: &mut ErrorSums,
+        batch: &Batch,
+        position: usize,
+        rows: Option<&[u32]>,
+    ) {
+        let labels = self.labels(batch);
+        let mut clusters = sums.clusters.of_labels(labels, batch.rows());
+        let name = |row: usize| labels.and_then(|labels| labels.get(row));
+        // Rows of one cluster mostly follow each other.
+        let (mut first, mut run) = (0, Moments::default());
+        each_pair(batch, position, rows, |row, pair| {
+            if !pair.is_valid() {
+                sums.n_invalid += 1;
+                return;
+            }
+            if run.n > 0 && name(row) != name(first) {
+                clusters.at(first, 0).merge(&std::mem::take(&mut run));
+            }
+            if run.n == 0 {
+                first = row;
+            }
+            sums.n += 1;
+            run.add(pair.residual());
+            sums.line.add(pair.reference, pair.estimate);
+        });
+        if run.n > 0 {
+            clusters.at(first, 0).merge(&run);
+        }
+    }
+
+    fn to_record(&self, sums: &ErrorSums) -> Record {
+        sums.to_record()
+    }
+
+    fn read_record(&self, record: &Record) -> Result<ErrorSums, String> {
+        ErrorSums::read_record(record)
+    }
+
+    fn count(&self, sums: &ErrorSums) -> u64 {
+        sums.n
+    }
+
+    fn invalid(&self, sums: &ErrorSums) -> u64 {
+        sums.n_invalid
+    }
+
+    fn numbers(&self, metric: &Metric, output: &Output, sums: &ErrorSums) -> Numbers {
+        let Some(formula) = formula(metric) else {
+            return Numbers::of(Err(UndefinedReason::Empty));
+        };
+        let totals = Totals::of(sums);
+        let errors = Errors::of(&totals, self.are_declared_independent());
+        (formula.finish)(&errors, output.unit)
+    }
+
+    fn intervals(
+        &self,
+        metric: &Metric,
+        output: &Output,
+        clusters: &[Vec<&ErrorSums>],
+    ) -> Option<Intervals> {
+        let formula = formula(metric)?;
+        let are_independent = self.are_declared_independent();
+        Some(intervals::intervals(
+            metric,
+            formula,
+            output.unit,
+            clusters,
+            are_independent,
+        ))
+    }
+}

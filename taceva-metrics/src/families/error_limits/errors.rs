@@ -1,0 +1,107 @@
+//! Errors of one channel as a normal sample, and their change with size.
+
+use super::sums::Totals;
+use crate::score::value::{Finished, UndefinedReason};
+use crate::stats::{NormalSample, Proportional};
+
+/// Errors of one channel.
+#[derive(Clone, Copy)]
+pub(crate) struct Errors<'a> {
+    totals: &'a Totals,
+    /// True if the caller declared the samples independent.
+    are_declared_independent: bool,
+    /// Tolerance factor of all clusters together, if these are some of them.
+    factor: Option<f64>,
+}
+
+impl<'a> Errors<'a> {
+    pub(super) fn of(totals: &'a Totals, are_declared_independent: bool) -> Errors<'a> {
+        Errors {
+            totals,
+            are_declared_independent,
+            factor: None,
+        }
+    }
+
+    /// The same errors with a known tolerance factor.
+    pub(super) fn with_factor(self, factor: Option<f64>) -> Errors<'a> {
+        Errors { factor, ..self }
+    }
+
+    /// Mean error.
+    pub(crate) fn mean(&self) -> Finished {
+        self.totals.errors.mean().ok_or(UndefinedReason::Empty)
+    }
+
+    /// The errors as a sample: of independent errors if no two belong together, else of clusters.
+    pub(crate) fn sample(&self) -> Result<NormalSample, UndefinedReason> {
+        let errors = &self.totals.errors;
+        match errors.n {
+            0 => return Err(UndefinedReason::Empty),
+            1 => {
+                return Err(UndefinedReason::TooFew {
+                    least: super::LEAST_SAMPLES,
+                });
+            }
+            _ => {}
+        }
+        if errors.scaled_spread().is_zero() {
+            return Err(UndefinedReason::EqualErrors);
+        }
+        let sample = match self.are_independent() || self.totals.is_unnamed {
+            true => NormalSample::of_independent(errors),
+            false => {
+                let model = self.totals.groups.model();
+                NormalSample::of_clusters(&model.ok_or(UndefinedReason::OneCluster)?)
+            }
+        };
+        sample.ok_or(UndefinedReason::Overflow)
+    }
+
+    /// Mean ± k standard deviations. The k of a sample is its `factor`, unless it is known.
+    pub(crate) fn tolerance_ends(
+        &self,
+        factor: fn(&NormalSample) -> Option<f64>,
+    ) -> Result<[f64; 2], UndefinedReason> {
+        let sample = self.sample()?;
+        if self.totals.is_unnamed && !self.are_declared_independent {
+            return Err(UndefinedReason::NoClusters);
+        }
+        let factor = self.factor.or_else(|| factor(&sample));
+        let factor = factor.ok_or(UndefinedReason::Overflow)?;
+        let half = factor * sample.sd;
+        Ok([sample.mean - half, sample.mean + half])
+    }
+
+    /// Slope of the errors over the means of truth and prediction.
+    pub(crate) fn slope(&self) -> Finished {
+        self.line().map(|line| line.slope)
+    }
+
+    /// Probability of such a slope by chance, of independent errors; clusters have it from their jackknife.
+    pub(crate) fn slope_chance(&self) -> Finished {
+        let line = self.line()?;
+        match self.are_independent() {
+            true => Ok(line.p),
+            false if self.totals.is_unnamed => Err(UndefinedReason::NoClusters),
+            false => Err(UndefinedReason::NoInterval),
+        }
+    }
+
+    /// True if no two errors belong together.
+    pub(super) fn are_independent(&self) -> bool {
+        let totals = self.totals;
+        let are_apart = !totals.is_unnamed && totals.groups.groups() == totals.errors.n;
+        self.are_declared_independent || are_apart
+    }
+
+    fn line(&self) -> Result<Proportional, UndefinedReason> {
+        let errors = &self.totals.errors;
+        let few = match errors.n {
+            0 => UndefinedReason::Empty,
+            1 | 2 => UndefinedReason::TooFew { least: 3 },
+            _ => UndefinedReason::EqualMeans,
+        };
+        self.totals.line.proportional(errors).ok_or(few)
+    }
+}

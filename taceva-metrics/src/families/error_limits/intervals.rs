@@ -1,0 +1,143 @@
+//! Intervals of limits of errors: by leaving out one cluster after the other, or from the components of variance.
+
+use taceva_core::Unit;
+
+use super::sums::{ErrorSums, Totals};
+use super::{Errors, LimitFormula};
+use crate::distributions::student_t;
+use crate::evaluate::family::{Intervals, Numbers};
+use crate::evaluate::metric::Metric;
+use crate::score::least::LEAST_CLUSTERS;
+use crate::score::range::Range;
+use crate::score::value::{Finished, UndefinedReason};
+use crate::score::{COVERAGE, ClusteredBy, Interval};
+use crate::stats::NormalSample;
+use crate::stats::jackknife::{self, LeftOut};
+
+/// Numbers of all clusters together, and the sample behind them.
+pub(crate) struct Whole<'a> {
+    pub(crate) numbers: &'a Numbers,
+    /// The errors of one channel; none for a plane, whose axes depend on each other.
+    pub(crate) sample: Option<NormalSample>,
+    /// True for one channel of which no two errors belong together.
+    pub(crate) are_independent: bool,
+    /// Number of clusters with samples.
+    pub(crate) clusters: usize,
+}
+
+/// One channel: all clusters together, and without each one.
+struct Part {
+    all: Totals,
+    others: Vec<Totals>,
+    are_declared_independent: bool,
+    factor: Option<f64>,
+}
+
+impl Part {
+    fn of(clusters: &[&ErrorSums], are_declared_independent: bool, formula: &LimitFormula) -> Part {
+        let totals: Vec<Totals> = clusters.iter().map(|sums| Totals::of(sums)).collect();
+        let mut part = Part {
+            all: Totals::of_all(&totals),
+            others: Totals::without_each(&totals),
+            are_declared_independent,
+            factor: None,
+        };
+        let sample = part.errors(None).sample().ok();
+        part.factor = sample.and_then(|sample| (formula.factor)(&sample));
+        part
+    }
+
+    /// The errors without one of the clusters, or all of them.
+    fn errors(&self, left_out: Option<usize>) -> Errors<'_> {
+        let totals = left_out.map_or(&self.all, |cluster| &self.others[cluster]);
+        Errors::of(totals, self.are_declared_independent).with_factor(self.factor)
+    }
+}
+
+/// Intervals of the value and of every variant of a score with these `clusters`, part by part.
+///
+/// The tolerance factor is that of all clusters, since another sample of as many clusters would have nearly the same.
+pub(super) fn intervals(
+    metric: &Metric,
+    formula: &LimitFormula,
+    unit: Unit,
+    clusters: &[Vec<&ErrorSums>],
+    are_declared_independent: bool,
+) -> Intervals {
+    let parts = clusters.iter();
+    let parts = parts.map(|clusters| Part::of(clusters, are_declared_independent, formula));
+    let parts: Vec<Part> = parts.collect();
+    let numbers = |left_out: Option<usize>| {
+        let mut of_parts = parts
+            .iter()
+            .map(|part| (formula.finish)(&part.errors(left_out), unit));
+        let first = of_parts.next();
+        let first = first.unwrap_or_else(|| Numbers::of(Err(UndefinedReason::Empty)));
+        match of_parts.next() {
+            Some(second) => first.mean(&second),
+            None => first,
+        }
+    };
+    let samples = |cluster: usize| {
+        let of_parts = clusters.iter().map(|sums| sums[cluster].n);
+        of_parts.fold(0, u64::saturating_add)
+    };
+    let left_out = 0..clusters.first().map_or(0, Vec::len);
+    let left_out = left_out.filter(|cluster| samples(*cluster) > 0);
+    let left_out: Vec<(u64, Numbers)> = left_out
+        .map(|cluster| (samples(cluster), numbers(Some(cluster))))
+        .collect();
+    let interval = |value: Finished, range: Range, of: &dyn Fn(&Numbers) -> Finished| {
+        let left_out = left_out.iter().map(|(count, others)| LeftOut {
+            count: *count,
+            value: of(others),
+        });
+        match value {
+            Ok(value) => jackknife::interval(value, range, &left_out.collect::<Vec<LeftOut>>()),
+            Err(reason) => Interval::Undefined(reason),
+        }
+    };
+    let whole = numbers(None);
+    let variants = whole.variants.iter().map(|variant| {
+        let name = &variant.name;
+        let of = interval(variant.value, variant.range, &|others| others.variant(name));
+        (name.to_string(), of)
+    });
+    let mut found = Intervals {
+        value: Some(interval(whole.value, metric.range, &|others| others.value)),
+        variants: variants.collect(),
+        values: Vec::new(),
+    };
+    let one = match &parts[..] {
+        [part] => Some(part.errors(None)),
+        _ => None,
+    };
+    let whole = Whole {
+        numbers: &whole,
+        sample: one.and_then(|errors| errors.sample().ok()),
+        are_independent: one.is_some_and(|errors| errors.are_independent()),
+        clusters: left_out.len(),
+    };
+    (formula.settle)(&mut found, &whole);
+    found
+}
+
+/// Interval with these ends of a number that is estimated with `freedom` degrees of freedom from the components of variance.
+pub(crate) fn of_components([low, high]: [f64; 2], freedom: f64, clusters: usize) -> Interval {
+    if clusters < LEAST_CLUSTERS {
+        return Interval::Undefined(UndefinedReason::TooFewClusters { have: clusters });
+    }
+    let t = student_t::quantile(f64::midpoint(1.0, COVERAGE), freedom);
+    let standard_error = (high - low) / 2.0 / t;
+    if !standard_error.is_finite() {
+        return Interval::Undefined(UndefinedReason::Overflow);
+    }
+    Interval::Components {
+        low,
+        high,
+        standard_error,
+        freedom,
+        clusters,
+        by: ClusteredBy::default(),
+    }
+}

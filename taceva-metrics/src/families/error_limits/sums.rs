@@ -1,0 +1,118 @@
+//! Sums of the errors of each cluster, and of all clusters together.
+
+use crate::exact::merge::Merge;
+use crate::exact::moments::Moments;
+use crate::exact::record::Record;
+use crate::families::cells::{Cells, add_times};
+use crate::stats::{DifferenceLine, OneWaySums};
+
+/// Sums of one channel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct ErrorSums {
+    pub(super) n: u64,
+    pub(super) n_invalid: u64,
+    /// Errors over the means of truth and prediction.
+    pub(super) line: DifferenceLine,
+    /// Errors by cluster; one cell of all of them if clusters are unknown or every sample is its own.
+    pub(super) clusters: Cells<Moments>,
+}
+
+impl ErrorSums {
+    /// Converts the sums to the record of a state.
+    pub(super) fn to_record(&self) -> Record {
+        Record {
+            counts: vec![self.n, self.n_invalid, u64::from(self.clusters.are_named())],
+            sums: self.line.sums.to_vec(),
+            cells: self.clusters.to_records(Moments::to_record),
+            ..Record::default()
+        }
+    }
+
+    /// Reads the record of a state.
+    pub(super) fn read_record(record: &Record) -> Result<ErrorSums, String> {
+        let (&[n, n_invalid, named], sums) = record.with_cells()?;
+        let clusters = Cells::from_record(record, named == 1, Moments::read_record)?;
+        let counts = clusters.iter().map(|(_, errors)| errors.n);
+        let of_clusters = counts.fold(0, u64::saturating_add);
+        if of_clusters != n || !record.values.is_empty() {
+            return Err(format!("{of_clusters} errors in clusters, expected {n}"));
+        }
+        Ok(ErrorSums {
+            n,
+            n_invalid,
+            line: DifferenceLine { sums: sums.clone() },
+            clusters,
+        })
+    }
+}
+
+impl Merge for ErrorSums {
+    fn merge(&mut self, other: &ErrorSums) {
+        self.merge_times(other, 1);
+    }
+
+    fn merge_times(&mut self, other: &ErrorSums, times: u32) {
+        add_times(&mut self.n, other.n, times);
+        add_times(&mut self.n_invalid, other.n_invalid, times);
+        self.line.merge_times(&other.line, times);
+        self.clusters.merge_times(&other.clusters, times);
+    }
+}
+
+/// Sums of whole clusters, which determine every number.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Totals {
+    pub(super) line: DifferenceLine,
+    pub(super) errors: Moments,
+    pub(super) groups: OneWaySums,
+    /// True if some error names no cluster.
+    pub(super) is_unnamed: bool,
+}
+
+impl Totals {
+    pub(super) fn of(sums: &ErrorSums) -> Totals {
+        let mut totals = Totals {
+            line: sums.line.clone(),
+            is_unnamed: !sums.clusters.are_named(),
+            ..Totals::default()
+        };
+        for (_, errors) in sums.clusters.iter() {
+            totals.errors.merge(errors);
+            totals.groups.add(errors);
+        }
+        totals
+    }
+
+    /// The totals of all `parts`.
+    pub(super) fn of_all(parts: &[Totals]) -> Totals {
+        let mut all = Totals::default();
+        parts.iter().for_each(|part| all.merge(part));
+        all
+    }
+
+    /// The totals of all but each one of `parts`, without any subtraction.
+    pub(super) fn without_each(parts: &[Totals]) -> Vec<Totals> {
+        let mut others = Vec::with_capacity(parts.len());
+        let mut after = Totals::default();
+        for part in parts.iter().rev() {
+            others.push(after.clone());
+            after.merge(part);
+        }
+        others.reverse();
+        let mut before = Totals::default();
+        for (others, part) in others.iter_mut().zip(parts) {
+            others.merge(&before);
+            before.merge(part);
+        }
+        others
+    }
+}
+
+impl Merge for Totals {
+    fn merge(&mut self, other: &Totals) {
+        self.line.merge(&other.line);
+        self.errors.merge(&other.errors);
+        self.groups.merge(&other.groups);
+        self.is_unnamed |= other.is_unnamed;
+    }
+}
