@@ -1,6 +1,7 @@
 //! Instruments of a recording, with the certificates of the rig file.
 
 use taceva_core::{Certificate, Instrument, Traceability};
+use taceva_dataset::Source;
 use taceva_drivers::Selector;
 use taceva_protocol::RigFile;
 
@@ -20,6 +21,13 @@ pub(crate) fn of_rig(rig: &RigFile) -> Vec<Traceability> {
         Some(traced(Instrument::Sensor, driver, Some(certificate)))
     });
     [force, robot, sensor].into_iter().flatten().collect()
+}
+
+/// Instruments that a recording of `source` keeps: labels that nothing measured need no certificate.
+pub(crate) fn kept(instruments: Vec<Traceability>, source: Source) -> Vec<Traceability> {
+    let mut kept = instruments;
+    kept.retain(|of| source == Source::Recorded || of.certificate.is_some());
+    kept
 }
 
 /// The instrument of the device `driver`, a selector. Its serial number is the one that chose it; other drivers read none.
@@ -75,5 +83,8 @@ driver = "lab/camera"
         assert!(force.other_serial().is_some_and(|(_, read)| read == "B2"));
         assert_eq!(robot.driver.as_deref(), Some("lab/arm"));
         assert_eq!((&robot.serial, &robot.certificate), (&None, &None));
+        assert_eq!(kept(instruments.clone(), Source::Recorded), instruments);
+        let drawn = kept(instruments.clone(), Source::Simulated);
+        assert_eq!(drawn, [force.clone()]);
     }
 }
