@@ -27,7 +27,7 @@ use taceva_dataset::{
 };
 
 use crate::error::AcquireError;
-use crate::instruments::kept;
+use crate::instruments::{day_of, kept};
 use crate::viewer::Viewer;
 use contacts::Contacts;
 pub use devices::{LiveDevices, LiveSpec};
@@ -167,7 +167,8 @@ pub fn capture(
     let source = source(live);
     let facts = RecordingFacts::new(source, Clock::Monotonic, request.sensor.clone())
         .with_settings(live.settings())
-        .with_traceability(kept(live.traceability(), source));
+        .with_traceability(kept(live.traceability(), source))
+        .with_recorded_on(day_of(source));
     let mut recorder =
         Recorder::create(&request.path, &RecordingSpec::new(facts, channels.clone()))?;
     recorder.append_reference(&untouched)?;

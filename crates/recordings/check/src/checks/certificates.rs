@@ -59,10 +59,10 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// UTC day of the last sample; `None` if no clock gives it.
+/// UTC day of the last sample, or on which the recording began; `None` if no clock gives it.
 fn last_day(evidence: &Evidence<'_>) -> Option<Date> {
     if evidence.header.clock != Clock::Unix {
-        return None;
+        return evidence.header.recorded_on;
     }
     let times = evidence.table.t_s().iter().flatten();
     let last = times.copied().fold(f64::NEG_INFINITY, f64::max);

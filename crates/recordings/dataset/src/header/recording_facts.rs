@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Clock, Traceability};
+use taceva_core::{Clock, Date, Traceability};
 
 use super::{Footprint, SensorFacts, Source};
 
@@ -23,6 +23,8 @@ pub struct RecordingFacts {
     pub source: Source,
     /// The clock that stamps the samples, which defines the origin of `t_s`.
     pub clock: Clock,
+    /// UTC day on which the recording began; `None` if nothing was measured, or for an import.
+    pub recorded_on: Option<Date>,
     /// Model, serial number and gel of the sensor.
     pub sensor: SensorFacts,
     /// The sensing area, if known.
@@ -39,6 +41,7 @@ impl RecordingFacts {
         RecordingFacts {
             source,
             clock,
+            recorded_on: None,
             sensor,
             footprint: None,
             settings: BTreeMap::new(),
@@ -50,6 +53,15 @@ impl RecordingFacts {
     #[must_use]
     pub fn with_settings(self, settings: BTreeMap<String, String>) -> RecordingFacts {
         RecordingFacts { settings, ..self }
+    }
+
+    /// The same facts with the day on which the recording begins.
+    #[must_use]
+    pub fn with_recorded_on(self, recorded_on: Option<Date>) -> RecordingFacts {
+        RecordingFacts {
+            recorded_on,
+            ..self
+        }
     }
 
     /// The same facts with the instruments of the labels.
