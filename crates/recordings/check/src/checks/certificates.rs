@@ -47,7 +47,9 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         }
     }
     let without = instruments.iter().filter(|of| of.certificate.is_none());
-    let without: Vec<&str> = without.map(|of| of.instrument.noun()).collect();
+    let mut without: Vec<&str> = without.map(|of| of.instrument.noun()).collect();
+    without.sort_unstable();
+    without.dedup();
     // Drawn labels are exact.
     if evidence.header.source == Source::Recorded && !without.is_empty() {
         let message = format!(
