@@ -1,8 +1,6 @@
 //! TAC028: instruments of the labels without certificate, with an expired one, or with that of another serial number.
 
-use std::time::Duration;
-
-use taceva_core::{Clock, Date, shown};
+use taceva_core::shown;
 use taceva_dataset::Source;
 
 use crate::evidence::Evidence;
@@ -33,7 +31,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             found.push(Found::overall(Severity::Error, message));
         }
     }
-    let day = last_day(evidence);
+    let day = evidence.header.last_day(evidence.table.t_s());
     for traced in instruments {
         if let Some(day) = day
             && let Some((certificate, until)) = traced.expired_on(day)
@@ -59,15 +57,4 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         found.push(Found::overall(Severity::Note, message));
     }
     found
-}
-
-/// UTC day of the last sample, or on which the recording began; `None` if no clock gives it.
-fn last_day(evidence: &Evidence<'_>) -> Option<Date> {
-    if evidence.header.clock != Clock::Unix {
-        return evidence.header.recorded_on;
-    }
-    let times = evidence.table.t_s().iter().flatten();
-    let last = times.copied().fold(f64::NEG_INFINITY, f64::max);
-    let since = Duration::try_from_secs_f64(last).ok()?;
-    Some(Date::of_unix_s(since.as_secs()))
 }

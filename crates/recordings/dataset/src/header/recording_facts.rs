@@ -1,10 +1,11 @@
 //! Facts of a recording that are known before its first sample.
 
 use std::collections::BTreeMap;
+use std::time::Duration;
 
 use taceva_core::{Clock, Date, Traceability};
 
-use super::{Footprint, SensorFacts, Source};
+use super::{Footprint, Header, SensorFacts, Source};
 
 /// Facts of a recording that are known before its first sample.
 ///
@@ -80,5 +81,18 @@ impl RecordingFacts {
             footprint: Some(footprint),
             ..self
         }
+    }
+}
+
+impl Header {
+    /// UTC day of the last of these times of samples, or on which the recording began; `None` if no clock gives it.
+    pub fn last_day(&self, t_s: &[Option<f64>]) -> Option<Date> {
+        if self.clock != Clock::Unix {
+            return self.recorded_on;
+        }
+        let times = t_s.iter().flatten();
+        let last = times.copied().fold(f64::NEG_INFINITY, f64::max);
+        let since = Duration::try_from_secs_f64(last).ok()?;
+        Some(Date::of_unix_s(since.as_secs()))
     }
 }
