@@ -124,6 +124,30 @@ fn no_row_changes_its_part_and_a_model_of_before_is_scored_on_what_it_has_not_se
 }
 
 #[test]
+fn rows_under_another_certificate_need_an_option_and_results_then_name_both() {
+    let bench = halves();
+    let map = fs::read_to_string(bench.path("map.toml")).expect("a map");
+    for number in ["D-K-1", "D-K-2"] {
+        let certificate = format!(
+            "number = \"{number}\"\nlaboratory = \"a laboratory\"\nissued = 2026-05-12\nserial = \"42\"\nk = 2.0\nU = {{ Fz = \"3.0 mN\" }}\n"
+        );
+        let name = format!("{number}.toml");
+        bench.write(&name, &format!("{map}\n[force.certificate]\n{certificate}"));
+    }
+    bench.ok("import first --map D-K-1.toml --out certified -q");
+    bench.refused(
+        "import second --map D-K-2.toml --extend certified",
+        3,
+        "add these rows with `--new-certificate`",
+    );
+    bench.ok("import second --map D-K-2.toml --extend certified --new-certificate -q");
+    let scored = bench.json("evaluate certified --model ridge --set size=8 --metrics mae");
+    let traceability = &scored["provenance"]["traceability"];
+    let number = |at: usize| &traceability[at]["certificate"]["number"];
+    assert_eq!((number(0), number(1)), (&"D-K-1".into(), &"D-K-2".into()));
+}
+
+#[test]
 fn states_of_before_and_after_share_rows_and_are_not_joined() {
     let bench = halves();
     bench.ok("fit data --model ridge --set size=8 --out m.model -q");

@@ -144,7 +144,8 @@ impl TryFrom<WrittenCertificate> for Certificate {
             ];
             range.insert(channel, ends);
         }
-        let correlation = written.correlation.into_iter().map(TryFrom::try_from);
+        let correlation = written.correlation.into_iter();
+        let correlation = correlation.map(StatedCorrelation::try_from);
         let valid_until = written.valid_until.map(|until| until.parse("valid_until"));
         Ok(Certificate {
             number: written.number,

@@ -3,6 +3,8 @@
 mod angle_jumps;
 pub(crate) mod blank;
 mod byte_counts;
+mod certificates;
+mod certified_range;
 mod changed_rest;
 mod channel_order;
 mod clipped_taxel;
@@ -43,7 +45,7 @@ mod zero_shift;
 use crate::finding::Check;
 
 /// Every check, in the order of its code.
-pub static ALL: [&Check; 39] = [
+pub static ALL: [&Check; 41] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -71,6 +73,8 @@ pub static ALL: [&Check; 39] = [
     &blank::CHECK,
     &lossy_frames::CHECK,
     &dead_zone::CHECK,
+    &certificates::CHECK,
+    &certified_range::CHECK,
     &changed_rest::CHECK,
     &zero_shift::CHECK,
     &repeated_stamps::CHECK,

@@ -24,7 +24,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use taceva_core::{Channel, ChannelError, Channels, Clock, PressOutcome, Traceability, Unit};
+use taceva_core::{Channel, ChannelError, Channels, Clock, Date, PressOutcome, Traceability, Unit};
 
 use crate::digest::Digest;
 use crate::error::DatasetError;
@@ -109,6 +109,8 @@ pub struct Header {
     pub source: Source,
     /// The clock that stamped the samples, which defines the origin of `t_s`.
     pub clock: Clock,
+    /// UTC day on which the recording began; `None` if nothing was measured, or for an import.
+    pub recorded_on: Option<Date>,
     /// The sensor.
     pub sensor: SensorFacts,
     /// The sensing area, if known.
@@ -167,6 +169,8 @@ struct Written {
     format: Version,
     source: Source,
     clock: Clock,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    recorded_on: Option<Date>,
     attributes: Vec<String>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     unmentioned_columns: Vec<String>,
@@ -264,6 +268,7 @@ impl Header {
             format,
             source: written.source,
             clock: written.clock,
+            recorded_on: written.recorded_on,
             sensor: written.sensor,
             footprint: written.footprint,
             settings: written.settings,
@@ -297,6 +302,7 @@ impl Header {
         RecordingFacts {
             source: self.source,
             clock: self.clock,
+            recorded_on: self.recorded_on,
             sensor: self.sensor.clone(),
             footprint: self.footprint,
             settings: self.settings.clone(),
@@ -326,6 +332,7 @@ impl Header {
             format: self.format,
             source: self.source,
             clock: self.clock,
+            recorded_on: self.recorded_on,
             attributes: self.attributes.clone(),
             unmentioned_columns: self.unmentioned_columns.clone(),
             rotations: self.rotations.clone(),

@@ -204,7 +204,10 @@ impl Recorder {
             ));
         }
         let taxels = recorder.signals.as_ref().map(SignalsWriter::spec);
-        if recorder.facts != spec.facts
+        // It may go on another day.
+        let facts = spec.facts.clone();
+        let facts = facts.with_recorded_on(recorder.facts.recorded_on);
+        if recorder.facts != facts
             || recorder.table.channels() != &spec.channels
             || taxels != spec.signals.as_ref()
             || recorder.reduced != spec.reduced

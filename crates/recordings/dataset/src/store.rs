@@ -64,6 +64,7 @@ pub fn write_table_and_header(
         format: Version::CURRENT,
         source: facts.source,
         clock: facts.clock,
+        recorded_on: facts.recorded_on,
         sensor: facts.sensor.clone(),
         footprint: facts.footprint,
         settings: facts.settings.clone(),

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use taceva_core::{
-    Certificate, Channel, Channels, Clock, Coverage, Instrument, Readings, Sample, Traceability,
+    Certificate, Channel, Channels, Clock, Coverage, Date, Instrument, Readings, Sample,
+    Traceability,
 };
 use taceva_dataset::{
     Dataset, DatasetError, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
@@ -79,6 +80,24 @@ fn an_interrupted_recording_goes_on_with_its_certificate_and_with_no_other() {
     let recorder = Recorder::open(&path, &spec("D-K-1")).expect("goes on");
     let header = recorder.close().expect("closed");
     assert_eq!(header.traceability[0], traced("D-K-1"));
+}
+
+#[test]
+fn a_recording_that_goes_on_the_next_day_keeps_the_day_on_which_it_began() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    let on = |day: u64| {
+        let mut spec = spec("D-K-1");
+        spec.facts.recorded_on = Some(Date::of_unix_s(86_400 * day));
+        spec
+    };
+    let mut recorder = Recorder::create(&path, &on(20_779)).expect("created");
+    recorder.append(&sample("1", 0.5)).expect("recorded");
+    drop(recorder);
+    let recorder = Recorder::open(&path, &on(20_780)).expect("goes on");
+    recorder.close().expect("closed");
+    let header = Dataset::open(&path).expect("opens").header().clone();
+    assert_eq!(header.recorded_on, Some(Date::of_unix_s(86_400 * 20_779)));
 }
 
 #[test]

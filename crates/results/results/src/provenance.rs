@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
-use taceva_core::{PressOutcome, Traceability};
+use taceva_core::{Date, PressOutcome, Traceability};
 
 /// Text in every note of optimistic scores: neighbours or copies of test samples were in the training part.
 ///
@@ -57,6 +57,9 @@ pub struct Provenance {
     /// Instruments of the labels with their certificates; those of all recordings.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub traceability: Vec<Traceability>,
+    /// UTC day of the last recording with instruments.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recorded_on: Option<Date>,
     /// Number of frames behind the result, each counted once for training and once for prediction, whether decoded now or for cached
     /// features.
     pub frames_decoded: u64,
@@ -138,6 +141,7 @@ impl Provenance {
         self.presses
             .extend(presses.map(|(digest, counts)| (digest.clone(), counts.clone())));
         self.add_traceability(&other.traceability);
+        self.recorded_on = self.recorded_on.max(other.recorded_on);
         // No table of samples is written for several states.
         self.samples_table = None;
         self.frames_decoded += other.frames_decoded;

@@ -27,6 +27,7 @@ use taceva_dataset::{
 };
 
 use crate::error::AcquireError;
+use crate::instruments::{day_of, kept};
 use crate::viewer::Viewer;
 use contacts::Contacts;
 pub use devices::{LiveDevices, LiveSpec};
@@ -163,9 +164,11 @@ pub fn capture(
         predictor.begin(live.frame_info(), Some(&untouched))?;
     }
     let channels = channels(live);
-    let facts = RecordingFacts::new(source(live), Clock::Monotonic, request.sensor.clone())
+    let source = source(live);
+    let facts = RecordingFacts::new(source, Clock::Monotonic, request.sensor.clone())
         .with_settings(live.settings())
-        .with_traceability(live.traceability());
+        .with_traceability(kept(live.traceability(), source))
+        .with_recorded_on(day_of(source));
     let mut recorder =
         Recorder::create(&request.path, &RecordingSpec::new(facts, channels.clone()))?;
     recorder.append_reference(&untouched)?;

@@ -1,6 +1,9 @@
 //! Instruments of a recording, with the certificates of the rig file.
 
-use taceva_core::{Certificate, Instrument, Traceability};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use taceva_core::{Certificate, Date, Instrument, Traceability};
+use taceva_dataset::Source;
 use taceva_drivers::Selector;
 use taceva_protocol::RigFile;
 
@@ -20,6 +23,19 @@ pub(crate) fn of_rig(rig: &RigFile) -> Vec<Traceability> {
         Some(traced(Instrument::Sensor, driver, Some(certificate)))
     });
     [force, robot, sensor].into_iter().flatten().collect()
+}
+
+/// Instruments that a recording of `source` keeps: labels that nothing measured need no certificate.
+pub(crate) fn kept(instruments: Vec<Traceability>, source: Source) -> Vec<Traceability> {
+    let mut kept = instruments;
+    kept.retain(|of| source == Source::Recorded || of.certificate.is_some());
+    kept
+}
+
+/// Today, in UTC, for a recording that measures; certificates are valid for a time.
+pub(crate) fn day_of(source: Source) -> Option<Date> {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH).ok()?;
+    (source == Source::Recorded).then(|| Date::of_unix_s(since.as_secs()))
 }
 
 /// The instrument of the device `driver`, a selector. Its serial number is the one that chose it; other drivers read none.
@@ -75,5 +91,10 @@ driver = "lab/camera"
         assert!(force.other_serial().is_some_and(|(_, read)| read == "B2"));
         assert_eq!(robot.driver.as_deref(), Some("lab/arm"));
         assert_eq!((&robot.serial, &robot.certificate), (&None, &None));
+        assert_eq!(kept(instruments.clone(), Source::Recorded), instruments);
+        let drawn = kept(instruments.clone(), Source::Simulated);
+        assert_eq!(drawn, [force.clone()]);
+        assert_eq!(day_of(Source::Simulated), None);
+        assert!(day_of(Source::Recorded).is_some());
     }
 }

@@ -236,7 +236,9 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> Recor
     facts.footprint = footprint(plan);
     facts.settings = open.settings_of_sensor();
     let rig = study.study.rig.as_deref();
-    facts.traceability = rig.map(instruments::of_rig).unwrap_or_default();
+    let instruments = rig.map(instruments::of_rig).unwrap_or_default();
+    facts.traceability = instruments::kept(instruments, source);
+    facts.recorded_on = instruments::day_of(source);
     RecordingSpec::new(facts, plan.truth_channels())
 }
 

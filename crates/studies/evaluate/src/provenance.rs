@@ -40,6 +40,10 @@ fn add_recording(provenance: &mut Provenance, dataset: &Dataset, folder: &str) {
         provenance.presses.insert(digest, header.presses.clone());
     }
     provenance.add_traceability(&header.traceability);
+    if !header.traceability.is_empty() {
+        let day = header.last_day(dataset.table().t_s());
+        provenance.recorded_on = provenance.recorded_on.max(day);
+    }
     let edits = header.seal.history.iter();
     provenance
         .edits

@@ -66,6 +66,30 @@ fn presses_become_points_that_models_are_fitted_and_evaluated_on() {
 }
 
 #[test]
+fn a_capture_keeps_the_certificate_of_its_rig_file() {
+    let emulated = Emulated::new();
+    let bench = Bench::new();
+    let certificate = "[force.certificate]\nnumber = \"D-K-1\"\nlaboratory = \"a laboratory\"\nissued = 2026-05-12\nserial = \"42\"\nk = 2.0\nU = { Fz = \"3.0 mN\" }\n";
+    bench.write("hand.toml", &format!("{}\n{certificate}", emulated.rig()));
+    bench.ok("capture held --rig hand.toml --frames 12 -q");
+    let dataset = Dataset::open(&bench.path("held")).expect("whole");
+    let [force] = dataset.header().traceability.as_slice() else {
+        panic!("{:?}", dataset.header().traceability);
+    };
+    assert_eq!(force.driver.as_deref(), Some("sri/m8128"));
+    let number = force.certificate.as_ref().map(|of| of.number.as_str());
+    assert_eq!(number, Some("D-K-1"));
+    let wrong = certificate.replace("3.0 mN", "3.0 um");
+    bench.write("hand.toml", &format!("{}\n{wrong}", emulated.rig()));
+    let ran = bench.run("capture other --rig hand.toml --frames 12 -q");
+    assert!(
+        ran.err.contains("[force.certificate]: `U.Fz`"),
+        "{}",
+        ran.err
+    );
+}
+
+#[test]
 fn a_sensor_alone_is_recorded_as_its_files_came() {
     let emulated = Emulated::new();
     let bench = Bench::new();
@@ -76,6 +100,7 @@ fn a_sensor_alone_is_recorded_as_its_files_came() {
     let dataset = Dataset::open(&bench.path("alone")).expect("whole");
     let header = dataset.header();
     assert_eq!((header.table.rows, header.source), (12, Source::Recorded));
+    assert!(header.recorded_on.is_some() && header.traceability.is_empty());
     assert_eq!(
         (header.sensor.model.as_str(), header.sensor.serial.as_str()),
         ("gel", "7")

@@ -52,7 +52,7 @@ fn limits_of_independent_errors_are_those_of_a_calculation_by_hand() {
     let sd = 2.5_f64.sqrt();
     let root = 5.0_f64.sqrt();
     let of_sd = [11.143_286_781_877_797, 0.484_418_557_087_930_3].map(|x: f64| (4.0 / x).sqrt());
-    let [near, far] = [2.064_259_380_531_960_7, 13.360_328_393_642_498].map(|t| t / root * sd);
+    let [near, far] = [2.064_259_380_531_961, 13.360_328_393_642_498].map(|t| t / root * sd);
     let half = 2.776_445_105_197_794 * sd / root;
     for (variant, value, [low, high]) in [
         (None, Z * sd, of_sd.map(|end| end * Z * sd)),

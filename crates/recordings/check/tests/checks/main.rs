@@ -1,6 +1,7 @@
 //! Every check: a recording that triggers it, and one that must not.
 
 mod angles;
+mod certificates;
 mod doubles;
 mod forces;
 mod joins;

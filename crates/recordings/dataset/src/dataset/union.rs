@@ -297,6 +297,9 @@ fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
         if header.clock != other.clock {
             header.clock = Clock::Unknown;
         }
+        if header.recorded_on != other.recorded_on {
+            header.recorded_on = None;
+        }
         for (own, theirs) in [
             (&mut header.sensor.serial, &other.sensor.serial),
             (&mut header.sensor.gel, &other.sensor.gel),

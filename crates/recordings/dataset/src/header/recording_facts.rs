@@ -1,10 +1,11 @@
 //! Facts of a recording that are known before its first sample.
 
 use std::collections::BTreeMap;
+use std::time::Duration;
 
-use taceva_core::{Clock, Traceability};
+use taceva_core::{Clock, Date, Traceability};
 
-use super::{Footprint, SensorFacts, Source};
+use super::{Footprint, Header, SensorFacts, Source};
 
 /// Facts of a recording that are known before its first sample.
 ///
@@ -23,6 +24,8 @@ pub struct RecordingFacts {
     pub source: Source,
     /// The clock that stamps the samples, which defines the origin of `t_s`.
     pub clock: Clock,
+    /// UTC day on which the recording began; `None` if nothing was measured, or for an import.
+    pub recorded_on: Option<Date>,
     /// Model, serial number and gel of the sensor.
     pub sensor: SensorFacts,
     /// The sensing area, if known.
@@ -39,6 +42,7 @@ impl RecordingFacts {
         RecordingFacts {
             source,
             clock,
+            recorded_on: None,
             sensor,
             footprint: None,
             settings: BTreeMap::new(),
@@ -50,6 +54,15 @@ impl RecordingFacts {
     #[must_use]
     pub fn with_settings(self, settings: BTreeMap<String, String>) -> RecordingFacts {
         RecordingFacts { settings, ..self }
+    }
+
+    /// The same facts with the day on which the recording begins.
+    #[must_use]
+    pub fn with_recorded_on(self, recorded_on: Option<Date>) -> RecordingFacts {
+        RecordingFacts {
+            recorded_on,
+            ..self
+        }
     }
 
     /// The same facts with the instruments of the labels.
@@ -68,5 +81,18 @@ impl RecordingFacts {
             footprint: Some(footprint),
             ..self
         }
+    }
+}
+
+impl Header {
+    /// UTC day of the last of these times of samples, or on which the recording began; `None` if no clock gives it.
+    pub fn last_day(&self, t_s: &[Option<f64>]) -> Option<Date> {
+        if self.clock != Clock::Unix {
+            return self.recorded_on;
+        }
+        let times = t_s.iter().flatten();
+        let last = times.copied().fold(f64::NEG_INFINITY, f64::max);
+        let since = Duration::try_from_secs_f64(last).ok()?;
+        Some(Date::of_unix_s(since.as_secs()))
     }
 }

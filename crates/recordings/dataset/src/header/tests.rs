@@ -13,6 +13,7 @@ fn header() -> Header {
         format: Version::CURRENT,
         source: Source::Simulated,
         clock: Clock::Monotonic,
+        recorded_on: Some(Date::of_unix_s(0)),
         sensor: SensorFacts {
             model: "a \"b\"\n[c]".to_owned(),
             serial: "unknown".to_owned(),

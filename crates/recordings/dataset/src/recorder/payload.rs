@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{
-    Channel, Channels, Clock, FrameInfo, GratingKind, Limit, Nanometre, Phase, PressOutcome,
+    Channel, Channels, Clock, Date, FrameInfo, GratingKind, Limit, Nanometre, Phase, PressOutcome,
     Traceability, Unit,
 };
 
@@ -24,6 +24,8 @@ use crate::toml_file::{parse_toml, toml_error};
 pub(super) struct WrittenStart {
     source: Source,
     clock: Clock,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    recorded_on: Option<Date>,
     sensor: SensorFacts,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     footprint: Option<Footprint>,
@@ -43,6 +45,7 @@ impl WrittenStart {
         WrittenStart {
             source: spec.facts.source,
             clock: spec.facts.clock,
+            recorded_on: spec.facts.recorded_on,
             sensor: spec.facts.sensor.clone(),
             footprint: spec.facts.footprint,
             settings: spec.facts.settings.clone(),
@@ -78,6 +81,7 @@ impl WrittenStart {
             facts: RecordingFacts {
                 source: written.source,
                 clock: written.clock,
+                recorded_on: written.recorded_on,
                 sensor: written.sensor,
                 footprint: written.footprint,
                 settings: written.settings,

@@ -34,6 +34,7 @@ impl Exported<'_> {
         let pictures = table.frames().iter().flatten().count();
         let parts = [
             (!header.settings.is_empty(), "the settings of the camera"),
+            (header.recorded_on.is_some(), "the day of the recording"),
             (
                 has_several(&header.traceability),
                 "instruments with several certificates",

@@ -108,16 +108,16 @@ fn card_of(exported: &Exported<'_>, taxels: Option<&str>) -> String {
     for channel in dataset.table().channels() {
         card += &format!("| {} | {} |\n", channel.name(), channel.unit().symbol());
     }
+    if let (Some(name), Some(signals)) = (taxels, &header.signals) {
+        card += &format!("| {name} | {} |\n", signals.spec.info.unit.symbol());
+        let names: Vec<String> = signals.spec.column_names().collect();
+        card += &format!("\n`{name}` holds, in this order: {}.\n", names.join(", "));
+    }
     if !header.traceability.is_empty() {
         card += "\nTraceability of the labels:\n";
     }
     for traced in &header.traceability {
         card += &format!("- {traced}\n");
-    }
-    if let (Some(name), Some(signals)) = (taxels, &header.signals) {
-        card += &format!("| {name} | {} |\n", signals.spec.info.unit.symbol());
-        let names: Vec<String> = signals.spec.column_names().collect();
-        card += &format!("\n`{name}` holds, in this order: {}.\n", names.join(", "));
     }
     card
 }

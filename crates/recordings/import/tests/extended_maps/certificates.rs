@@ -119,4 +119,7 @@ fn rows_without_the_certificate_of_the_dataset_are_refused_and_named_if_they_are
     );
     let header = extended(&certified(), &none, true).expect("added");
     assert_eq!(numbers(&header), [Some("D-K-1"), None]);
+    // The certificate of added rows does not cover those of before.
+    let header = extended(&none, &certified(), true).expect("added");
+    assert_eq!(numbers(&header), [Some("D-K-1"), None]);
 }

@@ -1,6 +1,7 @@
 //! Budgets: worked examples, draws, bad input, residuals.
 
 mod bad_input;
+mod certificates;
 mod coverage;
 mod draws;
 mod examples;

@@ -46,6 +46,12 @@ pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
         ),
         ("presses", joined(presses)),
         ("traceability", traceability),
+        (
+            "recorded_on",
+            provenance
+                .recorded_on
+                .map_or_else(String::new, |day| day.to_string()),
+        ),
         ("frames_decoded", provenance.frames_decoded.to_string()),
         ("plugins", provenance.plugins.join(", ")),
         ("samples_table", text(&provenance.samples_table)),

@@ -21,7 +21,14 @@ pub(super) fn traceability_line(provenance: &Provenance) -> String {
     };
     let stated = provenance.traceability.iter();
     let stated = stated.filter(|of| of.certificate.is_some());
-    let lines = missing.into_iter().chain(stated.map(ToString::to_string));
+    let stated = stated.map(|of| {
+        let day = provenance.recorded_on;
+        match day.filter(|day| of.expired_on(*day).is_some()) {
+            Some(day) => format!("{of}, expired on the day of the recording, {day}"),
+            None => of.to_string(),
+        }
+    });
+    let lines = missing.into_iter().chain(stated);
     lines.collect::<Vec<_>>().join("; ")
 }
 
@@ -69,6 +76,20 @@ mod tests {
         assert_eq!(
             line(vec![force.clone()]),
             "force: certificate D-K-1 of a laboratory, 2026-05-12, serial 42"
+        );
+        let mut old = force.clone();
+        let certificate = old.certificate.as_mut().expect("a certificate");
+        certificate.valid_until = Some("2027-05-12".parse().expect("a day"));
+        let expired = traceability_line(&Provenance {
+            traceability: vec![old],
+            recorded_on: Some("2027-05-13".parse().expect("a day")),
+            ..Provenance::default()
+        });
+        assert!(
+            expired.ends_with(
+                "valid until 2027-05-12, expired on the day of the recording, 2027-05-13"
+            ),
+            "{expired}"
         );
         let joined = line(vec![force, Traceability::new(Instrument::Force)]);
         assert!(joined.starts_with("not traceable in part: "), "{joined}");

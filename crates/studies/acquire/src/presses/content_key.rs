@@ -4,6 +4,7 @@ use taceva_core::{ArgKind, Device, Registry};
 use taceva_drivers::Drivers;
 use taceva_protocol::Setting;
 
+use crate::instruments;
 use crate::scene::{PlannedStudy, RigSpec, StudySource};
 
 /// Fields of a serialized plan that affect the scores but not the recording.
@@ -32,6 +33,11 @@ impl PlannedStudy {
             ("opaque", format!("{:?}", plan.opaque)),
             ("footprint", format!("{:?}", plan.footprint)),
         ];
+        let rig_file = self.study.rig.as_deref();
+        let instruments = rig_file.map(instruments::of_rig).unwrap_or_default();
+        if instruments.iter().any(|of| of.certificate.is_some()) {
+            parts.push(("instruments", format!("{instruments:?}")));
+        }
         for unit in &plan.units {
             let opened = devices(rig, unit, drivers)?.into_iter();
             parts.extend(opened.map(|device| ("device", format!("{device:?}"))));

@@ -34,20 +34,26 @@ pub(super) fn check_certificates(
     Ok(())
 }
 
-/// Instruments of the dataset, and further ones of the added rows. An instrument without certificate is one of them if the others have one.
+/// Instruments of the dataset, and further ones of the added rows. If only one of both has a certificate of an instrument, an entry without
+/// one stands for the other.
 pub(super) fn all_instruments(header: &Header, facts: &RecordingFacts) -> Vec<Traceability> {
     let mut all = header.traceability.clone();
-    for instrument in Instrument::ALL {
-        let is_it = |of: &&Traceability| of.instrument == instrument;
-        let mut new: Vec<Traceability> = { facts.traceability.iter() }
-            .filter(is_it)
-            .cloned()
-            .collect();
-        if new.is_empty() && header.traceability.iter().any(|own| is_it(&own)) {
-            new.push(Traceability::new(instrument));
+    for traced in &facts.traceability {
+        if !all.contains(traced) {
+            all.push(traced.clone());
         }
-        new.retain(|new| !all.contains(new));
-        all.extend(new);
+    }
+    for instrument in Instrument::ALL {
+        let numbers = [
+            numbers(&header.traceability, instrument),
+            numbers(&facts.traceability, instrument),
+        ];
+        let is_none = |numbers: &Vec<Option<&str>>| numbers.iter().all(Option::is_none);
+        let is_stated = |of: &Traceability| of.instrument == instrument && of.certificate.is_none();
+        if numbers.iter().any(is_none) && !numbers.iter().all(is_none) && !all.iter().any(is_stated)
+        {
+            all.push(Traceability::new(instrument));
+        }
     }
     all
 }

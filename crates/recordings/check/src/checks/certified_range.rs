@@ -1,0 +1,74 @@
+//! TAC029: labels outside the range of the certificate of their instrument.
+
+use taceva_core::{Certificate, Channel, Instrument, counted, shown};
+
+use crate::evidence::Evidence;
+use crate::finding::{Check, Found, Severity};
+use crate::stamps::share;
+
+pub(super) static CHECK: Check = Check {
+    code: "TAC029",
+    name: "certified-range",
+    looks_for: "labels outside the range for which the certificate of their instrument holds",
+    hint: "no uncertainty is known there: leave these samples out of claims, or have the instrument calibrated over the whole range",
+    reads: None,
+    find,
+};
+
+fn find(evidence: &Evidence<'_>) -> Vec<Found> {
+    let mut found = Vec::new();
+    for instrument in Instrument::ALL {
+        let of = evidence.header.traceability.iter();
+        let of = of.filter(|of| of.instrument == instrument);
+        let certificates: Vec<&Certificate> = of.filter_map(|of| of.certificate.as_ref()).collect();
+        for (position, channel) in evidence.table.channels().iter().enumerate() {
+            found.extend(outside(evidence, &certificates, channel, position));
+        }
+    }
+    found
+}
+
+/// Labels of a channel that no certificate covers.
+fn outside(
+    evidence: &Evidence<'_>,
+    certificates: &[&Certificate],
+    channel: &Channel,
+    position: usize,
+) -> Option<Found> {
+    let stated = { certificates.iter() }.find_map(|certificate| {
+        let range = certificate.range.get(channel.name())?;
+        (range[0].unit == channel.unit()).then_some((*certificate, range))
+    });
+    let (certificate, [least, most]) = stated?;
+    let column = evidence.table.truth(position);
+    let labels: Vec<(usize, f64)> = (0..column.len())
+        .filter_map(|row| Some((row, column.get(row)?)))
+        .collect();
+    let is_covered = |value: f64| {
+        let mut certificates = certificates.iter();
+        certificates.any(|certificate| certificate.covers(channel.name(), value))
+    };
+    let outside = labels.iter().filter(|(_, value)| !is_covered(*value));
+    let (below, above): (Vec<(usize, f64)>, Vec<(usize, f64)>) =
+        outside.partition(|(_, value)| *value < least.value);
+    let count = below.len() + above.len();
+    if count == 0 {
+        return None;
+    }
+    // Samples at rest are below every range.
+    let severity = match above.is_empty() {
+        true => Severity::Note,
+        false => Severity::Warning,
+    };
+    let rows: Vec<usize> = above.iter().chain(&below).map(|(row, _)| *row).collect();
+    let message = format!(
+        "{count} of {} of {} ({:.1} %) are outside {least} to {most}, the range of the certificate {}: {} below, {} above",
+        counted(labels.len(), "label"),
+        channel.name(),
+        100.0 * share(count, labels.len()),
+        shown(&certificate.number),
+        below.len(),
+        above.len()
+    );
+    Some(evidence.found(severity, message, &rows))
+}
