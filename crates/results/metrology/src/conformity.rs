@@ -22,6 +22,7 @@ mod limits;
 mod measurement;
 mod risk;
 mod rule;
+mod scale;
 
 pub use decision::{Decision, Word, decide};
 pub use error::ConformityError;
