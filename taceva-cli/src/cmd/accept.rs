@@ -9,7 +9,7 @@ use taceva_dataset::Dataset;
 use taceva_report::{Acceptance, LimitsFile, Study, Triple, accept, limits_template};
 
 use super::{Context, Usage, results};
-use crate::args::Accept;
+use crate::args::{Accept, Conditional};
 use crate::report::triple::triple;
 use crate::{date, exit, output};
 
@@ -41,14 +41,18 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
     let text =
         fs::read_to_string(limits).with_context(|| format!("cannot read {}", shown(&limits)))?;
     let limits = LimitsFile::read(&text).with_context(|| shown(&limits).to_string())?;
+    let limits = match args.conditional {
+        Some(Conditional::Pass) => limits.counting_conditional_passes(),
+        None => limits,
+    };
     let study = study_of(result)?;
-    let findings = accept(&study, &limits);
+    let findings = accept(&study, &limits).with_context(|| shown(&result).to_string())?;
     let pictures = match &args.html {
         Some(_) => pictures(result, context),
         None => None,
     };
     let acceptance = Acceptance {
-        name: &limits.name,
+        limits: &limits,
         study: &study,
         findings: &findings,
         date: Some(&date),

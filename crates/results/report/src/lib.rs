@@ -29,7 +29,7 @@ mod variables;
 mod wrap;
 
 pub use accept::{
-    ACCEPTANCE_SCHEMA, Acceptance, Limit, LimitCheck, LimitsError, LimitsFile, accept,
+    ACCEPTANCE_SCHEMA, AcceptError, Acceptance, Limit, LimitCheck, LimitsError, LimitsFile, accept,
     limits_template,
 };
 pub use choose::{

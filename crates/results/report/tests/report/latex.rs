@@ -61,9 +61,9 @@ fn data_sheets_compile() {
     )
     .expect("limits");
     let study = drawn(NAME, 60, 1.0);
-    let findings = accept(&study, &limits);
+    let findings = accept(&study, &limits).expect("checks");
     let acceptance = Acceptance {
-        name: &limits.name,
+        limits: &limits,
         study: &study,
         findings: &findings,
         date: Some("2026-11-22"),
