@@ -63,7 +63,7 @@ impl Limits {
     /// Values from `least` on, up to `most`; without one of both on that side unlimited.
     ///
     /// # Errors
-    /// As of the limits above.
+    /// [`ConformityError::Number`] for a limit that is not finite, [`ConformityError::Limits`] unless the lower limit is below the upper one.
     pub fn of(least: Option<f64>, most: Option<f64>) -> Result<Limits, ConformityError> {
         for end in [least, most].into_iter().flatten() {
             check("the limit", end, end.is_finite(), "a finite number")?;
