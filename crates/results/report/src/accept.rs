@@ -5,6 +5,7 @@ mod interval;
 mod limits_file;
 mod reason;
 mod sheet;
+mod subject;
 mod template;
 
 pub use check::{AcceptError, LimitCheck, accept};

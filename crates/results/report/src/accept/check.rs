@@ -8,6 +8,7 @@ use taceva_results::{Interval, Score};
 use super::interval::LimitInterval;
 use super::limits_file::{Limit, LimitsFile};
 use super::reason;
+use super::subject::Subject;
 use crate::number::numeral;
 use crate::results::Study;
 
@@ -86,31 +87,15 @@ fn hold(study: &Study, limits: &LimitsFile, limit: &Limit) -> Result<LimitCheck,
         reason: None,
         standing: Standing::Counts,
     };
-    let (metric, variant) = match limit.metric.split_once('.') {
-        Some((metric, variant)) => (metric, Some(variant)),
-        None => (limit.metric.as_str(), None),
-    };
-    let Some(score) = study.score(metric, &limit.channel) else {
+    let Some(subject) = Subject::find(study, limit) else {
         check.reason = Some("there is no such score".to_owned());
         return Ok(check);
     };
-    // A limit without a variant applies to the variant that verdicts use.
-    let decided_by = score.decided_by().map(|decides| decides.name.as_str());
-    let variant = variant.or(decided_by);
-    check.n = score.n;
-    check.standing = score.standing_of(variant);
-    let asked = match variant.map(|name| score.variant(name)) {
-        None => score.clone(),
-        Some(Some(variant)) => Score {
-            value: variant.value.clone(),
-            unit: variant.unit,
-            interval: variant.interval.clone(),
-            ..score.clone()
-        },
-        Some(None) => {
-            check.reason = Some("there is no such variant".to_owned());
-            return Ok(check);
-        }
+    check.n = subject.whole.n;
+    check.standing = subject.whole.standing_of(subject.variant);
+    let Some(asked) = subject.score() else {
+        check.reason = Some("there is no such variant".to_owned());
+        return Ok(check);
     };
     let Some(number) = asked.value.number() else {
         check.reason = asked
@@ -119,9 +104,9 @@ fn hold(study: &Study, limits: &LimitsFile, limit: &Limit) -> Result<LimitCheck,
             .or_else(|| Some("not a single number".to_owned()));
         return Ok(check);
     };
-    check_within(&asked, variant, number)?;
+    check_within(&asked, subject.variant, number)?;
     check.value = Some(number);
-    let interval = LimitInterval::of(study, &asked, variant);
+    let interval = LimitInterval::of(study, &asked, subject.variant);
     check.ends = interval.ends;
     check.trainings = interval.trainings;
     let unit = asked.unit;
