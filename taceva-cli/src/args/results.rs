@@ -146,11 +146,17 @@ pub(crate) struct Accept {
     #[arg(long, value_name = "LIMITS.toml", required_unless_present = "template")]
     pub(crate) limits: Option<PathBuf>,
     /// Write limits that this result meets, as a starting point: a fifth worse than measured, or the worse end of the interval
-    #[arg(long, value_name = "RESULT.json", conflicts_with_all = ["result", "limits", "html", "date", "format", "conditional"])]
+    #[arg(long, value_name = "RESULT.json", conflicts_with_all = ["result", "limits", "html", "date", "format", "conditional", "process"])]
     pub(crate) template: Option<PathBuf>,
     /// Write the data sheet: one HTML file that needs no network
     #[arg(long, value_name = "FILE.html")]
     pub(crate) html: Option<PathBuf>,
+    /// Results of other units of the same make, five or more: print consumer's and producer's risk of each limit; may be repeated
+    #[arg(long, value_name = "UNITS.json")]
+    pub(crate) process: Vec<PathBuf>,
+    /// Print the acceptance limit for this share of units that are accepted and do not meet the limit, such as 0.005
+    #[arg(long, value_name = "SHARE", requires = "process")]
+    pub(crate) target_risk: Option<f64>,
     /// Count a conditional pass as met: within the limit, not accepted by its rule
     #[arg(long, value_name = "VERDICT")]
     pub(crate) conditional: Option<Conditional>,

@@ -29,8 +29,8 @@ mod variables;
 mod wrap;
 
 pub use accept::{
-    ACCEPTANCE_SCHEMA, AcceptError, Acceptance, Limit, LimitCheck, LimitsError, LimitsFile, accept,
-    limits_template,
+    ACCEPTANCE_SCHEMA, AcceptError, Acceptance, Limit, LimitCheck, LimitsError, LimitsFile,
+    ProcessRisk, accept, add_process_risks, limits_template,
 };
 pub use choose::{
     Bound, CHOICE_SCHEMA, Candidate, Choice, Dropped, Evidence, Need, NeedError, Property, Step,

@@ -100,6 +100,24 @@ fn a_value_outside_its_own_interval_is_bad_input_in_every_format() {
 }
 
 #[test]
+fn other_units_give_risks_and_few_of_them_a_reason() {
+    let bench = Bench::new();
+    scored(&bench);
+    limit(&bench, "rule = \"guarded\"", 1.0);
+    let accepted = bench.json("accept r.json --limits limits.toml --process r.json");
+    crate::schema::check("acceptance", &accepted);
+    assert_eq!(
+        accepted["findings"][0]["process"]["undefined"],
+        "the number of units is 1, expected at least 5 units of one process"
+    );
+    bench.refused(
+        "accept r.json --limits limits.toml --process r.json --target-risk 1",
+        2,
+        "--target-risk 1: expected a share above 0 and below 1",
+    );
+}
+
+#[test]
 fn an_accepted_edit_of_a_result_is_said_in_every_format() {
     let bench = Bench::new();
     scored(&bench);

@@ -214,6 +214,16 @@ impl Measurement {
         self.scale.in_unit(self.value, scaled)
     }
 
+    /// An uncertainty in the unit of the value, on the scale of the distribution.
+    pub(super) fn on_scale(&self, standard: f64) -> f64 {
+        standard / self.in_unit(1.0)
+    }
+
+    /// Place of `value` on the scale of the distribution, from the measured value on.
+    pub(super) fn place(&self, value: f64) -> f64 {
+        self.scale.distance(self.value, value)
+    }
+
     /// `limit` moved by `by` on the scale of the distribution.
     pub(super) fn moved(&self, limit: f64, by: f64) -> f64 {
         self.scale.moved(limit, by)

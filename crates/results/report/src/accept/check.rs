@@ -7,6 +7,7 @@ use taceva_results::{Interval, Score};
 
 use super::interval::LimitInterval;
 use super::limits_file::{Limit, LimitsFile};
+use super::process::ProcessRisk;
 use super::reason;
 use super::subject::Subject;
 use crate::number::numeral;
@@ -33,6 +34,8 @@ pub struct LimitCheck {
     pub is_kept: bool,
     /// Reason why the limit is not met, or a remark that it is met without an interval.
     pub reason: Option<String>,
+    /// Risks among units of one process, or the reason that there are none; `None` without such units.
+    pub process: Option<Result<ProcessRisk, String>>,
     /// Standing of the score. A limit on a score that is excluded from verdicts counts as not met.
     pub standing: Standing,
 }
@@ -85,6 +88,7 @@ fn hold(study: &Study, limits: &LimitsFile, limit: &Limit) -> Result<LimitCheck,
         },
         is_kept: false,
         reason: None,
+        process: None,
         standing: Standing::Counts,
     };
     let Some(subject) = Subject::find(study, limit) else {

@@ -5,9 +5,9 @@ mod rows;
 use maud::{Markup, html};
 use serde_json::{Value, json};
 use taceva_metrics::Better;
-use taceva_metrology::conformity::Word;
+use taceva_metrology::conformity::{Limits, Word};
 
-use super::{LimitCheck, LimitsFile};
+use super::{LimitCheck, LimitsFile, ProcessRisk, process};
 use crate::html::{Document, Triple, badge, triples};
 use crate::markup::{glossary, terms};
 use crate::number::numeral;
@@ -17,7 +17,8 @@ use crate::table::{Column, Table};
 use taceva_results::{SampleChannel, not_measured};
 
 /// Schema of an acceptance as JSON. 1.1: each finding states the better direction. 1.2: the number of trainings in its interval. 1.3: uncertainty,
-/// probability of conformity, acceptance limit, rule and verdict; accepted edits.
+/// probability of conformity, acceptance limit, rule and verdict; risks among
+/// units of one process; accepted edits.
 pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.3";
 
 /// Findings of one sensor unit, with the facts of its data sheet.
@@ -60,7 +61,8 @@ impl Acceptance<'_> {
         for finding in self.findings {
             table.push(self.row(finding));
         }
-        for note in self.edits_note().into_iter().chain(self.rule_notes()) {
+        let notes = self.edits_note().into_iter().chain(self.rule_notes());
+        for note in notes.chain(process::notes(self.findings)) {
             table.note(note);
         }
         let trainings = self.findings.iter().map(|finding| finding.trainings);
@@ -80,12 +82,7 @@ impl Acceptance<'_> {
         let is_by_rules = self.limits.is_by_rules();
         let finding = |finding: &LimitCheck| {
             let decision = finding.decision.as_ref();
-            let acceptance = decision
-                .and_then(|decision| decision.acceptance.as_ref())
-                .map_or(
-                    Value::Null,
-                    |limits| json!({"least": limits.least(), "most": limits.most()}),
-                );
+            let acceptance = decision.and_then(|decision| decision.acceptance.as_ref());
             json!({
                 "metric": finding.limit.metric,
                 "better": Better::of(&finding.limit.metric).map(Better::name),
@@ -102,7 +99,8 @@ impl Acceptance<'_> {
                 "k": decision.and_then(|of| of.coverage_factor),
                 "U": decision.and_then(|of| of.expanded_uncertainty),
                 "conformance_probability": decision.and_then(|of| of.conformance_probability),
-                "acceptance_limit": acceptance,
+                "acceptance_limit": acceptance.map(ends_json),
+                "process": finding.process.as_ref().map(process_json),
                 "rule": is_by_rules.then_some(finding.limit.decided_by),
                 "verdict": finding.verdict,
                 "kept": finding.is_kept,
@@ -204,6 +202,22 @@ impl Acceptance<'_> {
         );
         entries.extend(known.map(|(name, text)| (name.as_str(), short_digests(text))));
         html! { dl.two { (terms(entries)) } "\n" }
+    }
+}
+
+fn ends_json(limits: &Limits) -> Value {
+    json!({"least": limits.least(), "most": limits.most()})
+}
+
+fn process_json(process: &Result<ProcessRisk, String>) -> Value {
+    match process {
+        Ok(process) => json!({
+            "units": process.units,
+            "consumer_risk": process.risk.consumer,
+            "producer_risk": process.risk.producer,
+            "acceptance_limit": process.acceptance.as_ref().map(ends_json),
+        }),
+        Err(reason) => json!({"undefined": reason}),
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod rules;
 mod sheets;
+mod units;
 
 use crate::compare;
 use crate::compare::trainings::over_seeds;

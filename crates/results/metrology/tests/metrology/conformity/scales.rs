@@ -1,7 +1,9 @@
 //! Measured values by their intervals, on the scale on which an interval is symmetric.
 
 use taceva_metrics::Scale;
-use taceva_metrology::conformity::{ConformityError, DecisionRule, Limits, Measurement, Word};
+use taceva_metrology::conformity::{
+    ConformityError, DecisionRule, Limits, Measurement, Population, Process, Word,
+};
 
 use super::{GUARDED, at_most, decided};
 use crate::support::close;
@@ -96,4 +98,64 @@ fn no_error_is_accepted_by_a_limit_of_zero() {
             "p",
         );
     }
+}
+
+/// Measurements of five units, by the logarithms of their ratios to 0.08.
+fn units(steps: [f64; 5], standard: f64) -> Vec<Measurement> {
+    let unit = |step: f64| {
+        let value = 0.08 * step.exp();
+        let unit = Measurement::new(value, standard * value, 30.0).expect("a unit");
+        unit.logarithmic().expect("above 0")
+    };
+    steps.map(unit).to_vec()
+}
+
+#[test]
+fn units_are_a_process_on_the_scale_of_the_measurement() {
+    // Variance 0.1 between values, 0.01 of which is that of measurement.
+    let measured = units([-0.4, -0.2, 0.0, 0.2, 0.4], 0.1);
+    let population = Population::of(&measured, &measured[2]).expect("a population");
+    let process = Process::new(0.0, 0.09_f64.sqrt(), 0.1).expect("a process");
+    let step = 1.5_f64.ln();
+    let limits = at_most(0.12);
+    let found = population.risk(&limits, &limits).expect("on the scale");
+    let expected = process.risk(&at_most(step), &at_most(step));
+    close(found.consumer, expected.consumer, 1e-9, "consumer's risk");
+    close(found.producer, expected.producer, 1e-9, "producer's risk");
+    let target = found.consumer / 10.0;
+    let inner = population.acceptance(&limits, target).expect("a target");
+    let guard = process.guard(&at_most(step), target).expect("a target");
+    let most = inner.expect("room").most().expect("an upper limit");
+    let expected = 0.12 * (-guard.expect("a guard")).exp();
+    close(most, expected, 1e-9, "acceptance limit");
+}
+
+#[test]
+fn units_that_show_no_process_are_refused() {
+    let measured = units([-0.4, -0.2, 0.0, 0.2, 0.4], 0.1);
+    let refusal = |units: &[Measurement]| {
+        let error = Population::of(units, &measured[2]).expect_err("refused");
+        error.to_string()
+    };
+    let few = refusal(&measured[..4]);
+    assert_eq!(
+        few,
+        "the number of units is 4, expected at least 5 units of one process"
+    );
+    let alike = refusal(&units([0.0; 5], 0.1));
+    assert!(
+        alike.contains("differ by more than their uncertainties"),
+        "{alike}"
+    );
+    let mut unknown = measured.clone();
+    unknown[0] = Measurement::without_uncertainty(0.07).expect("finite");
+    let unknown = refusal(&unknown);
+    assert!(unknown.contains("by an interval of each unit"), "{unknown}");
+    let mut negative = measured.clone();
+    negative[0] = Measurement::new(-0.07, 0.01, 30.0).expect("finite");
+    let negative = refusal(&negative);
+    assert!(
+        negative.starts_with("the value of a unit is -0.07"),
+        "{negative}"
+    );
 }

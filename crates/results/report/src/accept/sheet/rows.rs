@@ -16,6 +16,9 @@ impl Acceptance<'_> {
         if self.limits.is_by_rules() {
             names.extend(["u", "nu", "p_c", "acceptance limit"]);
         }
+        if self.has_risks() {
+            names.extend(["consumer's risk", "producer's risk", "limit for risk"]);
+        }
         names.extend(["verdict", "why"]);
         if !self.study.edits.is_empty() {
             names.push("edits");
@@ -42,6 +45,15 @@ impl Acceptance<'_> {
         if self.limits.is_by_rules() {
             cells.extend(of_decision(check.decision.as_ref()));
         }
+        if self.has_risks() {
+            let process = check.process.as_ref().and_then(|known| known.as_ref().ok());
+            let limits = process.and_then(|process| process.acceptance.as_ref());
+            cells.push(or_dash(process.map(|of| numeral(of.risk.consumer))));
+            cells.push(or_dash(process.map(|of| numeral(of.risk.producer))));
+            cells.push(or_dash(
+                limits.map(|limits| reason::bounds(limits.least(), limits.most())),
+            ));
+        }
         cells.push(match (self.limits.is_by_rules(), check.verdict) {
             (false, _) => Cell::Verdict(check.is_kept),
             (true, Word::Pass) => Cell::Verdict(true),
@@ -52,6 +64,10 @@ impl Acceptance<'_> {
             cells.push(counted(self.study.edits.len(), "accepted edit").into());
         }
         cells
+    }
+
+    fn has_risks(&self) -> bool {
+        self.findings.iter().any(|check| check.process.is_some())
     }
 
     /// Uncertainty of each value with its coverage factor, and the rule of its limit.
