@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 use taceva_core::{Unit, shown};
-use taceva_metrology::conformity::{DecisionRule, Limits, RuleSettings};
+use taceva_metrology::conformity::{ConformityError, DecisionRule, Limits, RuleSettings};
 
 /// Version of limit files whose limits are met by the value, or by its whole interval.
 const BY_VALUE: u32 = 1;
@@ -129,9 +129,11 @@ impl LimitsFile {
             )));
         }
         let common = file.decision.clone().unwrap_or_default();
-        common
-            .decision_rule()
-            .map_err(|error| LimitsError::File(format!("[decision]: {error}")))?;
+        match common.decision_rule() {
+            // Each limit may state it in its own unit.
+            Ok(_) | Err(ConformityError::MissingSetting { .. }) => {}
+            Err(error) => return Err(LimitsError::File(format!("[decision]: {error}"))),
+        }
         for (limit, number) in file.limits.iter_mut().zip(1..) {
             let refuse = |problem: String| LimitsError::Limit { number, problem };
             limit.check_unit_and_ends().map_err(refuse)?;

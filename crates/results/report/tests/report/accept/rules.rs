@@ -148,6 +148,10 @@ fn a_limit_may_have_a_rule_of_its_own() {
     assert_eq!(shared(0.02).0, Word::Pass);
     let great = "U is 0.0164 N, above the 0.01 N of the rule".to_owned();
     assert_eq!(shared(0.01), (Word::Undecided, great));
+    // An uncertainty is agreed in the unit of each limit.
+    let all = "[decision]\nrule = \"shared\"";
+    let agreed = held(all, &format!("{most}\nmost_uncertainty = 0.02"));
+    assert_eq!(agreed.verdict, Word::Pass);
 }
 
 #[test]
@@ -207,6 +211,10 @@ fn settings_outside_their_range_are_refused_by_place_and_expectation() {
     }
     for (limit, expected) in [
         ("r = -1.0", "limit 1: r is -1, expected a factor from 0 on"),
+        (
+            "rule = \"shared\"",
+            "limit 1: rule = \"shared\" needs `most_uncertainty`",
+        ),
         (
             "whole_interval = true",
             "limit 1: `whole_interval` in limits_version 2: expected rule = \"guarded\" with r = 1",
