@@ -38,8 +38,8 @@ pub(crate) use self::plugin::{
     PluginRelease, PluginUninstall,
 };
 pub(crate) use self::results::{
-    Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare, Like,
-    ReportArgs,
+    Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare,
+    Conditional, Like, ReportArgs,
 };
 pub(crate) use self::rig::{RigCheckArgs, RigCommand, RigSubject, RigTapArgs, RigTeachArgs};
 pub(crate) use self::shared::{

@@ -106,18 +106,36 @@ fn needs_help() -> String {
 /// An example of a file of limits.
 const LIMITS_HELP: &str = "\
 Limits:
+  limits_version = 2
   name = \"line 3\"
+  [decision]
+  rule = \"guarded\"          # simple, guarded, probability or shared
+  r = 1.0                   # guarded: inside the limit by r times the expanded uncertainty
   [[limit]]
   metric = \"mae\"            # or a variant, such as \"hysteresis.ratio\"
   channel = \"Fz\"
   unit = \"N\"
   most = 0.05               # or least; or both
-  whole_interval = false    # true: the whole interval must be within it, not only the value
+
+Rules, which may also stand below a [[limit]]:
+  simple       the value meets the limit; this is the rule if none is stated
+  guarded      the value is inside the limit by r U, with U at `coverage` (0.95)
+  probability  the probability of conformity is at least `p_conformity` (0.95)
+  shared       the value meets the limit, and U is at most `most_uncertainty`
+The verdict is pass, conditional pass, conditional fail, fail or, without an interval, undecided.
+Limits of version 1 are read too: `whole_interval = true` holds the whole interval against the limit.
 
 A file to start from, with the measured value beside each limit:
   taceva accept --template RESULT.json --out limits.toml";
 
-/// The exit code is 1 if a limit is not met. A missing or undefined score meets no limit.
+/// Conditional verdict that counts as met.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Conditional {
+    /// A value within the limit that its rule does not accept
+    Pass,
+}
+
+/// The exit code is 0 if every verdict is a pass, else 1. A missing or undefined score meets no limit.
 #[derive(Debug, Args)]
 #[command(after_help = LIMITS_HELP)]
 pub(crate) struct Accept {
@@ -128,11 +146,20 @@ pub(crate) struct Accept {
     #[arg(long, value_name = "LIMITS.toml", required_unless_present = "template")]
     pub(crate) limits: Option<PathBuf>,
     /// Write limits that this result meets, as a starting point: a fifth worse than measured, or the worse end of the interval
-    #[arg(long, value_name = "RESULT.json", conflicts_with_all = ["result", "limits", "html", "date", "format"])]
+    #[arg(long, value_name = "RESULT.json", conflicts_with_all = ["result", "limits", "html", "date", "format", "conditional", "process"])]
     pub(crate) template: Option<PathBuf>,
     /// Write the data sheet: one HTML file that needs no network
     #[arg(long, value_name = "FILE.html")]
     pub(crate) html: Option<PathBuf>,
+    /// Results of other units of the same make, five or more: print consumer's and producer's risk of each limit; may be repeated
+    #[arg(long, value_name = "UNITS.json")]
+    pub(crate) process: Vec<PathBuf>,
+    /// Print the acceptance limit for this share of units that are accepted and do not meet the limit, such as 0.005
+    #[arg(long, value_name = "SHARE", requires = "process")]
+    pub(crate) target_risk: Option<f64>,
+    /// Count a conditional pass as met: within the limit, not accepted by its rule
+    #[arg(long, value_name = "VERDICT")]
+    pub(crate) conditional: Option<Conditional>,
     /// The date of the data sheet [default: today, in UTC]
     #[arg(long, value_name = "YYYY-MM-DD")]
     pub(crate) date: Option<String>,

@@ -6,10 +6,12 @@ use std::path::Path;
 use anyhow::Context as _;
 use taceva_core::shown;
 use taceva_dataset::Dataset;
-use taceva_report::{Acceptance, LimitsFile, Study, Triple, accept, limits_template};
+use taceva_report::{
+    Acceptance, LimitsFile, Study, Triple, accept, add_process_risks, limits_template,
+};
 
 use super::{Context, Usage, results};
-use crate::args::Accept;
+use crate::args::{Accept, Conditional};
 use crate::report::triple::triple;
 use crate::{date, exit, output};
 
@@ -41,14 +43,23 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
     let text =
         fs::read_to_string(limits).with_context(|| format!("cannot read {}", shown(&limits)))?;
     let limits = LimitsFile::read(&text).with_context(|| shown(&limits).to_string())?;
+    let limits = match args.conditional {
+        Some(Conditional::Pass) => limits.counting_conditional_passes(),
+        None => limits,
+    };
     let study = study_of(result)?;
-    let findings = accept(&study, &limits);
+    let mut findings = accept(&study, &limits).with_context(|| shown(&result).to_string())?;
+    if !args.process.is_empty() {
+        results::check_distinct(&args.process)?;
+        let units = results::read_all(&args.process)?;
+        add_process_risks(&mut findings, &study, &units, target_risk(args)?);
+    }
     let pictures = match &args.html {
         Some(_) => pictures(result, context),
         None => None,
     };
     let acceptance = Acceptance {
-        name: &limits.name,
+        limits: &limits,
         study: &study,
         findings: &findings,
         date: Some(&date),
@@ -63,6 +74,16 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
         true => exit::DONE,
         false => exit::CHECK_FAILED,
     })
+}
+
+/// The share of wrongly accepted units that `--target-risk` allows.
+fn target_risk(args: &Accept) -> anyhow::Result<Option<f64>> {
+    match args.target_risk {
+        Some(share) if !(share > 0.0 && share < 1.0) => Err(Usage::error(format!(
+            "--target-risk {share}: expected a share above 0 and below 1, such as 0.005"
+        ))),
+        share => Ok(share),
+    }
 }
 
 /// The single sensor of a result.

@@ -2,6 +2,7 @@
 
 mod accepted;
 mod compared;
+mod decisions;
 mod documents;
 #[path = "../../../crates/results/report/tests/report/paper.rs"]
 mod latex;

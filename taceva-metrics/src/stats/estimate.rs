@@ -223,7 +223,7 @@ impl Estimate {
     }
 
     /// Degrees of freedom of its interval.
-    pub(super) fn freedom(&self) -> f64 {
+    pub fn freedom(&self) -> f64 {
         self.freedom
     }
 

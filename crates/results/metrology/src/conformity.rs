@@ -20,12 +20,15 @@ mod decision;
 mod error;
 mod limits;
 mod measurement;
+mod population;
 mod risk;
 mod rule;
+mod scale;
 
 pub use decision::{Decision, Word, decide};
 pub use error::ConformityError;
 pub use limits::Limits;
 pub use measurement::Measurement;
+pub use population::Population;
 pub use risk::{GlobalRisk, Process};
 pub use rule::{DecisionRule, RuleSettings};

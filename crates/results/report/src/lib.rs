@@ -30,8 +30,8 @@ mod variables;
 mod wrap;
 
 pub use accept::{
-    ACCEPTANCE_SCHEMA, Acceptance, Limit, LimitCheck, LimitsError, LimitsFile, accept,
-    limits_template,
+    ACCEPTANCE_SCHEMA, AcceptError, Acceptance, Limit, LimitCheck, LimitsError, LimitsFile,
+    ProcessRisk, accept, add_process_risks, limits_template,
 };
 pub use budget::{BudgetReport, BudgetTemplate};
 pub use choose::{

@@ -50,6 +50,8 @@ pub struct Study {
     pub provenance: Vec<(String, String)>,
     /// Provenance entries that the methods paragraph uses individually.
     pub made: Made,
+    /// Accepted manual edits of the result and of its inputs: file, date, reason and digests.
+    pub edits: Vec<String>,
     /// Notes for readers.
     pub notes: Vec<String>,
     /// Scores for other training seeds, if the model was fitted with several.
@@ -123,6 +125,7 @@ impl From<EvaluationReport> for Study {
             skipped: report.skipped,
             provenance,
             made,
+            edits: report.provenance.edits,
             notes: report.provenance.notes,
             over_seeds: report.over_seeds,
             samples: report.samples,

@@ -78,10 +78,8 @@ fn unit(folder: &SweepFolder, one: &Loaded<'_>, limits: &LimitsFile) -> Result<U
             let study = studies
                 .first()
                 .ok_or_else(|| wrong("no study".to_owned()))?;
-            for finding in accept(study, limits)
-                .iter()
-                .filter(|finding| !finding.is_kept)
-            {
+            let findings = accept(study, limits).map_err(|error| wrong(error.to_string()))?;
+            for finding in findings.iter().filter(|finding| !finding.is_kept) {
                 let value = finding
                     .value
                     .map_or_else(|| "no value".to_owned(), |value| format!("{value}"));

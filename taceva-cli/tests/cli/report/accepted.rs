@@ -7,7 +7,7 @@ use serde_json::Value;
 use crate::support::Bench;
 
 /// A result of one channel.
-fn scored(bench: &Bench) {
+pub(super) fn scored(bench: &Bench) {
     bench.write(
         "t.csv",
         "id,point_id,Fz\n1,a,0.1\n2,b,0.2\n3,c,0.3\n4,d,0.4\n5,e,0.5\n6,f,0.6\n",
@@ -40,6 +40,10 @@ fn limits_of_a_result_are_kept_by_it() {
         limits.contains("# result: ") && limits.contains("metric = \"mae\""),
         "{limits}"
     );
+    assert!(
+        limits.contains("limits_version = 2") && limits.contains("rule = \"guarded\""),
+        "{limits}"
+    );
     bench.ok("accept --template r.json --out limits.toml -q");
     let accepted =
         bench.json("accept r.json --limits limits.toml --date 2024-02-29 --html sheet.html");
@@ -48,6 +52,7 @@ fn limits_of_a_result_are_kept_by_it() {
         (&accepted["passed"], &accepted["date"]),
         (&Value::Bool(true), &Value::String("2024-02-29".to_owned()))
     );
+    assert_eq!(accepted["findings"][0]["rule"]["rule"], "guarded");
     let sheet = fs::read_to_string(bench.path("sheet.html")).expect("there");
     assert!(sheet.contains("<dt>date</dt><dd>2024-02-29</dd>"));
     bench.refused(

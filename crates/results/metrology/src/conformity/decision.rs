@@ -74,6 +74,10 @@ pub struct Decision {
     pub standard_uncertainty: Option<f64>,
     /// Degrees of freedom; none if infinite or unknown.
     pub freedom: Option<f64>,
+    /// Coverage factor of the expanded uncertainty.
+    pub coverage_factor: Option<f64>,
+    /// Expanded uncertainty at the coverage of the rule, in the unit of the value; on a logarithmic scale to first order.
+    pub expanded_uncertainty: Option<f64>,
     /// Limits of the tolerance.
     pub limits: Limits,
     /// The rule.
@@ -106,6 +110,9 @@ pub fn decide(
 ) -> Result<Decision, ConformityError> {
     rule.check()?;
     let probability = measured.conformance_probability(limits);
+    let coverage = rule.coverage();
+    // Agreed and printed in the unit of the value, on a logarithmic scale too.
+    let expanded = measured.expanded(coverage).map(|of| measured.in_unit(of));
     let is_within = limits.contain(measured.value());
     let (acceptance, word) = match (rule, probability) {
         (DecisionRule::Simple, _) => (
@@ -115,22 +122,19 @@ pub fn decide(
         (_, None) => (None, Word::Undecided),
         (
             DecisionRule::Shared {
-                most_uncertainty,
-                coverage,
+                most_uncertainty, ..
             },
             Some(_),
         ) => {
-            // Agreed in the unit of the value, on a logarithmic scale too.
-            let ratio = measured.expanded(*coverage).unwrap_or(f64::INFINITY);
-            let expanded = measured.in_unit(ratio);
-            match (expanded <= *most_uncertainty, is_within) {
+            let is_agreed = expanded.is_some_and(|expanded| expanded <= *most_uncertainty);
+            match (is_agreed, is_within) {
                 (true, true) => (Some(*limits), Word::Pass),
                 (true, false) => (Some(*limits), Word::Fail),
                 (false, _) => (None, Word::Undecided),
             }
         }
-        (DecisionRule::Guarded { r, coverage }, Some(_)) => {
-            let guard = r * measured.expanded(*coverage).unwrap_or(f64::INFINITY);
+        (DecisionRule::Guarded { r, .. }, Some(_)) => {
+            let guard = r * measured.expanded(coverage).unwrap_or(f64::INFINITY);
             let inner = moved(measured, limits, guard);
             let outer = moved(measured, limits, -guard);
             let is_in = |limits: &Option<Limits>| {
@@ -148,6 +152,8 @@ pub fn decide(
         value: measured.value(),
         standard_uncertainty: measured.standard_uncertainty(),
         freedom: measured.freedom().filter(|freedom| freedom.is_finite()),
+        coverage_factor: measured.coverage_factor(coverage),
+        expanded_uncertainty: expanded,
         limits: *limits,
         rule: *rule,
         acceptance,
@@ -189,6 +195,10 @@ fn acceptance_of(measured: &Measurement, limits: &Limits, least: f64) -> Option<
     let mut high = u;
     while is_enough(high) == Some(false) {
         high *= 2.0;
+        // An error has no value below a limit of 0.
+        if high.is_infinite() {
+            return None;
+        }
     }
     let mut low = 0.0;
     loop {

@@ -1,6 +1,10 @@
 //! Reasons that nothing can be decided.
 
+use taceva_core::{shown, suggestion};
 use thiserror::Error;
+
+/// Names of all rules.
+const RULES: [&str; 4] = ["simple", "guarded", "probability", "shared"];
 
 /// Reason that nothing can be decided.
 ///
@@ -32,7 +36,8 @@ pub enum ConformityError {
     },
     /// A setting of another rule.
     #[error(
-        "`{setting}` with rule = \"{rule}\": expected it with rule = \"{expected}\" alone; remove one of both"
+        "`{setting}` with rule = \"{}\": expected it with rule = \"{expected}\" alone; remove one of both",
+        shown(.rule)
     )]
     BothRules {
         /// Name of the setting.
@@ -51,7 +56,7 @@ pub enum ConformityError {
         setting: &'static str,
     },
     /// An unknown rule.
-    #[error("rule = \"{rule}\": expected simple, guarded, probability or shared")]
+    #[error("rule = \"{}\": {}", shown(.rule), suggestion(.rule, &RULES))]
     UnknownRule {
         /// Name found.
         rule: String,

@@ -60,7 +60,11 @@ impl Limits {
         Limits::of(Some(least), Some(most))
     }
 
-    fn of(least: Option<f64>, most: Option<f64>) -> Result<Limits, ConformityError> {
+    /// Values from `least` on, up to `most`; without one of both on that side unlimited.
+    ///
+    /// # Errors
+    /// [`ConformityError::Number`] for a limit that is not finite, [`ConformityError::Limits`] unless the lower limit is below the upper one.
+    pub fn of(least: Option<f64>, most: Option<f64>) -> Result<Limits, ConformityError> {
         for end in [least, most].into_iter().flatten() {
             check("the limit", end, end.is_finite(), "a finite number")?;
         }

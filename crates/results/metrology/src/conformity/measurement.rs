@@ -1,9 +1,10 @@
 //! A measured value with its uncertainty.
 
+use taceva_metrics::Scale;
 use taceva_metrics::distributions::student_t;
-use taceva_metrics::elementary::{exponential, logarithm};
 
 use super::error::check;
+use super::scale::OpenScale;
 use super::{ConformityError, Limits};
 
 /// A measured value, and its standard uncertainty with degrees of freedom if there is one.
@@ -19,13 +20,13 @@ use super::{ConformityError, Limits};
 pub struct Measurement {
     value: f64,
     uncertainty: Option<Uncertainty>,
-    is_logarithmic: bool,
+    scale: OpenScale,
 }
 
-/// Standard uncertainty in the unit of the value, with its degrees of freedom.
+/// Standard uncertainty on the scale of the distribution, with its degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Uncertainty {
-    standard: f64,
+    scaled: f64,
     freedom: f64,
 }
 
@@ -49,8 +50,62 @@ impl Measurement {
             "a number above 0",
         )?;
         Ok(Measurement {
-            uncertainty: Some(Uncertainty { standard, freedom }),
+            uncertainty: Some(Uncertainty {
+                scaled: standard,
+                freedom,
+            }),
             ..Measurement::without_uncertainty(value)?
+        })
+    }
+
+    /// A value with an interval of 95 %, whose ends are symmetric about it on `scale`.
+    ///
+    /// The uncertainty is half of the distance between the ends on that scale, over Student's t. For a share by Wilson the scale is the
+    /// logarithm of its odds. If value or end have no place on the scale, it is the distance of the farther end.
+    ///
+    /// ```
+    /// use taceva_metrics::Scale;
+    /// use taceva_metrology::conformity::{Limits, Measurement};
+    /// let error = Measurement::of_interval(0.08, [0.064, 0.1], 31.0, Scale::Logarithm)?;
+    /// let p = error.conformance_probability(&Limits::at_most(0.1)?);
+    /// assert!(p.is_some_and(|p| (p - 0.975).abs() < 1e-12));
+    /// # Ok::<(), taceva_metrology::conformity::ConformityError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`ConformityError::Number`] for a value outside its interval, an end that is not finite, or degrees of freedom not above 0.
+    pub fn of_interval(
+        value: f64,
+        ends: [f64; 2],
+        freedom: f64,
+        scale: Scale,
+    ) -> Result<Measurement, ConformityError> {
+        let [low, high] = ends;
+        for end in ends {
+            check(
+                "the end of the interval",
+                end,
+                end.is_finite(),
+                "a finite number",
+            )?;
+        }
+        let is_within = low <= value && value <= high;
+        check("the value", value, is_within, "a value within its interval")?;
+        let symmetric = OpenScale::candidates(scale).iter().filter_map(|scale| {
+            let distances = ends.map(|end| scale.distance(value, end).abs());
+            let [below, above] = distances;
+            let is_finite = scale.holds(value) && below.is_finite() && above.is_finite();
+            is_finite.then_some((*scale, f64::midpoint(below, above), (below - above).abs()))
+        });
+        let nearest = symmetric.min_by(|(_, _, one), (_, _, other)| one.total_cmp(other));
+        let own = (OpenScale::Own, (value - low).max(high - value), 0.0);
+        let (scale, half, _) = nearest.unwrap_or(own);
+        let plain = Measurement::new(value, 0.0, freedom)?;
+        let scaled = half / student_t::quantile(0.975, freedom);
+        Ok(Measurement {
+            uncertainty: Some(Uncertainty { scaled, freedom }),
+            scale,
+            ..plain
         })
     }
 
@@ -63,7 +118,7 @@ impl Measurement {
         Ok(Measurement {
             value,
             uncertainty: None,
-            is_logarithmic: false,
+            scale: OpenScale::Own,
         })
     }
 
@@ -78,8 +133,13 @@ impl Measurement {
             self.value > 0.0,
             "a number above 0 on a logarithmic scale",
         )?;
+        let uncertainty = self.uncertainty.map(|of| Uncertainty {
+            scaled: self.in_unit(of.scaled) / self.value,
+            ..of
+        });
         Ok(Measurement {
-            is_logarithmic: true,
+            uncertainty,
+            scale: OpenScale::Logarithm,
             ..self
         })
     }
@@ -93,7 +153,7 @@ impl Measurement {
     /// Standard uncertainty, in the unit of the value.
     #[must_use]
     pub fn standard_uncertainty(&self) -> Option<f64> {
-        self.uncertainty.map(|of| of.standard)
+        self.uncertainty.map(|of| self.in_unit(of.scaled))
     }
 
     /// Degrees of freedom of the standard uncertainty.
@@ -102,12 +162,20 @@ impl Measurement {
         self.uncertainty.map(|of| of.freedom)
     }
 
+    /// Coverage factor for a two-sided coverage in 0..1: the expanded uncertainty over the standard uncertainty.
+    #[must_use]
+    pub fn coverage_factor(&self, coverage: f64) -> Option<f64> {
+        let of = self.uncertainty?;
+        Some(student_t::quantile(
+            f64::midpoint(1.0, coverage),
+            of.freedom,
+        ))
+    }
+
     /// Expanded uncertainty for a two-sided coverage in 0..1; relative to the value on a logarithmic scale.
     #[must_use]
     pub fn expanded(&self, coverage: f64) -> Option<f64> {
-        let of = self.uncertainty?;
-        let factor = student_t::quantile(f64::midpoint(1.0, coverage), of.freedom);
-        Some(factor * self.scaled(of.standard))
+        Some(self.coverage_factor(coverage)? * self.uncertainty?.scaled)
     }
 
     /// Probability that the measured quantity is within `limits`; none without an uncertainty.
@@ -117,11 +185,10 @@ impl Measurement {
     #[must_use]
     pub fn conformance_probability(&self, limits: &Limits) -> Option<f64> {
         let of = self.uncertainty?;
-        if of.standard <= 0.0 {
+        if of.scaled <= 0.0 {
             return Some(if limits.contain(self.value) { 1.0 } else { 0.0 });
         }
-        let scaled = self.scaled(of.standard);
-        let t = |limit: f64| self.distance(limit) / scaled;
+        let t = |limit: f64| self.scale.distance(self.value, limit) / of.scaled;
         let beyond = [
             limits
                 .most()
@@ -142,53 +209,28 @@ impl Measurement {
         }
     }
 
-    /// The uncertainty on the scale of the distribution.
-    fn scaled(&self, standard: f64) -> f64 {
-        match self.is_logarithmic {
-            true => standard / self.value,
-            false => standard,
-        }
-    }
-
     /// An uncertainty on the scale of the distribution in the unit of the value.
     pub(super) fn in_unit(&self, scaled: f64) -> f64 {
-        match self.is_logarithmic {
-            true => scaled * self.value,
-            false => scaled,
-        }
+        self.scale.in_unit(self.value, scaled)
     }
 
-    /// Distance from the value to `limit` on the scale of the distribution.
-    fn distance(&self, limit: f64) -> f64 {
-        match self.is_logarithmic {
-            true if limit <= 0.0 => f64::NEG_INFINITY,
-            true => logarithm(limit / self.value),
-            false => limit - self.value,
-        }
+    /// An uncertainty in the unit of the value, on the scale of the distribution.
+    pub(super) fn on_scale(&self, standard: f64) -> f64 {
+        standard / self.in_unit(1.0)
+    }
+
+    /// Place of `value` on the scale of the distribution, from the measured value on.
+    pub(super) fn place(&self, value: f64) -> f64 {
+        self.scale.distance(self.value, value)
     }
 
     /// `limit` moved by `by` on the scale of the distribution.
     pub(super) fn moved(&self, limit: f64, by: f64) -> f64 {
-        match self.is_logarithmic {
-            true => limit * exponential(by),
-            false => limit + by,
-        }
+        self.scale.moved(limit, by)
     }
 
-    /// The same uncertainty about another value.
+    /// The same uncertainty, on the scale of the distribution, about another value.
     pub(super) fn at(&self, value: f64) -> Measurement {
-        let ratio = if self.is_logarithmic {
-            value / self.value
-        } else {
-            1.0
-        };
-        Measurement {
-            value,
-            uncertainty: self.uncertainty.map(|of| Uncertainty {
-                standard: of.standard * ratio,
-                ..of
-            }),
-            ..*self
-        }
+        Measurement { value, ..*self }
     }
 }

@@ -38,7 +38,21 @@ pub enum DecisionRule {
     },
 }
 
+/// Coverage of the expanded uncertainty where none is stated.
+const COVERAGE: f64 = 0.95;
+
 impl DecisionRule {
+    /// Coverage of the expanded uncertainty: that of the rule, or 0.95.
+    #[must_use]
+    pub fn coverage(&self) -> f64 {
+        match *self {
+            DecisionRule::Guarded { coverage, .. } | DecisionRule::Shared { coverage, .. } => {
+                coverage
+            }
+            DecisionRule::Simple | DecisionRule::Probability { .. } => COVERAGE,
+        }
+    }
+
     /// Refuses settings outside their range.
     pub(super) fn check(&self) -> Result<(), ConformityError> {
         let covers = |coverage: f64| {
@@ -143,7 +157,7 @@ impl RuleSettings {
                 });
             }
         }
-        let coverage = self.coverage.unwrap_or(0.95);
+        let coverage = self.coverage.unwrap_or(COVERAGE);
         let rule = match rule {
             "simple" => DecisionRule::Simple,
             "guarded" => DecisionRule::Guarded {

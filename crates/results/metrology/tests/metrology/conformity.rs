@@ -1,5 +1,7 @@
 //! Conformity: probabilities, the four words, and global risks of JCGM 106.
 
+mod scales;
+
 use taceva_metrics::distributions::normal;
 use taceva_metrology::conformity::{
     ConformityError, Decision, DecisionRule, Limits, Measurement, Process, RuleSettings, Word,
@@ -316,7 +318,11 @@ fn settings_of_two_rules_are_refused() {
         refusal("rule = \"shared\""),
         "rule = \"shared\" needs `most_uncertainty`"
     );
-    assert!(refusal("rule = \"gaurded\"").contains("expected simple, guarded"));
+    assert_eq!(
+        refusal("rule = \"gaurded\""),
+        "rule = \"gaurded\": did you mean `guarded`?"
+    );
+    assert!(refusal("rule = \"other\"").contains("expected one of `simple`, `guarded`"));
     assert!(refusal("rule = \"guarded\"\ncoverage = 1.0").starts_with("coverage is 1"));
 }
 

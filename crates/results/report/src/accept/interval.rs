@@ -1,18 +1,21 @@
-//! Intervals of scores for limits, with the variance between trainings.
+//! Intervals and uncertainties of scores for limits, with the variance between trainings.
 
-use taceva_metrics::{TrainingSpread, catalogue};
+use taceva_metrics::{Scale, TrainingSpread, catalogue};
+use taceva_metrology::conformity::Measurement;
 use taceva_results::{Interval, Score};
 
 use crate::compare::estimate_of;
 use crate::results::Study;
 
 /// Interval of a score for a limit.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct LimitInterval {
     /// Both ends; `None` without an interval.
     pub(super) ends: Option<[f64; 2]>,
     /// Number of trainings whose variance it contains; 0 without any.
     pub(super) trainings: usize,
+    /// Value with its uncertainty, on the scale of the interval; the reason if there is none.
+    pub(super) measured: Result<Measurement, String>,
 }
 
 impl LimitInterval {
@@ -21,21 +24,34 @@ impl LimitInterval {
     pub(super) fn of(study: &Study, score: &Score, variant: Option<&str>) -> LimitInterval {
         let values = study.values_of_trainings(&score.metric, variant, &score.channel);
         let spread = TrainingSpread::of_one(&values).filter(TrainingSpread::varies);
-        let Some(spread) = spread else {
-            return LimitInterval {
-                ends: score.interval.as_ref().and_then(Interval::ends),
-                trainings: 0,
-            };
-        };
         let range = catalogue::find(&score.metric).filter(|_| variant.is_none());
         let [least, most] = range.map_or([f64::NEG_INFINITY, f64::INFINITY], |metric| {
             metric.range.ends()
         });
-        let estimate = estimate_of(score).ok();
-        let ends = estimate.map(|estimate| estimate.over_trainings(spread).ends());
+        let stated = score.interval.as_ref();
+        let estimate = estimate_of(score).map(|estimate| match spread {
+            Some(spread) => estimate.over_trainings(spread),
+            None => estimate,
+        });
+        let ends = match (spread, &estimate) {
+            (None, _) => stated.and_then(Interval::ends),
+            (Some(_), Ok(estimate)) => {
+                let [low, high] = estimate.ends();
+                Some([low.max(least), high.min(most)])
+            }
+            (Some(_), Err(_)) => None,
+        };
+        let scale = stated.map_or(Scale::Own, Interval::scale);
+        let measured = estimate.and_then(|estimate| {
+            let known = score.value.number().zip(ends);
+            let (value, ends) = known.ok_or_else(|| "no interval".to_owned())?;
+            Measurement::of_interval(value, ends, estimate.freedom(), scale)
+                .map_err(|error| error.to_string())
+        });
         LimitInterval {
-            ends: ends.map(|[low, high]| [low.max(least), high.min(most)]),
-            trainings: ends.map_or(0, |_| values.len()),
+            ends,
+            trainings: spread.and(ends).map_or(0, |_| values.len()),
+            measured,
         }
     }
 }

@@ -1,26 +1,31 @@
 //! Data sheet of a sensor unit: limits, findings, pass or fail, on one page.
 
-use maud::{Markup, html};
-use serde_json::json;
-use taceva_metrics::Better;
+mod rows;
 
-use super::{Limit, LimitCheck};
+use maud::{Markup, html};
+use serde_json::{Value, json};
+use taceva_metrics::Better;
+use taceva_metrology::conformity::{Limits, Word};
+
+use super::{LimitCheck, LimitsFile, ProcessRisk, process};
 use crate::html::{Document, Triple, badge, triples};
 use crate::markup::{glossary, terms};
 use crate::number::numeral;
 use crate::results::Study;
 use crate::short_digests::short_digests;
-use crate::table::{Cell, Column, Table};
+use crate::table::{Column, Table};
 use taceva_results::{SampleChannel, not_measured};
 
-/// Schema of an acceptance as JSON. 1.1: each finding states the better direction. 1.2: the number of trainings in its interval.
-pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.2";
+/// Schema of an acceptance as JSON. 1.1: each finding states the better direction. 1.2: the number of trainings in its interval. 1.3: uncertainty,
+/// probability of conformity, acceptance limit, rule and verdict; risks among
+/// units of one process; accepted edits.
+pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.3";
 
 /// Findings of one sensor unit, with the facts of its data sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct Acceptance<'a> {
-    /// Name of the limits.
-    pub name: &'a str,
+    /// The limits.
+    pub limits: &'a LimitsFile,
     /// Tested sensor.
     pub study: &'a Study,
     /// One finding for each limit.
@@ -40,7 +45,7 @@ impl Acceptance<'_> {
     /// Table with one row for each limit.
     pub fn table(&self) -> Table {
         let verdict = if self.is_passed() { "passed" } else { "failed" };
-        let name = match self.name {
+        let name = match self.limits.name.as_str() {
             "" => String::new(),
             name => format!(" by {name}"),
         };
@@ -51,13 +56,14 @@ impl Acceptance<'_> {
             "{}, serial {}: {verdict}{name}{date}",
             self.study.sensor, self.study.serial
         );
-        let others = [
-            "channel", "limit", "value", "95 %", "unit", "n", "verdict", "why",
-        ];
         let columns = [Column::of_metrics()].into_iter();
-        let mut table = Table::new(caption, columns.chain(others.map(Column::new)));
+        let mut table = Table::new(caption, columns.chain(self.columns()));
         for finding in self.findings {
-            table.push(row(finding));
+            table.push(self.row(finding));
+        }
+        let notes = self.edits_note().into_iter().chain(self.rule_notes());
+        for note in notes.chain(process::notes(self.findings)) {
+            table.note(note);
         }
         if let Some(line) = self.study.traceability() {
             table.note(line.to_owned());
@@ -76,7 +82,10 @@ impl Acceptance<'_> {
 
     /// JSON of [`ACCEPTANCE_SCHEMA`].
     pub fn json(&self) -> String {
+        let is_by_rules = self.limits.is_by_rules();
         let finding = |finding: &LimitCheck| {
+            let decision = finding.decision.as_ref();
+            let acceptance = decision.and_then(|decision| decision.acceptance.as_ref());
             json!({
                 "metric": finding.limit.metric,
                 "better": Better::of(&finding.limit.metric).map(Better::name),
@@ -88,6 +97,15 @@ impl Acceptance<'_> {
                 "ci95": finding.ends,
                 "trainings": finding.trainings,
                 "n": finding.n,
+                "u": decision.and_then(|of| of.standard_uncertainty),
+                "nu": decision.and_then(|of| of.freedom),
+                "k": decision.and_then(|of| of.coverage_factor),
+                "U": decision.and_then(|of| of.expanded_uncertainty),
+                "conformance_probability": decision.and_then(|of| of.conformance_probability),
+                "acceptance_limit": acceptance.map(ends_json),
+                "process": finding.process.as_ref().map(process_json),
+                "rule": is_by_rules.then_some(finding.limit.decided_by),
+                "verdict": finding.verdict,
                 "kept": finding.is_kept,
                 "standing": finding.standing.words(),
                 "reason": finding.reason,
@@ -98,6 +116,8 @@ impl Acceptance<'_> {
             "schema": ACCEPTANCE_SCHEMA,
             "date": self.date,
             "subject": {"sensor": self.study.sensor, "serial": self.study.serial, "gel": self.study.gel, "source": self.study.source},
+            "edits": self.study.edits,
+            "conditional_pass_counts": self.limits.counts_conditional_passes(),
             "passed": self.is_passed(),
             "findings": findings,
         });
@@ -113,6 +133,10 @@ impl Acceptance<'_> {
         let unit = html! { (self.unit()) (triples(studies, pictures)) };
         document.section("unit", "Unit", unit);
         document.section("limits", "Limits", self.table().html_with_links());
+        if self.limits.is_by_rules() {
+            let uncertainties = self.uncertainties().html_with_links();
+            document.section("uncertainties", "Uncertainties", uncertainties);
+        }
         let named = self
             .findings
             .iter()
@@ -123,11 +147,33 @@ impl Acceptance<'_> {
 
     fn verdict(&self) -> Markup {
         let broken = self.findings.iter().filter(|finding| !finding.is_kept);
+        let words = self.words_but_pass();
         html! {
-            @match broken.count() {
-                0 => p.pass { "PASS: every limit is met." },
-                broken => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits are not met." },
+            @match (broken.count(), self.limits.is_by_rules()) {
+                (0, _) => p.pass { "PASS: every limit is met" (words) "." },
+                (broken, false) => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits are not met." },
+                (broken, true) => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits have no pass" (words) "." },
             }
+        }
+    }
+
+    /// Number of verdicts by rules for each word but pass: ` (1 conditional pass, 2 fail)`.
+    fn words_but_pass(&self) -> String {
+        let others = [
+            Word::ConditionalPass,
+            Word::ConditionalFail,
+            Word::Fail,
+            Word::Undecided,
+        ];
+        let counts = others.iter().filter_map(|word| {
+            let found = self.findings.iter().filter(|of| of.verdict == *word);
+            let count = found.count();
+            (count > 0 && self.limits.is_by_rules()).then(|| format!("{count} {word}"))
+        });
+        let counts: Vec<String> = counts.collect();
+        match counts.is_empty() {
+            true => String::new(),
+            false => format!(" ({})", counts.join(", ")),
         }
     }
 
@@ -162,6 +208,22 @@ impl Acceptance<'_> {
     }
 }
 
+fn ends_json(limits: &Limits) -> Value {
+    json!({"least": limits.least(), "most": limits.most()})
+}
+
+fn process_json(process: &Result<ProcessRisk, String>) -> Value {
+    match process {
+        Ok(process) => json!({
+            "units": process.units,
+            "consumer_risk": process.risk.consumer,
+            "producer_risk": process.risk.producer,
+            "acceptance_limit": process.acceptance.as_ref().map(ends_json),
+        }),
+        Err(reason) => json!({"undefined": reason}),
+    }
+}
+
 /// Range of the truth of each channel, if samples are available: `Pz 0 … 1.2 mm`.
 fn ranges(study: &Study) -> String {
     let range = |channel: SampleChannel<'_>| {
@@ -178,41 +240,6 @@ fn ranges(study: &Study) -> String {
     let channels = study.samples.iter().flat_map(|samples| samples.channels());
     let ranges: Vec<String> = channels.filter_map(range).collect();
     ranges.join("; ")
-}
-
-fn row(finding: &LimitCheck) -> [Cell; 9] {
-    let limit = &finding.limit;
-    let dash = || "–".to_owned();
-    let interval = finding.ends.map_or_else(dash, |ends| {
-        let [low, high] = ends.map(numeral);
-        format!("{low} … {high}")
-    });
-    [
-        limit.metric.clone().into(),
-        limit.channel.clone().into(),
-        bounds(limit).into(),
-        finding.value.map_or_else(dash, numeral).into(),
-        interval.into(),
-        limit.unit.clone().into(),
-        finding.n.to_string().into(),
-        Cell::Verdict(finding.is_kept),
-        finding.reason.clone().unwrap_or_default().into(),
-    ]
-}
-
-fn bounds(limit: &Limit) -> String {
-    let whole = if limit.whole_interval {
-        ", whole interval"
-    } else {
-        ""
-    };
-    let ends = match (limit.least, limit.most) {
-        (Some(least), Some(most)) => format!("{} … {}", numeral(least), numeral(most)),
-        (Some(least), None) => format!("≥ {}", numeral(least)),
-        (None, Some(most)) => format!("≤ {}", numeral(most)),
-        (None, None) => String::new(),
-    };
-    ends + whole
 }
 
 #[cfg(test)]

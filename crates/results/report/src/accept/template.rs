@@ -1,9 +1,10 @@
 //! Initial limits that a result itself meets, each beside the value of the result.
 
 use taceva_metrics::{Better, Range};
+use taceva_metrology::conformity::{DecisionRule, Limits, decide};
 
-use super::LIMITS_VERSION;
 use super::interval::LimitInterval;
+use super::limits_file::BY_RULES;
 use crate::escape::terminal;
 use crate::number::{FormattedValue, spaced};
 use crate::results::Study;
@@ -14,9 +15,28 @@ use taceva_results::{Score, not_measured};
 const MARGIN: f64 = 0.2;
 /// Significant digits of a limit; more would suggest an accuracy that it lacks.
 const DIGITS: i32 = 3;
+/// Rule of a template.
+const GUARDED: DecisionRule = DecisionRule::Guarded {
+    r: 1.0,
+    coverage: 0.95,
+};
+/// Rule of a template, with all rules as comments.
+const DECISION: &str = r#"
+# The rule by which limits are decided. The same keys below a [[limit]] hold for that limit alone.
+#   rule = "simple"       the value meets the limit; its uncertainty decides nothing
+#   rule = "guarded"      the value is inside the limit by r U, U the expanded uncertainty at `coverage`
+#   rule = "probability"  the probability of conformity is at least `p_conformity`, above 0.5 and below 1
+#   rule = "shared"       the value meets the limit, and U is at most `most_uncertainty`, in the unit of the score
+# Verdicts: pass, conditional pass (within the limit, not accepted by the rule), conditional fail, fail, undecided (no interval).
+[decision]
+rule = "guarded"
+r = 1.0
+coverage = 0.95
+"#;
 
 /// Limits that `study` meets, as a file for [`super::LimitsFile::read`]. Each score with a better direction gets one limit: a fifth worse than the
-/// value, or the worse end of its interval if that is farther away.
+/// value, or the worse end of its interval if that is farther away. The rule is `guarded`, and `simple` for a score whose interval leaves no room
+/// for a guard, or that has none.
 ///
 /// ```
 /// use taceva_report::{LimitsFile, Study, accept, limits_template};
@@ -25,7 +45,7 @@ const DIGITS: i32 = 3;
 /// let study = Study::read(&taceva_files::seal::json::seal(result)?)?.remove(0);
 /// let limits = LimitsFile::read(&limits_template(&study))?;
 /// assert_eq!(limits.limits[0].most, Some(0.06));
-/// assert!(accept(&study, &limits)[0].is_kept);
+/// assert!(accept(&study, &limits)?[0].is_kept);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn limits_template(study: &Study) -> String {
@@ -45,8 +65,8 @@ pub fn limits_template(study: &Study) -> String {
         "# Limits made from a result of {}, serial {}, samples {}.\n\
          # Each is {:.0} % worse than the value of the result (for R² and skill: 1 − value is {:.0} % larger), or the worse end of its interval if that is further: change limits as you need, delete the rest,\n\
          # then: taceva accept RESULT.json --limits THIS.toml\n\
-         # `most` must not be exceeded, `least` must be reached; with `whole_interval = true` by the whole interval, not only by the value.\n\
-         limits_version = {LIMITS_VERSION}\nname = {name}\n",
+         # `most` must not be exceeded, `least` must be reached.\n\
+         limits_version = {BY_RULES}\nname = {name}\n{DECISION}",
         line(&study.sensor),
         line(&study.serial),
         line(&study.source),
@@ -86,39 +106,81 @@ fn left_out(barred: &[&Score]) -> String {
     comments.collect()
 }
 
-/// Limit with the value of the result; `None` for descriptive scores and absent values.
+/// Limit with the value of the result; `None` for descriptive scores, absent values and differences of 0.
 fn limit(study: &Study, score: &Score) -> Option<String> {
     let value = score.value.number()?;
     let variant = score.decided_by().map(|variant| variant.name.as_str());
-    let [low, high] = LimitInterval::of(study, score, variant)
-        .ends
-        .unwrap_or([value; 2]);
+    let interval = LimitInterval::of(study, score, variant);
+    let [low, high] = interval.ends.unwrap_or([value; 2]);
     let room = value.abs() * MARGIN;
+    let at_least = |room: f64| Bounds {
+        least: Some(-upwards(-(value - room).min(low))),
+        most: None,
+    };
     let bounds = match score.better() {
-        Better::Lower => format!("most = {:?}\n", upwards((value + room).max(high))),
+        Better::Lower => Bounds {
+            least: None,
+            most: Some(upwards((value + room).max(high))),
+        },
         // The margin applies to 1 − value, the unexplained share.
-        Better::Higher if is_below_one(score) => {
-            let room = (1.0 - value).abs() * MARGIN;
-            format!("least = {:?}\n", -upwards(-(value - room).min(low)))
-        }
-        Better::Higher => format!("least = {:?}\n", -upwards(-(value - room).min(low))),
+        Better::Higher if is_below_one(score) => at_least((1.0 - value).abs() * MARGIN),
+        Better::Higher => at_least(room),
         Better::NearZero => {
             let reach = upwards((value.abs() + room).max(high.abs()).max(low.abs()));
-            format!("least = {:?}\nmost = {reach:?}\n", -reach)
+            // Zero alone leaves no room between two limits.
+            if reach <= 0.0 {
+                return None;
+            }
+            Bounds {
+                least: Some(-reach),
+                most: Some(reach),
+            }
         }
         _ => return None,
+    };
+    let rule = match bounds.are_met_with_guard(&interval) {
+        true => "",
+        false => {
+            "# No interval, or none that leaves room for a guard: decided by the value alone.\nrule = \"simple\"\n"
+        }
     };
     let found =
         FormattedValue::of(&score.value, score.interval.as_ref()).phrase(&spaced(score.unit));
     let text = |text: &str| toml::Value::String(text.to_owned()).to_string();
     Some(format!(
-        "\n# result: {}, n = {}\n[[limit]]\nmetric = {}\nchannel = {}\nunit = {}\n{bounds}",
+        "\n# result: {}, n = {}\n[[limit]]\nmetric = {}\nchannel = {}\nunit = {}\n{}{rule}",
         line(&found),
         score.n,
         text(&score.metric),
         text(&score.channel),
         text(score.unit.symbol()),
+        bounds.lines(),
     ))
+}
+
+/// Bounds of a limit.
+struct Bounds {
+    least: Option<f64>,
+    most: Option<f64>,
+}
+
+impl Bounds {
+    /// True if the value passes them by the rule of the template.
+    fn are_met_with_guard(&self, interval: &LimitInterval) -> bool {
+        let limits = Limits::of(self.least, self.most);
+        let (Ok(limits), Ok(measured)) = (limits, &interval.measured) else {
+            return false;
+        };
+        decide(measured, &limits, &GUARDED).is_ok_and(|decision| decision.word.is_pass())
+    }
+
+    /// Lines of the file.
+    fn lines(&self) -> String {
+        let line = |name: &str, end: Option<f64>| {
+            end.map_or_else(String::new, |end| format!("{name} = {end:?}\n"))
+        };
+        line("least", self.least) + &line("most", self.most)
+    }
 }
 
 /// True for explained shares of at most 1, such as R² and skill.
@@ -161,7 +223,7 @@ mod tests {
             let study = catalogue::find(name).expect("there").as_study();
             let limits = LimitsFile::read(&limits_template(&study)).expect("limits");
             assert!(limits.limits.len() > 8, "{name}");
-            for finding in accept(&study, &limits) {
+            for finding in accept(&study, &limits).expect("checks") {
                 assert!(finding.is_kept, "{name}: {:?}", finding.reason);
             }
         }

@@ -2,6 +2,7 @@
 
 use serde_json::json;
 use taceva_metrics::Standing;
+use taceva_metrology::conformity::Word;
 use taceva_report::{Cell, CompareRequest, Need, Study, catalogue, choose, compare};
 
 use crate::compare::{errors, score, study};
@@ -70,6 +71,22 @@ fn the_words_of_limits_and_of_places_are_in_the_glossary() {
     for word in words {
         assert!(text.contains(&format!("`{word}`")), "{word}");
     }
+}
+
+#[test]
+fn the_words_of_decision_rules_are_in_the_glossary() {
+    let rows = rows("Decisions on limits");
+    let words = [
+        Word::Pass,
+        Word::ConditionalPass,
+        Word::ConditionalFail,
+        Word::Fail,
+        Word::Undecided,
+    ];
+    for (row, word) in rows.iter().zip(words) {
+        assert_eq!(row[0], format!("`{word}`"));
+    }
+    assert!(rows.len() > words.len(), "{rows:?}");
 }
 
 /// All answers and decisions on `studies`.

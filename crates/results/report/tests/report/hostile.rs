@@ -73,9 +73,9 @@ fn sheet_of(name: &str) -> String {
     ));
     let limits = limits.expect("limits");
     let acceptance = Acceptance {
-        name: &limits.name,
+        limits: &limits,
         study,
-        findings: &accept(study, &limits),
+        findings: &accept(study, &limits).expect("checks"),
         date: Some(name),
         pictures: Some(&triple(name)),
     };

@@ -56,20 +56,23 @@ fn choices_and_the_catalogue_compile() {
 
 #[test]
 fn data_sheets_compile() {
-    let limits = LimitsFile::read(
-        "limits_version = 1\nname = \"line 50 %\"\n[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 0.00001\n",
-    )
-    .expect("limits");
     let study = drawn(NAME, 60, 1.0);
-    let findings = accept(&study, &limits);
-    let acceptance = Acceptance {
-        name: &limits.name,
-        study: &study,
-        findings: &findings,
-        date: Some("2026-11-22"),
-        pictures: None,
-    };
-    assert_compiles("acceptance", &acceptance.table().latex(Layout::Float));
+    for head in [
+        "limits_version = 1\nname = \"line 50 %\"\n",
+        "limits_version = 2\nname = \"line 50 %\"\n[decision]\nrule = \"guarded\"\n",
+    ] {
+        let limit = "[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 0.00001\n";
+        let limits = LimitsFile::read(&format!("{head}{limit}")).expect("limits");
+        let findings = accept(&study, &limits).expect("checks");
+        let acceptance = Acceptance {
+            limits: &limits,
+            study: &study,
+            findings: &findings,
+            date: Some("2026-11-22"),
+            pictures: None,
+        };
+        assert_compiles("acceptance", &acceptance.table().latex(Layout::Float));
+    }
 }
 
 #[test]

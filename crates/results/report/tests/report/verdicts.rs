@@ -350,7 +350,7 @@ fn a_limit_on_light_that_hardly_changed_is_not_kept_and_no_template_has_one() {
     });
     let text = "limits_version = 1\n[[limit]]\nmetric=\"r_light\"\nchannel=\"Fz\"\nunit=\"1\"\nleast=0.0\n";
     let limits = LimitsFile::read(text).expect("limits");
-    let found = accept(&studies[0], &limits);
+    let found = accept(&studies[0], &limits).expect("checks");
     let reason = found[0].reason.as_deref();
     assert!(
         reason.is_some_and(|reason| reason.starts_with("stimulus hardly changed: ")),

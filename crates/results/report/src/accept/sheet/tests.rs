@@ -24,20 +24,30 @@ const KEPT: &str = "metric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 1.5
 const BROKEN: &str = "metric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nleast = 0.25\nmost = 0.625\nwhole_interval = true";
 const MISSING: &str = "metric = \"mae\"\nchannel = \"Fx\"\nunit = \"N\"\nleast = 0.25";
 
-/// Findings for `limits`.
-fn held(study: &Study, limits: &[&str]) -> Vec<LimitCheck> {
-    let text: String = limits
-        .iter()
-        .map(|limit| format!("[[limit]]\n{limit}\n"))
-        .collect();
-    accept(study, &LimitsFile::read(&text).expect("limits"))
+/// A file of limits below `head`, and the checks of its limits.
+struct Held {
+    limits: LimitsFile,
+    findings: Vec<LimitCheck>,
 }
 
-fn sheet<'a>(study: &'a Study, findings: &'a [LimitCheck]) -> Acceptance<'a> {
+/// Findings for `limits` of version 1.
+fn held(study: &Study, limits: &[&str]) -> Held {
+    held_below("name = \"batch 3\"", study, limits)
+}
+
+fn held_below(head: &str, study: &Study, limits: &[&str]) -> Held {
+    let each = limits.iter();
+    let text: String = each.map(|limit| format!("[[limit]]\n{limit}\n")).collect();
+    let limits = LimitsFile::read(&format!("{head}\n{text}")).expect("limits");
+    let findings = accept(study, &limits).expect("checks");
+    Held { limits, findings }
+}
+
+fn sheet<'a>(study: &'a Study, held: &'a Held) -> Acceptance<'a> {
     Acceptance {
-        name: "batch 3",
+        limits: &held.limits,
         study,
-        findings,
+        findings: &held.findings,
         date: Some("2026-11-22"),
         pictures: None,
     }
@@ -140,9 +150,8 @@ fn a_sheet_of_measured_labels_begins_with_their_certificate_or_says_that_there_i
 #[test]
 fn a_sheet_without_name_and_date_speaks_of_neither() {
     let study = study();
-    let findings = held(&study, &[KEPT]);
+    let findings = held_below("", &study, &[KEPT]);
     let sheet = Acceptance {
-        name: "",
         date: None,
         ..sheet(&study, &findings)
     };

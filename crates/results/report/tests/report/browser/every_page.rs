@@ -25,10 +25,10 @@ fn sheet(limits_of: &[&str]) -> String {
     }
     let limits = LimitsFile::read(&text).expect("limits");
     let study = drawn("one", 60, 1.0);
-    let findings = accept(&study, &limits);
+    let findings = accept(&study, &limits).expect("checks");
     assert!(findings.iter().any(|finding| !finding.is_kept));
     let acceptance = Acceptance {
-        name: &limits.name,
+        limits: &limits,
         study: &study,
         findings: &findings,
         date: Some("2026-11-22"),

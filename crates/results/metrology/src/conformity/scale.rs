@@ -1,0 +1,85 @@
+//! Scales on which a measured value has a symmetric distribution.
+
+use taceva_metrics::Scale;
+use taceva_metrics::elementary::{exponential, logarithm};
+
+/// Scale on which a measured value has Student's distribution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum OpenScale {
+    /// That of the value.
+    Own,
+    /// Logarithm of the value, as for errors.
+    Logarithm,
+    /// Negative logarithm of the distance to 1, as for R².
+    Remainder,
+    /// Logarithm of the odds value / (width − value), as for shares.
+    Odds { width: f64 },
+}
+
+impl OpenScale {
+    /// The scales on which the ends of an interval may be symmetric, other than that of the value.
+    pub(super) fn candidates(scale: Scale) -> &'static [OpenScale] {
+        match scale {
+            Scale::Logarithm => &[OpenScale::Logarithm, OpenScale::Remainder],
+            Scale::Logit => &[
+                OpenScale::Odds { width: 1.0 },
+                OpenScale::Odds { width: 2.0 },
+            ],
+            // The product of the odds of both ends is the square of the odds of the share.
+            Scale::Wilson => &[OpenScale::Odds { width: 1.0 }],
+            _ => &[],
+        }
+    }
+
+    /// Ends of the values that the scale has.
+    fn domain(self) -> [f64; 2] {
+        match self {
+            OpenScale::Own => [f64::NEG_INFINITY, f64::INFINITY],
+            OpenScale::Logarithm => [0.0, f64::INFINITY],
+            OpenScale::Remainder => [f64::NEG_INFINITY, 1.0],
+            OpenScale::Odds { width } => [0.0, width],
+        }
+    }
+
+    /// True for a value between the ends of the scale.
+    pub(super) fn holds(self, value: f64) -> bool {
+        let [low, high] = self.domain();
+        low < value && value < high
+    }
+
+    /// Distance from one value of the scale to another; infinite beyond its ends.
+    pub(super) fn distance(self, from: f64, to: f64) -> f64 {
+        let [low, high] = self.domain();
+        match self {
+            _ if to <= low => f64::NEG_INFINITY,
+            _ if to >= high => f64::INFINITY,
+            OpenScale::Own => to - from,
+            OpenScale::Logarithm => logarithm(to / from),
+            OpenScale::Remainder => logarithm((1.0 - from) / (1.0 - to)),
+            OpenScale::Odds { width } => logarithm(to / from * ((width - from) / (width - to))),
+        }
+    }
+
+    /// `value` moved by `by` on the scale; a value beyond its ends stays.
+    pub(super) fn moved(self, value: f64, by: f64) -> f64 {
+        match self {
+            _ if !self.holds(value) => value,
+            OpenScale::Own => value + by,
+            OpenScale::Logarithm => value * exponential(by),
+            OpenScale::Remainder => 1.0 - (1.0 - value) * exponential(-by),
+            OpenScale::Odds { width } => {
+                width * value / (value + (width - value) * exponential(-by))
+            }
+        }
+    }
+
+    /// An uncertainty of `value` on the scale, in its unit; to first order.
+    pub(super) fn in_unit(self, value: f64, scaled: f64) -> f64 {
+        match self {
+            OpenScale::Own => scaled,
+            OpenScale::Logarithm => scaled * value,
+            OpenScale::Remainder => scaled * (1.0 - value),
+            OpenScale::Odds { width } => scaled * value * (width - value) / width,
+        }
+    }
+}

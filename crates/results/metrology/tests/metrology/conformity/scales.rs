@@ -1,0 +1,161 @@
+//! Measured values by their intervals, on the scale on which an interval is symmetric.
+
+use taceva_metrics::Scale;
+use taceva_metrology::conformity::{
+    ConformityError, DecisionRule, Limits, Measurement, Population, Process, Word,
+};
+
+use super::{GUARDED, at_most, decided};
+use crate::support::close;
+
+/// Intervals about a value, each on its scale: errors, R², a normalised error of at most 2, a share, and a bias.
+const INTERVALS: [(f64, [f64; 2], Scale); 5] = [
+    (0.08, [0.064, 0.1], Scale::Logarithm),
+    // Distances to 1 of 0.2, 0.1 and 0.05.
+    (0.9, [0.8, 0.95], Scale::Logarithm),
+    // Odds of 1/4, 1 and 4 within a width of 2.
+    (1.0, [0.4, 1.6], Scale::Logit),
+    // Odds of 1, 4 and 16.
+    (0.8, [0.5, 16.0 / 17.0], Scale::Wilson),
+    (-0.1, [-0.3, 0.1], Scale::Own),
+];
+
+fn measured(value: f64, ends: [f64; 2], scale: Scale) -> Measurement {
+    Measurement::of_interval(value, ends, 9.0, scale).expect("an interval")
+}
+
+#[test]
+fn a_limit_at_the_end_of_an_interval_is_met_with_the_probability_of_that_end() {
+    for (value, ends, scale) in INTERVALS {
+        let measured = measured(value, ends, scale);
+        let [low, high] = ends;
+        let above = measured.conformance_probability(&at_most(high));
+        close(above.expect("p"), 0.975, 1e-12, "the upper end");
+        let least = Limits::at_least(low).expect("finite");
+        let below = measured.conformance_probability(&least);
+        close(below.expect("p"), 0.975, 1e-12, "the lower end");
+        let within = Limits::between(low, high).expect("in order");
+        let both = measured.conformance_probability(&within);
+        close(both.expect("p"), 0.95, 1e-12, "both ends");
+    }
+}
+
+#[test]
+fn a_guard_of_the_whole_uncertainty_leads_from_the_end_of_an_interval_to_its_value() {
+    for (value, ends, scale) in INTERVALS {
+        let decision = decided(&measured(value, ends, scale), &at_most(ends[1]), &GUARDED);
+        let inner = decision.acceptance.and_then(|limits| limits.most());
+        close(inner.expect("a limit"), value, 1e-12, "A − w");
+    }
+}
+
+#[test]
+fn an_expanded_uncertainty_is_its_factor_times_the_standard_uncertainty() {
+    for (value, ends, scale) in INTERVALS {
+        let decision = decided(&measured(value, ends, scale), &at_most(2.0), &GUARDED);
+        let k = decision.coverage_factor.expect("k");
+        close(
+            k,
+            2.262_157_162_798_205,
+            1e-12,
+            "t of nine degrees of freedom",
+        );
+        let u = decision.standard_uncertainty.expect("u");
+        close(decision.expanded_uncertainty.expect("U"), k * u, 1e-12, "U");
+    }
+}
+
+#[test]
+fn a_value_at_the_end_of_its_range_has_the_distance_of_the_farther_end() {
+    let whole = measured(1.0, [0.9, 1.0], Scale::Wilson);
+    let k = whole.coverage_factor(0.95).expect("k");
+    let u = whole.standard_uncertainty().expect("u");
+    close(k * u, 0.1, 1e-12, "U");
+    let cut = measured(0.1, [0.0, 0.5], Scale::Cut);
+    let u = cut.standard_uncertainty().expect("u");
+    close(k * u, 0.4, 1e-12, "U");
+}
+
+#[test]
+fn a_value_outside_its_interval_is_no_measurement() {
+    let refused = Measurement::of_interval(0.0535, [0.0842, 0.136], 31.0, Scale::Logarithm);
+    let error = refused.expect_err("outside");
+    assert!(matches!(error, ConformityError::Number { .. }), "{error}");
+    let infinite = Measurement::of_interval(0.1, [0.05, f64::INFINITY], 31.0, Scale::Own);
+    assert!(infinite.is_err());
+}
+
+#[test]
+fn no_error_is_accepted_by_a_limit_of_zero() {
+    let error = measured(0.08, [0.064, 0.1], Scale::Logarithm);
+    for rule in [GUARDED, DecisionRule::Probability { p_conformity: 0.95 }] {
+        let decision = decided(&error, &at_most(0.0), &rule);
+        assert_eq!(decision.word, Word::Fail, "{rule}");
+        close(
+            decision.conformance_probability.expect("p"),
+            0.0,
+            1e-300,
+            "p",
+        );
+    }
+}
+
+/// Measurements of five units, by the logarithms of their ratios to 0.08.
+fn units(steps: [f64; 5], standard: f64) -> Vec<Measurement> {
+    let unit = |step: f64| {
+        let value = 0.08 * step.exp();
+        let unit = Measurement::new(value, standard * value, 30.0).expect("a unit");
+        unit.logarithmic().expect("above 0")
+    };
+    steps.map(unit).to_vec()
+}
+
+#[test]
+fn units_are_a_process_on_the_scale_of_the_measurement() {
+    // Variance 0.1 between values, 0.01 of which is that of measurement.
+    let measured = units([-0.4, -0.2, 0.0, 0.2, 0.4], 0.1);
+    let population = Population::of(&measured, &measured[2]).expect("a population");
+    let process = Process::new(0.0, 0.09_f64.sqrt(), 0.1).expect("a process");
+    let step = 1.5_f64.ln();
+    let limits = at_most(0.12);
+    let found = population.risk(&limits, &limits).expect("on the scale");
+    let expected = process.risk(&at_most(step), &at_most(step));
+    close(found.consumer, expected.consumer, 1e-9, "consumer's risk");
+    close(found.producer, expected.producer, 1e-9, "producer's risk");
+    let target = found.consumer / 10.0;
+    let inner = population.acceptance(&limits, target).expect("a target");
+    let guard = process.guard(&at_most(step), target).expect("a target");
+    let most = inner.expect("room").most().expect("an upper limit");
+    let expected = 0.12 * (-guard.expect("a guard")).exp();
+    close(most, expected, 1e-9, "acceptance limit");
+}
+
+#[test]
+fn units_that_show_no_process_are_refused() {
+    let measured = units([-0.4, -0.2, 0.0, 0.2, 0.4], 0.1);
+    let refusal = |units: &[Measurement]| {
+        let error = Population::of(units, &measured[2]).expect_err("refused");
+        error.to_string()
+    };
+    let few = refusal(&measured[..4]);
+    assert_eq!(
+        few,
+        "the number of units is 4, expected at least 5 units of one process"
+    );
+    let alike = refusal(&units([0.0; 5], 0.1));
+    assert!(
+        alike.contains("differ by more than their uncertainties"),
+        "{alike}"
+    );
+    let mut unknown = measured.clone();
+    unknown[0] = Measurement::without_uncertainty(0.07).expect("finite");
+    let unknown = refusal(&unknown);
+    assert!(unknown.contains("by an interval of each unit"), "{unknown}");
+    let mut negative = measured.clone();
+    negative[0] = Measurement::new(-0.07, 0.01, 30.0).expect("finite");
+    let negative = refusal(&negative);
+    assert!(
+        negative.starts_with("the value of a unit is -0.07"),
+        "{negative}"
+    );
+}

@@ -1,0 +1,187 @@
+//! Checks of limits on the scores of a study.
+
+use taceva_core::shown;
+use taceva_metrics::Standing;
+use taceva_metrology::conformity::{Decision, Limits, Measurement, Word, decide};
+use taceva_results::{Interval, Score};
+
+use super::interval::LimitInterval;
+use super::limits_file::{Limit, LimitsFile};
+use super::process::ProcessRisk;
+use super::reason;
+use super::subject::Subject;
+use crate::number::numeral;
+use crate::results::Study;
+
+/// Result of checking one limit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitCheck {
+    /// Checked limit.
+    pub limit: Limit,
+    /// Value of the score, if there is one.
+    pub value: Option<f64>,
+    /// Both ends of its interval.
+    pub ends: Option<[f64; 2]>,
+    /// Number of trainings of the model whose variance the interval contains; 0 without any.
+    pub trainings: usize,
+    /// Number of samples behind the score.
+    pub n: u64,
+    /// Decision by the rule of the limit, with the uncertainty of the value; `None` without a value in the unit of the limit.
+    pub decision: Option<Decision>,
+    /// Word of the decision. A limit that is not decided by a rule passes or fails.
+    pub verdict: Word,
+    /// True if the limit is met.
+    pub is_kept: bool,
+    /// Reason why the limit is not met, or a remark that it is met without an interval.
+    pub reason: Option<String>,
+    /// Risks among units of one process, or the reason that there are none; `None` without such units.
+    pub process: Option<Result<ProcessRisk, String>>,
+    /// Standing of the score. A limit on a score that is excluded from verdicts counts as not met.
+    pub standing: Standing,
+}
+
+/// Reason that a result is not held to limits.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AcceptError {
+    /// A value outside its own interval.
+    #[error(
+        "{} {}: the value {} {unit} is outside its own interval {} … {} {unit}; make the result again with `taceva evaluate` or `taceva score`",
+        shown(.metric), shown(.channel), numeral(*.value), numeral(.ends[0]), numeral(.ends[1])
+    )]
+    OutsideInterval {
+        /// Metric, with its variant.
+        metric: String,
+        /// Channel or plane.
+        channel: String,
+        /// Symbol of the unit.
+        unit: &'static str,
+        /// Value of the score.
+        value: f64,
+        /// Both ends of the interval.
+        ends: [f64; 2],
+    },
+}
+
+/// Checks each limit on the scores of `study`, in the order of the limits. A limit on a missing score or value counts as not met.
+///
+/// If the model was trained several times, an interval contains the variance between trainings beside that between clusters.
+///
+/// # Errors
+/// [`AcceptError::OutsideInterval`] for a score with a limit, if its value is outside its own interval.
+pub fn accept(study: &Study, limits: &LimitsFile) -> Result<Vec<LimitCheck>, AcceptError> {
+    let each = limits.limits.iter();
+    each.map(|limit| hold(study, limits, limit)).collect()
+}
+
+fn hold(study: &Study, limits: &LimitsFile, limit: &Limit) -> Result<LimitCheck, AcceptError> {
+    let mut check = LimitCheck {
+        limit: limit.clone(),
+        value: None,
+        ends: None,
+        trainings: 0,
+        n: 0,
+        decision: None,
+        verdict: match limits.is_by_rules() {
+            true => Word::Undecided,
+            false => Word::Fail,
+        },
+        is_kept: false,
+        reason: None,
+        process: None,
+        standing: Standing::Counts,
+    };
+    let Some(subject) = Subject::find(study, limit) else {
+        check.reason = Some("there is no such score".to_owned());
+        return Ok(check);
+    };
+    check.n = subject.whole.n;
+    check.standing = subject.whole.standing_of(subject.variant);
+    let Some(asked) = subject.score() else {
+        check.reason = Some("there is no such variant".to_owned());
+        return Ok(check);
+    };
+    let Some(number) = asked.value.number() else {
+        check.reason = asked
+            .value
+            .reason()
+            .or_else(|| Some("not a single number".to_owned()));
+        return Ok(check);
+    };
+    check_within(&asked, subject.variant, number)?;
+    check.value = Some(number);
+    let interval = LimitInterval::of(study, &asked, subject.variant);
+    check.ends = interval.ends;
+    check.trainings = interval.trainings;
+    let unit = asked.unit;
+    let other_unit = (unit.symbol() != limit.unit)
+        .then(|| format!("the score is in {unit}, the limit in {}", limit.unit));
+    if other_unit.is_none() {
+        check.decision = decided(limit, number, &interval);
+    }
+    let barred = check.standing.reason().map(str::to_owned);
+    match limits.is_by_rules() {
+        true => match barred.or(other_unit) {
+            Some(reason) => check.reason = Some(reason),
+            None => check.take_word(&interval, limits.counts_conditional_passes()),
+        },
+        false => {
+            let broken = barred.or(other_unit);
+            check.take_value(broken.or_else(|| reason::broken(limit, number, interval.ends)));
+        }
+    }
+    Ok(check)
+}
+
+/// Refuses a value outside its own interval.
+fn check_within(score: &Score, variant: Option<&str>, value: f64) -> Result<(), AcceptError> {
+    let ends = score.interval.as_ref().and_then(Interval::ends);
+    match ends {
+        Some(ends) if !(ends[0] <= value && value <= ends[1]) => {
+            let variant = variant.map(|name| format!(".{name}")).unwrap_or_default();
+            Err(AcceptError::OutsideInterval {
+                metric: score.metric.clone() + &variant,
+                channel: score.channel.clone(),
+                unit: score.unit.symbol(),
+                value,
+                ends,
+            })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Decision on `value` by the rule of `limit`; `None` for bounds that leave no room.
+fn decided(limit: &Limit, value: f64, interval: &LimitInterval) -> Option<Decision> {
+    let measured = match &interval.measured {
+        Ok(measured) => *measured,
+        Err(_) => Measurement::without_uncertainty(value).ok()?,
+    };
+    let bounds = Limits::of(limit.least, limit.most).ok()?;
+    decide(&measured, &bounds, &limit.decided_by).ok()
+}
+
+impl LimitCheck {
+    /// Takes the word of the decision by a rule.
+    fn take_word(&mut self, interval: &LimitInterval, counts_conditional: bool) {
+        let Some(decision) = &self.decision else {
+            return;
+        };
+        self.verdict = decision.word;
+        self.is_kept = match decision.word {
+            Word::ConditionalPass => counts_conditional,
+            word => word.is_pass(),
+        };
+        self.reason = reason::of_decision(&self.limit, decision, interval);
+    }
+
+    /// Takes what the value, or its whole interval, is found to break.
+    fn take_value(&mut self, broken: Option<String>) {
+        self.is_kept = broken.is_none();
+        self.reason = broken;
+        if self.is_kept {
+            self.verdict = Word::Pass;
+            self.reason = reason::by_value_only(&self.limit, self.ends);
+        }
+    }
+}

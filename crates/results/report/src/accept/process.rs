@@ -1,0 +1,104 @@
+//! Risks of limits among units of one process.
+
+use taceva_core::counted;
+use taceva_metrology::conformity::{GlobalRisk, Limits, Measurement, Population};
+
+use super::check::LimitCheck;
+use super::interval::LimitInterval;
+use super::limits_file::Limit;
+use super::subject::Subject;
+use crate::results::Study;
+
+/// Risks of deciding one limit, among units of one process.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProcessRisk {
+    /// Number of units.
+    pub units: usize,
+    /// Shares of units that are decided wrongly by the rule of the limit.
+    pub risk: GlobalRisk,
+    /// Limits of acceptance for which the consumer's risk is the target; `None` without a target, or if no guard reaches it.
+    pub acceptance: Option<Limits>,
+}
+
+/// Sets the risk of each check of `study` among `units` of the same process. `target` is a share of all units that may be accepted and not conform.
+pub fn add_process_risks(
+    checks: &mut [LimitCheck],
+    study: &Study,
+    units: &[Study],
+    target: Option<f64>,
+) {
+    for check in checks {
+        check.process = Some(risk(check, study, units, target));
+    }
+}
+
+fn risk(
+    check: &LimitCheck,
+    study: &Study,
+    units: &[Study],
+    target: Option<f64>,
+) -> Result<ProcessRisk, String> {
+    let limit = &check.limit;
+    let decision = check.decision.as_ref();
+    let decision = decision.ok_or_else(|| "no value to decide on".to_owned())?;
+    let accepted = decision.acceptance.as_ref();
+    let accepted = accepted.ok_or_else(|| "the rule accepts no value".to_owned())?;
+    let own = measured(study, limit)?;
+    let each = units.iter().zip(1_usize..);
+    let each = each.map(|(unit, number)| {
+        measured(unit, limit).map_err(|reason| format!("unit {number}: {reason}"))
+    });
+    let known: Vec<Measurement> = each.collect::<Result<_, String>>()?;
+    let population = Population::of(&known, &own).map_err(|error| error.to_string())?;
+    let risk = population.risk(&decision.limits, accepted);
+    let acceptance = match target {
+        Some(target) => population
+            .acceptance(&decision.limits, target)
+            .map_err(|error| error.to_string())?,
+        None => None,
+    };
+    Ok(ProcessRisk {
+        units: units.len(),
+        risk: risk.ok_or_else(|| "the limit is outside the range of the score".to_owned())?,
+        acceptance,
+    })
+}
+
+/// The score of `limit` with its uncertainty.
+fn measured(study: &Study, limit: &Limit) -> Result<Measurement, String> {
+    let subject = Subject::find(study, limit);
+    let subject = subject.ok_or_else(|| "there is no such score".to_owned())?;
+    let score = subject.score();
+    let score = score.ok_or_else(|| "there is no such variant".to_owned())?;
+    if score.unit.symbol() != limit.unit {
+        return Err(format!(
+            "the score is in {}, the limit in {}",
+            score.unit, limit.unit
+        ));
+    }
+    LimitInterval::of(study, &score, subject.variant).measured
+}
+
+/// Remarks on the risks of `checks`: what they mean, and each reason for an absent one.
+pub(super) fn notes(checks: &[LimitCheck]) -> Vec<String> {
+    let mut known = checks.iter().filter_map(|check| check.process.as_ref());
+    let units = known.find_map(|process| process.as_ref().ok());
+    let mut notes: Vec<String> = units
+        .map(|process| {
+            format!(
+                "Risks among units like the {} given: a consumer's is the share of units that are accepted and do not meet the limit, a producer's the share that meet it and are not accepted.",
+                counted(process.units, "unit")
+            )
+        })
+        .into_iter()
+        .collect();
+    for check in checks {
+        if let Some(Err(reason)) = &check.process {
+            let Limit {
+                metric, channel, ..
+            } = &check.limit;
+            notes.push(format!("No risk of {metric} {channel}: {reason}."));
+        }
+    }
+    notes
+}

@@ -1,0 +1,96 @@
+//! Reasons of decisions, in words.
+
+use taceva_metrology::conformity::{Decision, DecisionRule, Word};
+
+use super::interval::LimitInterval;
+use super::limits_file::Limit;
+use crate::number::numeral;
+
+/// Describes why a limit is not met by the value, or by its whole interval; `None` if it is met.
+pub(super) fn broken(limit: &Limit, value: f64, ends: Option<[f64; 2]>) -> Option<String> {
+    let [low, high] = match (limit.whole_interval, ends) {
+        (false, _) => [value; 2],
+        (true, Some(ends)) => ends,
+        (true, None) => return Some("there is no interval to compare with the limit".to_owned()),
+    };
+    let what = if limit.whole_interval {
+        "interval reaches"
+    } else {
+        "value is"
+    };
+    if let Some(most) = limit.most.filter(|most| high > *most) {
+        return Some(format!("{what} {}, above {most}", numeral(high)));
+    }
+    let least = limit.least.filter(|least| low < *least)?;
+    Some(format!("{what} {}, below {least}", numeral(low)))
+}
+
+/// Remark on a value within the limit whose interval is absent or crosses it.
+pub(super) fn by_value_only(limit: &Limit, ends: Option<[f64; 2]>) -> Option<String> {
+    let Some([low, high]) = ends else {
+        return Some("met by the value only: there is no interval".to_owned());
+    };
+    let is_above = limit.most.is_some_and(|most| high > most);
+    let is_below = limit.least.is_some_and(|least| low < least);
+    (is_above || is_below)
+        .then(|| "met by the value only: its interval crosses the limit".to_owned())
+}
+
+/// Describes why a rule gives no pass; a remark on a pass by the value alone.
+pub(super) fn of_decision(
+    limit: &Limit,
+    decision: &Decision,
+    interval: &LimitInterval,
+) -> Option<String> {
+    let beyond = || broken(limit, decision.value, interval.ends).unwrap_or_default();
+    let p = decision.conformance_probability.map(numeral);
+    let p = p.map_or_else(String::new, |p| format!("probability of conformity {p}"));
+    match decision.word {
+        Word::Pass => match decision.rule {
+            DecisionRule::Guarded { .. } | DecisionRule::Probability { .. } => None,
+            _ => by_value_only(limit, interval.ends),
+        },
+        Word::ConditionalPass => Some(match acceptance(decision) {
+            Some(limits) => {
+                format!("within the limit, not within the acceptance limit {limits}; {p}")
+            }
+            None => format!("within the limits, which leave no room for the uncertainty; {p}"),
+        }),
+        Word::ConditionalFail => Some(format!("{}; {p}", beyond())),
+        Word::Undecided => Some(undecided(limit, decision, interval)),
+        _ => Some(beyond()),
+    }
+}
+
+/// Limits of acceptance: `≤ 0.0432`; `None` without any.
+pub(super) fn acceptance(decision: &Decision) -> Option<String> {
+    let limits = decision.acceptance.as_ref()?;
+    Some(bounds(limits.least(), limits.most()))
+}
+
+/// Bounds in signs: `≤ 0.05`.
+pub(super) fn bounds(least: Option<f64>, most: Option<f64>) -> String {
+    match (least, most) {
+        (Some(least), Some(most)) => format!("{} … {}", numeral(least), numeral(most)),
+        (Some(least), None) => format!("≥ {}", numeral(least)),
+        (None, Some(most)) => format!("≤ {}", numeral(most)),
+        (None, None) => String::new(),
+    }
+}
+
+fn undecided(limit: &Limit, decision: &Decision, interval: &LimitInterval) -> String {
+    match (&interval.measured, decision.rule) {
+        (Err(reason), _) => format!("without an uncertainty: {reason}"),
+        (
+            Ok(_),
+            DecisionRule::Shared {
+                most_uncertainty, ..
+            },
+        ) => {
+            let expanded = decision.expanded_uncertainty.map(numeral);
+            let (expanded, unit) = (expanded.unwrap_or_default(), &limit.unit);
+            format!("U is {expanded} {unit}, above the {most_uncertainty} {unit} of the rule")
+        }
+        (Ok(_), _) => "without an uncertainty".to_owned(),
+    }
+}

@@ -1,0 +1,163 @@
+//! Rows of a data sheet: limits with what was found, and the uncertainties behind decisions.
+
+use taceva_core::counted;
+use taceva_metrology::conformity::{Decision, Word};
+
+use super::Acceptance;
+use crate::accept::reason;
+use crate::accept::{Limit, LimitCheck};
+use crate::number::numeral;
+use crate::table::{Cell, Column, Table};
+
+impl Acceptance<'_> {
+    /// Columns of the table, after the metric.
+    pub(super) fn columns(&self) -> Vec<Column> {
+        let mut names = vec!["channel", "limit", "value", "95 %", "unit", "n"];
+        if self.limits.is_by_rules() {
+            names.extend(["u", "nu", "p_c", "acceptance limit"]);
+        }
+        if self.has_risks() {
+            names.extend(["consumer's risk", "producer's risk", "limit for risk"]);
+        }
+        names.extend(["verdict", "why"]);
+        if !self.study.edits.is_empty() {
+            names.push("edits");
+        }
+        names.into_iter().map(Column::new).collect()
+    }
+
+    /// Cells of one limit.
+    pub(super) fn row(&self, check: &LimitCheck) -> Vec<Cell> {
+        let limit = &check.limit;
+        let interval = check.ends.map(|ends| {
+            let [low, high] = ends.map(numeral);
+            format!("{low} … {high}")
+        });
+        let mut cells: Vec<Cell> = vec![
+            limit.metric.clone().into(),
+            limit.channel.clone().into(),
+            bounds(limit).into(),
+            or_dash(check.value.map(numeral)),
+            or_dash(interval),
+            limit.unit.clone().into(),
+            check.n.to_string().into(),
+        ];
+        if self.limits.is_by_rules() {
+            cells.extend(of_decision(check.decision.as_ref()));
+        }
+        if self.has_risks() {
+            let process = check.process.as_ref().and_then(|known| known.as_ref().ok());
+            let limits = process.and_then(|process| process.acceptance.as_ref());
+            cells.push(or_dash(process.map(|of| numeral(of.risk.consumer))));
+            cells.push(or_dash(process.map(|of| numeral(of.risk.producer))));
+            cells.push(or_dash(
+                limits.map(|limits| reason::bounds(limits.least(), limits.most())),
+            ));
+        }
+        cells.push(match (self.limits.is_by_rules(), check.verdict) {
+            (false, _) => Cell::Verdict(check.is_kept),
+            (true, Word::Pass) => Cell::Verdict(true),
+            (true, word) => Cell::text(word.to_string()),
+        });
+        cells.push(check.reason.clone().unwrap_or_default().into());
+        if !self.study.edits.is_empty() {
+            cells.push(counted(self.study.edits.len(), "accepted edit").into());
+        }
+        cells
+    }
+
+    fn has_risks(&self) -> bool {
+        self.findings.iter().any(|check| check.process.is_some())
+    }
+
+    /// Uncertainty of each value with its coverage factor, and the rule of its limit.
+    pub(super) fn uncertainties(&self) -> Table {
+        let names = [
+            "channel", "value", "unit", "u", "nu", "k", "U", "p_c", "rule",
+        ];
+        let columns = [Column::of_metrics()].into_iter();
+        let mut table = Table::new("Uncertainties", columns.chain(names.map(Column::new)));
+        for check in self.findings {
+            let decision = check.decision.as_ref();
+            let number =
+                |of: fn(&Decision) -> Option<f64>| or_dash(decision.and_then(of).map(numeral));
+            let cells: [Cell; 10] = [
+                check.limit.metric.clone().into(),
+                check.limit.channel.clone().into(),
+                or_dash(check.value.map(numeral)),
+                check.limit.unit.clone().into(),
+                number(|of| of.standard_uncertainty),
+                number(|of| of.freedom),
+                number(|of| of.coverage_factor),
+                number(|of| of.expanded_uncertainty),
+                number(|of| of.conformance_probability),
+                Cell::text(check.limit.decided_by.to_string()),
+            ];
+            table.push(cells);
+        }
+        table.note("U = k u is the expanded uncertainty at the coverage of the rule, 0.95 if it has none. On a logarithmic scale it is of first order.");
+        table
+    }
+
+    /// Remarks on rules, for a file with decision rules.
+    pub(super) fn rule_notes(&self) -> Vec<String> {
+        if !self.limits.is_by_rules() {
+            return Vec::new();
+        }
+        let mut rules: Vec<(String, Vec<String>)> = Vec::new();
+        for check in self.findings {
+            let rule = check.limit.decided_by.to_string();
+            let name = format!("{} {}", check.limit.metric, check.limit.channel);
+            match rules.iter_mut().find(|(known, _)| *known == rule) {
+                Some((_, names)) => names.push(name),
+                None => rules.push((rule, vec![name])),
+            }
+        }
+        let mut notes = vec![
+            "u: standard uncertainty; nu: its degrees of freedom; p_c: probability of conformity.".to_owned(),
+            "Conditional pass: within the limit, not within the acceptance limit. Conditional fail: beyond the limit by less than the guard. Undecided: no uncertainty, or one greater than agreed.".to_owned(),
+        ];
+        notes.extend(match rules.as_slice() {
+            [(rule, _)] => vec![format!("Decision rule: {rule}.")],
+            rules => {
+                let each = rules.iter();
+                each.map(|(rule, names)| format!("Decision rule of {}: {rule}.", names.join(", ")))
+                    .collect()
+            }
+        });
+        if self.limits.counts_conditional_passes() {
+            notes.push("A conditional pass counts as met.".to_owned());
+        }
+        notes
+    }
+
+    /// Remark on accepted edits of the result or its recording, if there are any.
+    pub(super) fn edits_note(&self) -> Option<String> {
+        let edits = &self.study.edits;
+        (!edits.is_empty()).then(|| format!("Edited by hand: {}.", edits.join("; ")))
+    }
+}
+
+/// Uncertainty, degrees of freedom, probability of conformity and acceptance limit of a decision.
+fn of_decision(decision: Option<&Decision>) -> [Cell; 4] {
+    let number = |of: fn(&Decision) -> Option<f64>| or_dash(decision.and_then(of).map(numeral));
+    [
+        number(|of| of.standard_uncertainty),
+        number(|of| of.freedom),
+        number(|of| of.conformance_probability),
+        or_dash(decision.and_then(reason::acceptance)),
+    ]
+}
+
+fn or_dash(text: Option<String>) -> Cell {
+    text.unwrap_or_else(|| "–".to_owned()).into()
+}
+
+fn bounds(limit: &Limit) -> String {
+    let whole = if limit.whole_interval {
+        ", whole interval"
+    } else {
+        ""
+    };
+    reason::bounds(limit.least, limit.most) + whole
+}

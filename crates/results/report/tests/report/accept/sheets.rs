@@ -1,0 +1,133 @@
+//! Data sheets of limits that are decided by rules, and of results that were edited, in every format.
+
+use serde_json::Value;
+use taceva_report::{Acceptance, Layout, LimitCheck, LimitsFile, Study, accept};
+
+use super::rules::{limits, study};
+
+const ERROR: &str = "[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"\nmost = 0.09\n";
+const SHARE: &str =
+    "[[limit]]\nmetric = \"r2\"\nchannel = \"Fz\"\nunit = \"1\"\nleast = 0.5\nrule = \"simple\"\n";
+const GUARDED: &str = "[decision]\nrule = \"guarded\"";
+
+fn checks(study: &Study, limits: &LimitsFile) -> Vec<LimitCheck> {
+    accept(study, limits).expect("checks")
+}
+
+fn sheet<'a>(
+    study: &'a Study,
+    limits: &'a LimitsFile,
+    findings: &'a [LimitCheck],
+) -> Acceptance<'a> {
+    Acceptance {
+        limits,
+        study,
+        findings,
+        date: Some("2026-11-22"),
+        pictures: None,
+    }
+}
+
+/// The sheet in each format with its name.
+fn formats(sheet: &Acceptance<'_>) -> [(&'static str, String); 6] {
+    let table = sheet.table();
+    [
+        ("text", table.text()),
+        ("CSV", table.csv()),
+        ("Markdown", table.markdown()),
+        ("LaTeX", table.latex(Layout::Float)),
+        ("JSON", sheet.json()),
+        ("page", sheet.page()),
+    ]
+}
+
+#[test]
+fn every_format_has_uncertainty_probability_acceptance_limit_and_verdict() {
+    let study = study();
+    let limits = limits(GUARDED, &format!("{ERROR}{SHARE}"));
+    let findings = checks(&study, &limits);
+    let sheet = sheet(&study, &limits, &findings);
+    for (format, text) in formats(&sheet) {
+        assert!(text.contains("conditional pass"), "{format}: {text}");
+        // A tenth of the value in 96 degrees of freedom, and the limit less a guard of a fifth.
+        for number in ["0.00828", "96", "0.82", "0.0736"] {
+            assert!(text.contains(number), "{format} has no {number}: {text}");
+        }
+        let is_stated = match format {
+            "CSV" => text.contains(",u,nu,p_c,acceptance limit,verdict,why"),
+            "JSON" => text.contains("\"rule\": \"guarded\""),
+            _ => text.contains("guard band w = 1 U, U at a coverage of 0.95"),
+        };
+        assert!(is_stated, "{format}: {text}");
+    }
+}
+
+#[test]
+fn programs_find_the_decision_of_each_limit() {
+    let study = study();
+    let limits = limits(GUARDED, &format!("{ERROR}{SHARE}")).counting_conditional_passes();
+    let findings = checks(&study, &limits);
+    let text = sheet(&study, &limits, &findings).json();
+    let json: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(json["passed"], true);
+    assert_eq!(json["conditional_pass_counts"], true);
+    let [error, share] = [0, 1].map(|at| &json["findings"][at]);
+    assert_eq!(error["verdict"], "conditional pass");
+    assert_eq!(error["rule"]["rule"], "guarded");
+    assert_eq!(error["rule"]["r"], 1.0);
+    assert_eq!(share["rule"]["rule"], "simple");
+    assert_eq!(share["verdict"], "pass");
+    let number = |key: &str| error[key].as_f64().expect("a number");
+    assert!((number("U") - number("k") * number("u")).abs() < 1e-12);
+    assert!((number("k") - 1.985).abs() < 5e-4);
+    let limit = &error["acceptance_limit"];
+    assert!(limit["least"].is_null() && limit["most"].is_number());
+}
+
+#[test]
+fn a_page_counts_the_words_of_its_verdicts_and_prints_expanded_uncertainties() {
+    let study = study();
+    let strict = limits(GUARDED, &format!("{ERROR}{SHARE}"));
+    let findings = checks(&study, &strict);
+    let page = sheet(&study, &strict, &findings).page();
+    let verdict = "<p class=\"fail\">FAIL: 1 of 2 limits have no pass (1 conditional pass).</p>";
+    assert!(page.contains(verdict), "{page}");
+    assert!(page.contains(">U</th>"), "{page}");
+    assert!(page.contains("Decision rule of r2 Fz: simple acceptance, w = 0."));
+    let counting = strict.counting_conditional_passes();
+    let findings = checks(&study, &counting);
+    let page = sheet(&study, &counting, &findings).page();
+    let verdict = "<p class=\"pass\">PASS: every limit is met (1 conditional pass).</p>";
+    assert!(page.contains(verdict), "{page}");
+    assert!(page.contains("A conditional pass counts as met."));
+}
+
+#[test]
+fn limits_by_value_have_the_columns_that_they_had() {
+    let study = study();
+    let limits = LimitsFile::read(ERROR).expect("limits");
+    let findings = checks(&study, &limits);
+    let text = sheet(&study, &limits, &findings).table().csv();
+    let head = "metric,better,channel,limit,value,95 %,unit,n,verdict,why";
+    assert_eq!(text.lines().next(), Some(head));
+    assert!(text.contains(",pass,met by the value only"), "{text}");
+}
+
+#[test]
+fn every_format_says_that_a_result_was_edited() {
+    let edit = "results, 2026-11-20: better so (sha256:00000000 → sha256:11111111)";
+    let mut study = study();
+    study.edits.push(edit.to_owned());
+    for text in [ERROR.to_owned(), format!("limits_version = 2\n{ERROR}")] {
+        let limits = LimitsFile::read(&text).expect("limits");
+        let findings = checks(&study, &limits);
+        let sheet = sheet(&study, &limits, &findings);
+        for (format, text) in formats(&sheet) {
+            let is_said = match format {
+                "CSV" => text.contains(",edits\n") && text.contains(",1 accepted edit\n"),
+                _ => text.contains("better so"),
+            };
+            assert!(is_said, "{format}: {text}");
+        }
+    }
+}
