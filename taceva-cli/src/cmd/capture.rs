@@ -29,6 +29,7 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
     let model = args.model.as_deref();
     let model = model.map(|path| read_model(path, context)).transpose()?;
     let (spec, mut live) = open(&args.live, context)?;
+    let warned = live.warnings();
     if let Some(model) = &model {
         model.check(live.frame_info())?;
     }
@@ -124,6 +125,13 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
             ));
         }
     }
+    for warning in live
+        .warnings()
+        .iter()
+        .filter(|warning| !warned.contains(warning))
+    {
+        stderr::say(format_args!("warning: {warning}"));
+    }
     let Captured { state, header, .. } = done?;
     summarise(&state, &header, has_force, &args.path, context);
     if let Some(predictions) = &header.predictions {
@@ -153,6 +161,9 @@ pub(super) fn open(args: &LiveArgs, context: &Context) -> anyhow::Result<(LiveSp
         context.say(format_args!(
             "nothing here is measured: the devices are simulated"
         ));
+    }
+    for warning in live.warnings() {
+        stderr::say(format_args!("warning: {warning}"));
     }
     Ok((spec, live))
 }

@@ -1,5 +1,6 @@
 //! A force transducer.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::BitOr;
 use std::sync::Arc;
@@ -85,6 +86,18 @@ pub trait ForceTransducer: Send {
     /// Handle that interrupts a pending call from another thread; without one a call lasts until its deadline.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
+    }
+
+    /// Settings of the transducer as read from it, by name, such as `serial` with `FT12345`; a recording keeps them. Empty if none is
+    /// known.
+    fn settings(&self) -> BTreeMap<String, String> {
+        BTreeMap::new()
+    }
+
+    /// Remarks for the operator on readings that are valid: a filter that delays them, a threshold that was exceeded. Each states its
+    /// remedy.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
     }
 
     /// Tare of the transducer, if it has one.

@@ -15,6 +15,7 @@ mod rehearsal;
 mod rig_locks;
 mod schedule;
 mod session;
+mod settings;
 mod simulation;
 mod tap;
 mod viewed_sensor;
@@ -43,6 +44,7 @@ pub(crate) use registration::Turned;
 pub use rehearsal::{AIR_MM, rehearse_scene};
 pub use rig_locks::HeldRigs;
 use schedule::Schedule;
+pub(crate) use settings::add_settings;
 pub(crate) use tap::tap_study;
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 
@@ -233,7 +235,7 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> Recor
     }
     let mut facts = RecordingFacts::new(source, taceva_core::Clock::Monotonic, sensor);
     facts.footprint = footprint(plan);
-    facts.settings = open.settings_of_sensor();
+    facts.settings = open.settings();
     RecordingSpec::new(facts, plan.truth_channels())
 }
 

@@ -20,7 +20,7 @@ use super::streams::{Counts, Streams};
 use super::track::Track;
 use super::transducer::Transducer;
 use crate::error::AcquireError;
-use crate::presses::{HeldRigs, Opened, Turned};
+use crate::presses::{HeldRigs, Opened, Turned, add_settings};
 use crate::scene::read_rig_file;
 
 /// Deadline of the start of a sensor and of its first frame.
@@ -225,9 +225,19 @@ impl LiveDevices {
         force.is_some_and(|force| force.device.axes().contains(axis))
     }
 
-    /// Settings of the camera, read back.
+    /// Settings of the devices, read back. Those of the transducer begin with `force_`.
     pub(super) fn settings(&self) -> BTreeMap<String, String> {
-        self.sensor.settings()
+        let mut settings = self.sensor.settings();
+        if let Some(force) = &self.force {
+            add_settings(&mut settings, "force", force.device.settings());
+        }
+        settings
+    }
+
+    /// Remarks of the transducer on its readings, each with its remedy.
+    pub fn warnings(&self) -> Vec<String> {
+        let force = self.force.as_ref();
+        force.map_or_else(Vec::new, |force| force.device.warnings())
     }
 
     /// True if a device is simulated or emulated, so that nothing is measured.

@@ -95,6 +95,14 @@ impl ForceTransducer for Late<dyn ForceTransducer> {
         self.device.interrupt_handle()
     }
 
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.device.settings()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.device.warnings()
+    }
+
     fn tare(&mut self) -> Option<&mut dyn Tare> {
         self.device.tare()
     }
@@ -103,6 +111,10 @@ impl ForceTransducer for Late<dyn ForceTransducer> {
 impl Robot for Late<dyn Robot> {
     fn is_emulated(&self) -> bool {
         self.device.is_emulated()
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.device.settings()
     }
 
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {

@@ -1,0 +1,45 @@
+//! Settings of the devices of a rig, with names that differ by device.
+
+use std::collections::BTreeMap;
+
+use super::devices::OpenRig;
+
+impl OpenRig {
+    /// Settings of the devices, read back. Those of the transducer and of the robot begin with `force_` and `robot_`.
+    pub(super) fn settings(&self) -> BTreeMap<String, String> {
+        let sensor = self.sensor.as_ref();
+        let mut settings = sensor.map(|sensor| sensor.settings()).unwrap_or_default();
+        add_settings(&mut settings, "force", self.force.settings());
+        add_settings(&mut settings, "robot", self.robot.settings());
+        settings
+    }
+}
+
+/// Adds the settings of a device to those of its rig; their names begin with `kind`: `force_serial`.
+pub(crate) fn add_settings(
+    all: &mut BTreeMap<String, String>,
+    kind: &str,
+    settings: BTreeMap<String, String>,
+) {
+    let named = settings.into_iter();
+    all.extend(named.map(|(name, value)| (format!("{kind}_{name}"), value)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_of_a_transducer_stand_beside_those_of_a_camera() {
+        let pair = |name: &str, value: &str| (name.to_owned(), value.to_owned());
+        let mut all = BTreeMap::from([pair("serial", "D20042")]);
+        let force = BTreeMap::from([pair("serial", "FT12345"), pair("filter", "0")]);
+        add_settings(&mut all, "force", force);
+        let expected = [
+            pair("force_filter", "0"),
+            pair("force_serial", "FT12345"),
+            pair("serial", "D20042"),
+        ];
+        assert_eq!(all, BTreeMap::from(expected));
+    }
+}
