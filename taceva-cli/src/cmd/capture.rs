@@ -195,6 +195,23 @@ fn line(state: &CaptureState, has_force: bool) -> String {
     line
 }
 
+/// Causes of frames without a force: `: 1 before the first reading, 3 in gaps between readings`; empty if none is known.
+fn causes(state: &CaptureState) -> String {
+    let causes = [
+        (state.before_force, "before the first reading"),
+        (state.in_force_gaps, "in gaps between readings"),
+        (state.late_force, "after which no reading came in time"),
+    ];
+    let causes = causes.into_iter().filter(|(count, _)| *count > 0);
+    let causes: Vec<String> = causes
+        .map(|(count, cause)| format!("{count} {cause}"))
+        .collect();
+    match causes.is_empty() {
+        true => String::new(),
+        false => format!(": {}", causes.join(", ")),
+    }
+}
+
 /// Force below which a reading means pulling, N; a hand does not pull a gel.
 const PULLED_N: f64 = -0.3;
 
@@ -229,9 +246,10 @@ fn summarise(
         return;
     }
     context.say(format_args!(
-        "{}; {} without a force",
+        "{}; {} without a force{}",
         counted(state.contacts, "contact"),
-        counted(state.without_force, "frame")
+        counted(state.without_force, "frame"),
+        causes(state)
     ));
     if state.contacts == 0 && state.least_normal_n < PULLED_N {
         stderr::say(format_args!(

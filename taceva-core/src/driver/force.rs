@@ -6,6 +6,7 @@ use std::ops::BitOr;
 use std::sync::Arc;
 
 use super::{Deadline, DriverError, Interrupt};
+use crate::quantity::Newton;
 use crate::stamp::Stamp;
 use crate::wrench::Wrench;
 
@@ -85,6 +86,11 @@ pub trait ForceTransducer: Send {
 
     /// Handle that interrupts a pending call from another thread; without one a call lasts until its deadline.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
+        None
+    }
+
+    /// Step between two neighbouring readings of a force, as the device reports it; `None` if it does not, or not yet.
+    fn resolution(&self) -> Option<Newton> {
         None
     }
 

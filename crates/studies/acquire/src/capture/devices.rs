@@ -234,6 +234,13 @@ impl LiveDevices {
         settings
     }
 
+    /// Exposure of a frame, in s; `None` if the camera does not state it.
+    fn exposure_s(&self) -> Option<f64> {
+        let settings = self.sensor.settings();
+        let exposure_ms: f64 = settings.get("exposure_ms")?.parse().ok()?;
+        Some(1e-3 * exposure_ms)
+    }
+
     /// Remarks of the transducer on its readings, each with its remedy.
     pub fn warnings(&self) -> Vec<String> {
         let force = self.force.as_ref();
@@ -279,7 +286,7 @@ impl LiveDevices {
         let track = self
             .force
             .as_ref()
-            .map(|force| Track::new(force.period_s()));
+            .map(|force| Track::new(force.period_s(), self.exposure_s()));
         let failed: Mutex<Option<DriverError>> = Mutex::new(None);
         // The first failure is the cause; later ones may be its effect.
         let fail = |error: DriverError| {

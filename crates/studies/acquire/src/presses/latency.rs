@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use taceva_core::{
     Axes, Deadline, DriverError, DriverKey, ErrorKind, ExpiringMotion, ForceTransducer, FrameInfo,
-    FrameMut, Guard, GuardedMotion, GuardedStop, Halt, Interrupt, Lighting, Pose, Robot,
+    FrameMut, Guard, GuardedMotion, GuardedStop, Halt, Interrupt, Lighting, Newton, Pose, Robot,
     RobotWatch, SampleTiming, Sensor, Speed, Stamp, Tare, Wrench,
 };
 
@@ -101,6 +101,10 @@ impl ForceTransducer for Late<dyn ForceTransducer> {
 
     fn warnings(&self) -> Vec<String> {
         self.device.warnings()
+    }
+
+    fn resolution(&self) -> Option<Newton> {
+        self.device.resolution()
     }
 
     fn tare(&mut self) -> Option<&mut dyn Tare> {

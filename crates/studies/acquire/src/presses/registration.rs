@@ -205,6 +205,10 @@ impl ForceTransducer for Turned {
         self.force.warnings()
     }
 
+    fn resolution(&self) -> Option<Newton> {
+        self.force.resolution()
+    }
+
     fn tare(&mut self) -> Option<&mut dyn Tare> {
         self.force.tare()
     }
