@@ -175,7 +175,7 @@ impl Robot for Arm {
     }
 
     fn settings(&self) -> BTreeMap<String, String> {
-        settings(&self.version, self.limits)
+        settings(&self.version)
     }
 
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {

@@ -37,14 +37,13 @@ fn a_speed_that_the_controller_would_change_is_refused_and_its_least_one_is_not(
 }
 
 #[test]
-fn an_arm_says_its_serial_numbers_firmware_and_speeds() {
+fn an_arm_says_its_serial_numbers_and_its_firmware() {
     let setup = setup(Ports::ANY);
     let settings = setup.open().settings();
     for (name, expected) in [
         ("serial", "XF13000007"),
         ("control_box", "TACEVA-SIM0007"),
         ("firmware", "v2.7.0"),
-        ("speeds_mm_s", "0.1 to 1000"),
     ] {
         assert_eq!(settings[name], expected, "{name}");
     }
