@@ -90,7 +90,10 @@ impl Setup {
     /// Output of the low pass one reading after `before`.
     pub(super) fn passed(&self, before: [f64; 6], wrench: [f64; 6]) -> [f64; 6] {
         let number = usize::from(self.filter);
-        let Some(cutoff_hz) = number.checked_sub(1).and_then(|at| CUTOFFS_HZ.get(at)) else {
+        let Some(cutoff_hz) = number
+            .checked_sub(1)
+            .and_then(|at| CUTOFFS_HZ.get(at).copied())
+        else {
             return wrench;
         };
         let share = 1.0 - (-std::f64::consts::TAU * cutoff_hz / f64::from(RATE_HZ)).exp();
