@@ -98,6 +98,7 @@ fn acquire(
     }
     let mut log: Option<RecordedPresses> = None;
     let mut left = 0;
+    let mut warned = Vec::new();
     for unit in &plan.units {
         if !unit_is_there(study, rig, unit, &mut sitting)? {
             left += plan
@@ -108,6 +109,7 @@ fn acquire(
             continue;
         }
         let mut open = OpenRig::open(study, rig, unit, sitting)?;
+        open.warn(workshop, &mut warned);
         let log = match &mut log {
             Some(log) => log,
             None => {
@@ -136,6 +138,7 @@ fn acquire(
             ..sitting
         };
         let done = acquire_unit(study, unit, &mut open, path, log, of_unit);
+        open.warn(workshop, &mut warned);
         sitting.is_enabled = true;
         if let Err(error) = done {
             left += presses_skipped(error)?;

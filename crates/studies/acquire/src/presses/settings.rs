@@ -1,8 +1,10 @@
-//! Settings of the devices of a rig, with names that differ by device.
+//! Settings of the devices of a rig, with names that differ by device, and remarks of its transducer.
 
 use std::collections::BTreeMap;
+use std::sync::PoisonError;
 
 use super::devices::OpenRig;
+use super::workshop::Workshop;
 
 impl OpenRig {
     /// Settings of the devices, read back. Those of the transducer and of the robot begin with `force_` and `robot_`.
@@ -12,6 +14,20 @@ impl OpenRig {
         add_settings(&mut settings, "force", self.force.settings());
         add_settings(&mut settings, "robot", self.robot.settings());
         settings
+    }
+
+    /// Shows the operator, if any, the remarks of the transducer that are not in `shown`, and adds them to it.
+    pub(super) fn warn(&self, workshop: Workshop<'_>, shown: &mut Vec<String>) {
+        let Some(operator) = workshop.operator else {
+            return;
+        };
+        let mut operator = operator.lock().unwrap_or_else(PoisonError::into_inner);
+        for warning in self.force.warnings() {
+            if !shown.contains(&warning) {
+                operator.warn(&warning);
+                shown.push(warning);
+            }
+        }
     }
 }
 
