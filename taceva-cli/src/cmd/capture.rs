@@ -29,6 +29,7 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
     let model = args.model.as_deref();
     let model = model.map(|path| read_model(path, context)).transpose()?;
     let (spec, mut live) = open(&args.live, context)?;
+    let warned = live.warnings();
     if let Some(model) = &model {
         model.check(live.frame_info())?;
     }
@@ -124,6 +125,13 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
             ));
         }
     }
+    for warning in live
+        .warnings()
+        .iter()
+        .filter(|warning| !warned.contains(warning))
+    {
+        stderr::say(format_args!("warning: {warning}"));
+    }
     let Captured { state, header, .. } = done?;
     summarise(&state, &header, has_force, &args.path, context);
     if let Some(predictions) = &header.predictions {
@@ -154,6 +162,9 @@ pub(super) fn open(args: &LiveArgs, context: &Context) -> anyhow::Result<(LiveSp
             "nothing here is measured: the devices are simulated"
         ));
     }
+    for warning in live.warnings() {
+        stderr::say(format_args!("warning: {warning}"));
+    }
     Ok((spec, live))
 }
 
@@ -182,6 +193,23 @@ fn line(state: &CaptureState, has_force: bool) -> String {
         };
     }
     line
+}
+
+/// Causes of frames without a force: `: 1 before the first reading, 3 in gaps between readings`; empty if none is known.
+fn causes(state: &CaptureState) -> String {
+    let causes = [
+        (state.before_force, "before the first reading"),
+        (state.in_force_gaps, "in gaps between readings"),
+        (state.late_force, "after which no reading came in time"),
+    ];
+    let causes = causes.into_iter().filter(|(count, _)| *count > 0);
+    let causes: Vec<String> = causes
+        .map(|(count, cause)| format!("{count} {cause}"))
+        .collect();
+    match causes.is_empty() {
+        true => String::new(),
+        false => format!(": {}", causes.join(", ")),
+    }
 }
 
 /// Force below which a reading means pulling, N; a hand does not pull a gel.
@@ -218,9 +246,10 @@ fn summarise(
         return;
     }
     context.say(format_args!(
-        "{}; {} without a force",
+        "{}; {} without a force{}",
         counted(state.contacts, "contact"),
-        counted(state.without_force, "frame")
+        counted(state.without_force, "frame"),
+        causes(state)
     ));
     if state.contacts == 0 && state.least_normal_n < PULLED_N {
         stderr::say(format_args!(

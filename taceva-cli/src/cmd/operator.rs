@@ -53,6 +53,10 @@ impl<I: Read + Waits> Operator for Terminal<I> {
         });
     }
 
+    fn warn(&mut self, warning: &str) {
+        progress::without_bar(|| (self.say)(&format!("warning: {warning}")));
+    }
+
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer {
         progress::without_bar(|| self.answered(question, cancel))
     }

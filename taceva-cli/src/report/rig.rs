@@ -150,6 +150,12 @@ fn text(check: &RigCheck, out: &mut dyn Write) -> io::Result<()> {
     if let Some(line) = noise_n.and_then(threshold) {
         writeln!(out, "note    {line}")?;
     }
+    for (name, value) in &check.settings {
+        writeln!(out, "setting {name} = {value}")?;
+    }
+    for warning in &check.warnings {
+        writeln!(out, "warning {warning}")?;
+    }
     let measured = check.problems.iter();
     for problem in measured.filter(|problem| !problem.is_failure()) {
         writeln!(out, "problem {problem}")?;

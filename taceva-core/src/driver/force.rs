@@ -1,10 +1,12 @@
 //! A force transducer.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::BitOr;
 use std::sync::Arc;
 
 use super::{Deadline, DriverError, Interrupt};
+use crate::quantity::Newton;
 use crate::stamp::Stamp;
 use crate::wrench::Wrench;
 
@@ -85,6 +87,23 @@ pub trait ForceTransducer: Send {
     /// Handle that interrupts a pending call from another thread; without one a call lasts until its deadline.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
+    }
+
+    /// Step between two neighbouring readings of a force, as the device reports it; `None` if it does not, or not yet.
+    fn resolution(&self) -> Option<Newton> {
+        None
+    }
+
+    /// Settings of the transducer as read from it, by name, such as `serial` with `FT12345`; a recording keeps them. Empty if none is
+    /// known.
+    fn settings(&self) -> BTreeMap<String, String> {
+        BTreeMap::new()
+    }
+
+    /// Remarks for the operator on readings that are valid: a filter that delays them, a threshold that was exceeded. Each states its
+    /// remedy.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
     }
 
     /// Tare of the transducer, if it has one.

@@ -1,5 +1,6 @@
 //! A robot that moves the indenter.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{Deadline, DriverError, ExpiringMotion, GuardedMotion, Halt, RobotWatch, Speed};
@@ -108,6 +109,11 @@ pub trait Robot: Send {
     /// True if the device reports that it is emulated, so that nothing recorded with it was measured.
     fn is_emulated(&self) -> bool {
         false
+    }
+
+    /// Settings of the robot as read from it, by name, such as `firmware` with `2.7.0`; a recording keeps them. Empty if none is known.
+    fn settings(&self) -> BTreeMap<String, String> {
+        BTreeMap::new()
     }
 
     /// Stops the robot. Legal in every state and idempotent.

@@ -48,7 +48,7 @@ pub trait Factory<D: ?Sized>: Send + Sync {
         Ok(self.descriptor().clone())
     }
 
-    /// Opens the device. Nothing moves, and no light changes.
+    /// Opens the device. Nothing moves, and no light changes unless an argument sets it.
     ///
     /// `args` are declared by [`descriptor`](Factory::descriptor); devices of one `rig` may share resources.
     ///

@@ -2,7 +2,10 @@
 
 mod calibration;
 mod factory;
+mod page;
 mod record;
+mod setup;
+mod status;
 mod stream;
 mod transducer;
 

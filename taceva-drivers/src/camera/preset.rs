@@ -27,6 +27,9 @@ pub(super) struct Preset {
     pub(super) rate_hz: f64,
     /// Share of width and height that is cropped at each side.
     border: f64,
+    /// True if the zoom control of the camera sets LEDs of the sensor.
+    #[serde(default)]
+    pub(super) leds: bool,
 }
 
 static PRESETS: LazyLock<Vec<Preset>> = LazyLock::new(|| {

@@ -6,6 +6,7 @@ mod factory;
 mod fixed;
 mod frames;
 pub mod kernel;
+mod leds;
 mod reader;
 mod yuyv;
 

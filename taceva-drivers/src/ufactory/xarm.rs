@@ -9,6 +9,8 @@ mod factory;
 mod fault;
 mod firmware;
 mod frame;
+mod identity;
+mod limits;
 mod motion;
 mod observe;
 mod options;

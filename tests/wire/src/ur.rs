@@ -1,9 +1,10 @@
 //! Emulated controller of Universal Robots: the real-time data exchange (port 30004) and script (port 30002).
 //!
-//! Supported: any output by name (zeros for unknown ones), `movel` to a pose, `speedl` for a time (without rotation), `stopl` with a
+//! Supported: the outputs of a version by name (zeros for what is not simulated), `movel` to a pose, `speedl` for a time (without rotation), `stopl` with a
 //! register number before it, safety stops. Not supported: inputs, other script, acceleration, joints.
 
 mod exchange;
+mod outputs;
 mod program;
 
 use std::net::{Ipv4Addr, SocketAddr};
@@ -37,6 +38,8 @@ const PROGRAM_MAX: usize = 4096;
 #[derive(Debug)]
 pub(crate) struct Controller {
     bench: WallBench,
+    /// Version: major and minor.
+    version: [u32; 2],
     inside: Mutex<Inside>,
 }
 
@@ -135,11 +138,25 @@ impl Emulator {
     pub fn start(
         bench: &WallBench,
         host: Ipv4Addr,
+        ports: [u16; 2],
+    ) -> Result<Emulator, WireError> {
+        Emulator::of_version(bench, host, ports, [5, 11])
+    }
+
+    /// Starts an arm with the controller of a version: major and minor, such as 3 and 15.
+    ///
+    /// # Errors
+    /// As [`start`](Emulator::start).
+    pub fn of_version(
+        bench: &WallBench,
+        host: Ipv4Addr,
         [states, script]: [u16; 2],
+        version: [u32; 2],
     ) -> Result<Emulator, WireError> {
         let end = End::default();
         let controller = Arc::new(Controller {
             bench: bench.clone(),
+            version,
             inside: Mutex::new(Inside {
                 fault: None,
                 turned: DOWN,

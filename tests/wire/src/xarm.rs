@@ -2,7 +2,8 @@
 //!
 //! Supported: versions, enabling, modes, states, queued straight motions (absolute and relative, both layouts), expiring velocities of the
 //! tip, poses, errors and their clearing, and messages at the end of a motion. Not supported: servo motions, velocities with rotation,
-//! blending, joints, limits of speed and jerk, braking distances. An unknown register is answered with "result invalid".
+//! blending, joints, limits of jerk, braking distances. Speeds outside the limits of the rich report are changed without a word. An unknown
+//! register is answered with "result invalid".
 
 mod answer;
 mod client;
@@ -147,11 +148,12 @@ impl Arm for Emulator {
     fn selector(&self) -> String {
         let port = |port| self.address(port).port();
         format!(
-            "ufactory/xarm:host={};port={};pose_port={};status_port={}",
+            "ufactory/xarm:host={};port={};pose_port={};status_port={};rich_port={}",
             self.command.address().ip(),
             port(Port::Command),
             port(Port::Pose),
             port(Port::Status),
+            port(Port::Rich),
         )
     }
 }

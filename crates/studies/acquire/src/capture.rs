@@ -114,6 +114,12 @@ pub struct CaptureState {
     pub contacts: u64,
     /// Number of frames without a force, if there is a transducer.
     pub without_force: u64,
+    /// Number of frames before the first reading, which have no force.
+    pub before_force: u64,
+    /// Number of frames between readings that are too far apart, which have no force.
+    pub in_force_gaps: u64,
+    /// Number of frames after which no reading came in time, which have no force.
+    pub late_force: u64,
     /// Normal force at the last frame, in N.
     pub normal_n: Option<f64>,
     /// Least normal force so far, in N: far below 0 if an axis has the wrong sign.
@@ -307,6 +313,9 @@ impl Recording<'_> {
         state.least_normal_n = state.least_normal_n.min(normal_n.unwrap_or(0.0));
         let has_none = streamed.sample.truth.as_slice().iter().all(Option::is_none);
         state.without_force += u64::from(has_none && !self.labels.is_empty());
+        let lost = self.labels.lost();
+        (state.before_force, state.in_force_gaps, state.late_force) =
+            (lost.before, lost.in_gaps, lost.late);
         let lasts = self.request.lasts;
         let has_lasted = lasts.is_some_and(|lasts| stamp_s - first_s >= lasts.as_secs_f64());
         has_lasted || self.request.frames == Some(number)

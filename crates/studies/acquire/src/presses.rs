@@ -15,6 +15,7 @@ mod rehearsal;
 mod rig_locks;
 mod schedule;
 mod session;
+mod settings;
 mod simulation;
 mod tap;
 mod viewed_sensor;
@@ -44,6 +45,7 @@ pub(crate) use registration::Turned;
 pub use rehearsal::{AIR_MM, rehearse_scene};
 pub use rig_locks::HeldRigs;
 use schedule::Schedule;
+pub(crate) use settings::add_settings;
 pub(crate) use tap::tap_study;
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 
@@ -97,6 +99,7 @@ fn acquire(
     }
     let mut log: Option<RecordedPresses> = None;
     let mut left = 0;
+    let mut warned = Vec::new();
     for unit in &plan.units {
         if !unit_is_there(study, rig, unit, &mut sitting)? {
             left += plan
@@ -107,6 +110,7 @@ fn acquire(
             continue;
         }
         let mut open = OpenRig::open(study, rig, unit, sitting)?;
+        open.warn(workshop, &mut warned);
         let log = match &mut log {
             Some(log) => log,
             None => {
@@ -135,6 +139,7 @@ fn acquire(
             ..sitting
         };
         let done = acquire_unit(study, unit, &mut open, path, log, of_unit);
+        open.warn(workshop, &mut warned);
         sitting.is_enabled = true;
         if let Err(error) = done {
             left += presses_skipped(error)?;
@@ -234,7 +239,7 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> Recor
     }
     let mut facts = RecordingFacts::new(source, taceva_core::Clock::Monotonic, sensor);
     facts.footprint = footprint(plan);
-    facts.settings = open.settings_of_sensor();
+    facts.settings = open.settings();
     let rig = study.study.rig.as_deref();
     let instruments = rig.map(instruments::of_rig).unwrap_or_default();
     facts.traceability = instruments::kept(instruments, source);

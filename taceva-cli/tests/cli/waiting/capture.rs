@@ -3,11 +3,13 @@
 mod broken;
 mod predictions;
 
+use std::net::Ipv4Addr;
 use std::time::Duration;
 
 use crate::support::Bench;
 use crate::support::emulated::{Emulated, Running};
 use taceva_dataset::{Dataset, Source};
+use taceva_wire::netft;
 
 /// Depths of the presses of a capture, mm.
 const DEPTHS_MM: [f64; 8] = [0.3, 0.5, 0.4, 0.6, 0.35, 0.55, 0.45, 0.5];
@@ -193,4 +195,37 @@ fn frames_that_nobody_took_in_time_are_counted_and_check_says_so() {
     assert!(ran.err.contains(&said), "{said} in {}", ran.err);
     let checked = bench.run("check stopped");
     assert!(checked.out.contains("TAC015"), "{}", checked.out);
+}
+
+#[test]
+fn what_a_transducer_says_of_itself_is_recorded_and_what_delays_it_is_a_warning() {
+    let emulated = Emulated::new();
+    let filtered = netft::Setup {
+        filter: 8,
+        ..netft::Setup::PLAIN
+    };
+    let host = Ipv4Addr::LOCALHOST;
+    let force = netft::Emulator::set_up(&emulated.bench, host, 0, 0, filtered).expect("a box");
+    let bench = Bench::new();
+    let ran = bench.run(&format!(
+        "capture out --sensor {} --force {} --frames 12",
+        emulated.sensor(),
+        force.selector()
+    ));
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let warnings = ran.err.matches("warning: low pass 8 of the box").count();
+    assert_eq!(warnings, 1, "{}", ran.err);
+    let dataset = Dataset::open(&bench.path("out")).expect("whole");
+    let settings = &dataset.header().settings;
+    let serial = emulated.bench.serial();
+    for (name, expected) in [
+        ("force_serial", serial.as_str()),
+        ("force_filter", "8"),
+        ("force_frame", "own"),
+        ("force_rate_hz", "500"),
+        ("force_bias", "none"),
+    ] {
+        let found = settings.get(name).map(String::as_str);
+        assert_eq!(found, Some(expected), "{name} of {settings:?}");
+    }
 }

@@ -1,11 +1,12 @@
 //! The built-in driver `ati/netft`.
 
 use taceva_core::{
-    ArgSpec, Args, Axes, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverSource,
-    Factory, Facts, ForceFacts, ForceTransducer, Hertz, Rig, submit_builtin,
+    ArgSpec, ArgValue, Args, Axes, Descriptor, DescriptorError, DescriptorSpec, DriverError,
+    DriverSource, Factory, Facts, ForceFacts, ForceTransducer, Hertz, Rig, submit_builtin,
 };
 
 use super::KEY;
+use super::setup::{Expected, Frame};
 use super::transducer::{NetftOptions, Transducer};
 use crate::arguments::force::{FORCE_MAX, add_facts_of_force, force_facts};
 use crate::arguments::network::{port, port_of};
@@ -18,13 +19,17 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 /// # The physical contract
 /// - Forces and torques are in the transducer's own axes, in N and N·mm. The value of a count is read at open from the page
 ///   `/netftapi2.xml` of the box.
+/// - A box with a tool frame is refused unless `frame=tool` asks for readings in that frame. So is a box whose rate differs from a stated
+///   `rate`, or whose range is below a stated `force_max_n`. Without `force_max_n` the range of the page applies.
+/// - Frame, low pass, rate, range, bias and serial number are settings that a recording keeps. The delay of a low pass is a warning.
 /// - A reading is the newest record received. Datagrams of other senders are ignored. Torn, duplicate and overtaken records are dropped.
-/// - A saturated gage is `OutOfRange`; every other error of the box is `DeviceFault`.
+/// - A saturated gage is `OutOfRange`; every other status but a latched threshold is `DeviceFault`, with its bits by name. A latched
+///   threshold is a warning, since readings stay valid.
 /// - Zero is the mean of 0.25 s, subtracted by the driver. The bias of the box stays unchanged.
 ///
 /// # Verification
 /// The driver passes its suite on an emulated box, which the public client `NetFT` 2.0.1 reads too. **Not verified without the device**:
-/// the status bits, of which the driver reads two, and devices of other makers that send the same records.
+/// the status bits, the delay of a low pass, and devices of other makers that send the same records.
 ///
 /// ```
 /// use taceva_core::Factory;
@@ -53,6 +58,9 @@ impl NetftFactory {
                 .optional()
                 .help("readings per second that the box is set to, if known")
                 .changes_facts(),
+            ArgSpec::choice("frame", ["own", "tool"])
+                .default(ArgValue::Text("own".to_owned()))
+                .help("frame of the readings: own axes of the transducer, or the tool frame that is set in the box"),
         ];
         let facts = Facts::Force(
             ForceFacts::default()
@@ -87,7 +95,14 @@ impl Factory<dyn ForceTransducer> for NetftFactory {
             host: args.text("host").to_owned(),
             port: port_of(args, "port"),
             page_port: port_of(args, "page_port"),
-            force_max_n: optional_number(args, FORCE_MAX),
+            expected: Expected {
+                frame: match args.text("frame") {
+                    "tool" => Frame::Tool,
+                    _ => Frame::Own,
+                },
+                rate_hz: optional_number(args, "rate"),
+                force_max_n: optional_number(args, FORCE_MAX),
+            },
         };
         Ok(Box::new(Transducer::open(options)?))
     }

@@ -1,5 +1,7 @@
 //! Encoding of requests and records of the raw data transfer, big-endian. No I/O.
 
+use super::status::Status;
+
 /// Request to the box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Request {
@@ -30,22 +32,6 @@ pub(super) struct Record {
     pub(super) status: Status,
     /// Fx, Fy, Fz, Tx, Ty, Tz.
     pub(super) counts: [i32; 6],
-}
-
-/// Status word of a reading; 0 means no error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Status(pub(super) u32);
-
-impl Status {
-    /// True if a gage is saturated, so that the force is clipped.
-    pub(super) fn is_saturated(self) -> bool {
-        self.0 & 0x0002_0000 != 0
-    }
-
-    /// True if the summary error bit is set.
-    pub(super) fn has_error(self) -> bool {
-        self.0 & 0x8000_0000 != 0
-    }
 }
 
 /// Size of a record, bytes.

@@ -1,5 +1,6 @@
 //! Force transducer over a Net F/T box.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -10,7 +11,9 @@ use taceva_core::{
 
 use super::KEY;
 use super::calibration::Calibration;
-use super::record::{Record, Request, Status};
+use super::page::Page;
+use super::record::{Record, Request};
+use super::setup::{Expected, Setup};
 use super::stream::{Counted, RecordStream};
 use crate::link::{LinkError, Mailbox, Seen};
 use crate::zero::{HostZero, READ};
@@ -21,8 +24,7 @@ pub(super) struct NetftOptions {
     pub(super) host: String,
     pub(super) port: u16,
     pub(super) page_port: u16,
-    /// Measuring range, N; `None` if unknown.
-    pub(super) force_max_n: Option<f64>,
+    pub(super) expected: Expected,
 }
 
 /// A connected transducer.
@@ -30,10 +32,13 @@ pub(super) struct NetftOptions {
 pub(super) struct Transducer {
     options: NetftOptions,
     calibration: Calibration,
+    setup: Setup,
     records: Arc<Mailbox<Counted>>,
     stream: RecordStream,
     zero: HostZero,
     is_running: bool,
+    /// True once a reading came with a latched threshold.
+    is_latched: bool,
     /// Sequence number of the last reading.
     sequence: Option<u64>,
     /// Mailbox number of the last record returned.
@@ -52,18 +57,28 @@ impl Transducer {
     /// Reads the calibration of a box and opens its socket. Sends no request to start readings.
     pub(super) fn open(options: NetftOptions) -> Result<Transducer, DriverError> {
         let doing = "connect to the box";
-        let calibration = Calibration::ask(&options.host, options.page_port)
+        let page = Page::ask(&options.host, options.page_port)
             .map_err(|error| failed(error.kind(), doing, error))?;
+        let calibration =
+            Calibration::read(&page).map_err(|error| failed(error.kind(), doing, error))?;
+        let setup = Setup::read(&page, calibration.force_unit_n)
+            .map_err(|error| failed(error.kind(), doing, error))?;
+        setup
+            .check(&options.expected)
+            .map_err(|why| failed(ErrorKind::InvalidArgument, doing, why))?;
+        let force_max_n = options.expected.force_max_n.or(setup.range_n());
         let records = Arc::new(Mailbox::default());
         let stream = RecordStream::open(&options.host, options.port, &records)
             .map_err(|error| failed(error.kind(), doing, error))?;
         Ok(Transducer {
-            zero: HostZero::new(KEY, options.force_max_n),
+            zero: HostZero::new(KEY, force_max_n),
             options,
             calibration,
+            setup,
             records,
             stream,
             is_running: false,
+            is_latched: false,
             sequence: None,
             last: 0,
         })
@@ -95,23 +110,27 @@ impl Transducer {
         })?;
         self.last = seen.number;
         self.sequence = Some(u64::from(seen.what.record.number));
+        self.is_latched |= seen.what.record.status.is_latched();
         Ok(seen)
     }
 
     /// Converts a record to N and N·mm, including the zero offset of the box.
     fn wrench(&self, record: &Record) -> Result<Wrench, DriverError> {
-        let Status(bits) = record.status;
-        if record.status.is_saturated() {
-            let why = format!("a strain gauge is saturated (status {bits:#010x})");
+        let status = record.status;
+        if status.is_saturated() {
+            let why = format!("the force is clipped, {status}: reduce the load");
             return Err(failed(ErrorKind::OutOfRange, READ, why));
         }
-        if record.status.has_error() {
-            let why = format!("the box reports an error (status {bits:#010x}), see its manual");
+        if status.has_error() {
+            let why = format!(
+                "the box reports {status}, expected status 0x00000000: its manual says what each bit needs; most are cleared by restarting it"
+            );
             return Err(failed(ErrorKind::DeviceFault, READ, why));
         }
         let Calibration {
             force_n,
             torque_nmm,
+            ..
         } = self.calibration;
         let [fx, fy, fz, tx, ty, tz] = record.counts.map(f64::from);
         let wrench = Wrench {
@@ -156,6 +175,21 @@ impl ForceTransducer for Transducer {
 
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         Some(Arc::clone(&self.records) as Arc<dyn Interrupt>)
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.setup.settings()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let mut warnings = self.setup.warnings();
+        if self.is_latched {
+            warnings.push(
+                "a threshold of the box was exceeded and is latched (status 0x80010000); readings stay valid: reset it on the Thresholding page of the box"
+                    .to_owned(),
+            );
+        }
+        warnings
     }
 
     fn tare(&mut self) -> Option<&mut dyn Tare> {

@@ -13,6 +13,7 @@ use super::KEY;
 use super::error::{START, failed, refused};
 use super::fixed::Fixed;
 use super::frames::Frames;
+use super::leds::Leds;
 use super::reader::{Picture, Reader};
 use crate::camera::CAPTURE;
 use crate::camera::crop::Crop;
@@ -30,6 +31,7 @@ pub(super) struct V4l2Options {
     pub(super) rate_hz: Option<f64>,
     pub(super) crop: Crop,
     pub(super) fixed: Fixed,
+    pub(super) leds: Leds,
 }
 
 /// An open camera.
@@ -55,8 +57,9 @@ const FIRST: Duration = Duration::from_secs(3);
 impl LocalCamera {
     /// Opens a camera, sets its format and fixes its controls. For JPEG, captures one image to determine the frame format.
     pub(super) fn open(options: V4l2Options) -> Result<LocalCamera, DriverError> {
+        options.leds.colour()?;
         let (mut camera, given) = options.connect()?;
-        let settings = options.fixed.apply(&mut camera)?;
+        let settings = options.fix(&mut camera)?;
         let pictures = Arc::new(Mailbox::default());
         let (camera, frames) = match given.picture.pixels {
             FourCc::MJPG => {
@@ -102,7 +105,7 @@ impl LocalCamera {
             }
         };
         // Another program may have changed the controls.
-        self.settings = self.options.fixed.apply(&mut camera)?;
+        self.settings = self.options.fix(&mut camera)?;
         let stream = Stream::start(camera).map_err(refused(START))?;
         (self.last, self.missed) = (self.pictures.posted(), 0);
         let reader = Reader::start(stream, &self.pictures);
@@ -118,6 +121,13 @@ impl LocalCamera {
 }
 
 impl V4l2Options {
+    /// Fixes controls and LEDs, and returns the values read back.
+    fn fix(&self, camera: &mut Camera) -> Result<BTreeMap<String, String>, DriverError> {
+        let mut settings = self.fixed.apply(camera)?;
+        self.leds.apply(camera, &mut settings)?;
+        Ok(settings)
+    }
+
     /// Opens the camera with the first pixel format that it supports.
     fn connect(&self) -> Result<(Camera, GivenFormat), DriverError> {
         let mut camera = Camera::open(&self.device).map_err(refused(OPEN))?;

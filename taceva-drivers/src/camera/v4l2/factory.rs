@@ -13,6 +13,7 @@ use taceva_core::{
 use super::KEY;
 use super::camera::{LocalCamera, V4l2Options};
 use super::fixed::Fixed;
+use super::leds::Leds;
 use crate::arguments::optional_number;
 use crate::camera::crop::Crop;
 use crate::camera::preset::Preset;
@@ -33,7 +34,8 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(V4l2Factory::new()?)));
 /// - A frame is the newest image received, with the kernel's time stamp on the monotonic clock. Missed images are counted by the camera's
 ///   numbers. A damaged, short or wrongly sized image is an error of that frame. An unplugged camera is `Disconnected`; `start` reopens it.
 /// - A camera serves one program. A second program gets an error that the camera is in use.
-/// - The sensor's lighting stays unchanged.
+/// - With `preset=digit`, `led` sets the LEDs of the sensor at open and at every start. They are read back, stored with a recording, and an
+///   error if they do not hold. Without `led` they stay unchanged and are read back.
 ///
 /// # Verification
 /// The kernel's emulated camera `vivid` in a virtual machine (`taceva-wire`, test `kernel`): YUYV pixels against its colour bars, the
@@ -96,7 +98,10 @@ impl V4l2Factory {
         ];
         let facts = Facts::Sensor(Box::default());
         let spec = DescriptorSpec::new(KEY, "a camera of this machine", DriverSource::Real, facts);
-        let spec = spec.arguments(arguments).arguments(Fixed::arguments());
+        let spec = spec
+            .arguments(arguments)
+            .arguments(Fixed::arguments())
+            .arguments([Leds::argument()]);
         Ok(V4l2Factory {
             descriptor: spec.check()?,
         })
@@ -167,6 +172,7 @@ fn options(args: &Args) -> V4l2Options {
         rate_hz: optional_number(args, "rate").or(preset.map(|preset| preset.rate_hz)),
         crop: preset.map_or(Crop::NONE, |preset| preset.crop(width, height)),
         fixed: Fixed::of(args),
+        leds: Leds::of(args, preset),
     }
 }
 

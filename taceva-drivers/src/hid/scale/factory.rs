@@ -22,6 +22,8 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(ScaleFactory::new()?)));
 /// - Opening and starting send nothing. A weight is stamped with the arrival time of its report.
 /// - An overloaded scale is `OutOfRange`. A lost zero, a required calibration or a fault is `DeviceFault`. An unplugged scale is
 ///   `Disconnected` and must be reopened.
+/// - The step between readings follows from unit and exponent of the reports, unless `resolution_n` states it: a load at rest repeats
+///   its weight.
 /// - Zero is the mean of the weights within 0.25 s, subtracted by the driver. The scale's own key zeroes it too.
 ///
 /// # Verification

@@ -19,12 +19,19 @@ const G_OUNCE: f64 = G_POUND / 16.0;
 pub(super) struct Weight {
     /// Mass, g; negative under tension.
     pub(super) grams: f64,
+    /// Least difference of two masses in this unit and with this exponent, g. The scale may take several of them at once.
+    pub(super) step_grams: f64,
 }
 
 impl Weight {
     /// Force on the scale, N.
     pub(super) fn newtons(self) -> f64 {
         self.grams * KG_G * N_KG
+    }
+
+    /// Least difference of two forces, N.
+    pub(super) fn step_newtons(self) -> f64 {
+        self.step_grams * KG_G * N_KG
     }
 }
 
@@ -102,14 +109,14 @@ fn weight(status: u8, unit: u8, exponent: i8, count: u16) -> Result<Weight, Weig
     if exponent.unsigned_abs() > EXPONENT_MAX.unsigned_abs() {
         return Err(WeightError::Exponent(exponent));
     }
-    let count = f64::from(count);
     // Division gives the nearest number to a decimal such as 12.4.
-    let scaled = match exponent {
+    let scaled = |count: f64| match exponent {
         0.. => count * 10_f64.powi(i32::from(exponent)),
         _ => count / 10_f64.powi(-i32::from(exponent)),
     };
     Ok(Weight {
-        grams: sign * scaled * grams,
+        grams: sign * scaled(f64::from(count)) * grams,
+        step_grams: scaled(1.0) * grams,
     })
 }
 
@@ -131,8 +138,29 @@ mod tests {
         assert!((grams([3, 4, 11, 0xff, 35, 0]) - 99.223_330_9).abs() < 1e-6);
         assert!((grams([3, 4, 12, 0xff, 12, 0]) - 544.310_844).abs() < 1e-6);
         assert!(grams([3, 2, 2, 0, 0, 0]).abs() < 1e-12);
-        let force = Weight { grams: 1000.0 }.newtons();
-        assert!((force - 9.806_65).abs() < 1e-12);
+        let weight = Weight {
+            grams: 1000.0,
+            step_grams: 2.0,
+        };
+        assert!((weight.newtons() - 9.806_65).abs() < 1e-12);
+        assert!((weight.step_newtons() - 0.019_613_3).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_step_of_a_scale_follows_from_its_unit_and_exponent() {
+        let step = |report: [u8; 6]| {
+            let weight = read(&report).expect("of a weight").expect("a weight");
+            weight.step_grams
+        };
+        // Whole grams, tenths of a gram, thousandths of a kilogram, tenths of an ounce; zero and loads below it have a step too.
+        for (report, expected_g) in [
+            ([3, 4, 2, 0, 124, 0], 1.0),
+            ([3, 2, 2, 0xff, 0, 0], 0.1),
+            ([3, 5, 3, 0xfd, 2, 0], 1.0),
+            ([3, 4, 11, 0xff, 35, 0], 2.834_952_312_5),
+        ] {
+            assert!((step(report) - expected_g).abs() < 1e-9, "{report:?}");
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Force transducer over a scale.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -26,6 +27,8 @@ pub(super) struct Transducer {
     is_running: bool,
     /// Mailbox number of the last weight returned.
     last: u64,
+    /// Step of the last weight, N; `None` before the first.
+    step_n: Option<f64>,
 }
 
 fn failed(
@@ -55,6 +58,7 @@ impl Transducer {
             zero: HostZero::new(KEY, force_max_n),
             is_running: false,
             last: 0,
+            step_n: None,
         })
     }
 
@@ -76,6 +80,7 @@ impl Transducer {
         let weight = seen
             .what
             .map_err(|error| failed(error.kind(), READ, error))?;
+        self.step_n = Some(weight.step_newtons());
         let force = [Newton(0.0), Newton(0.0), Newton(weight.newtons())];
         let wrench = Wrench {
             force,
@@ -102,6 +107,16 @@ impl ForceTransducer for Transducer {
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let (wrench, at) = self.next(deadline.remaining())?;
         Ok((self.zero.taken_off(&wrench)?, Stamp::at(at)))
+    }
+
+    fn resolution(&self) -> Option<Newton> {
+        self.step_n.map(Newton)
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        let step = self.step_n.map(|step_n| format!("{step_n:.6}"));
+        let named = step.map(|step| ("step_N".to_owned(), step));
+        named.into_iter().collect()
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

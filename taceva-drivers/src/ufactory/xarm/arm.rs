@@ -1,5 +1,6 @@
 //! Robot over an xArm controller.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use taceva_core::{
@@ -13,6 +14,8 @@ use super::error::{failed, unanswered};
 use super::exchange::Exchange;
 use super::firmware::Firmware;
 use super::frame::Reply;
+use super::identity::settings;
+use super::limits::ArmLimits;
 use super::observe::{ANSWER, Observer, error_now};
 use super::options::XarmOptions;
 use super::report::{ArmReport, pose_of};
@@ -29,6 +32,10 @@ pub(super) struct Arm {
     pub(super) observer: Observer,
     pub(super) options: XarmOptions,
     is_emulated: bool,
+    /// Answer to the version query.
+    version: String,
+    /// Limits of the controller; `None` if unknown.
+    limits: Option<ArmLimits>,
 }
 
 /// Begin of the serial number of an emulated arm (`taceva-wire`).
@@ -62,12 +69,20 @@ impl Arm {
             .map_err(|error| failed(ErrorKind::Internal, doing, error))?;
         let observer = Observer::open(host, options.pose_port, options.status_port)
             .map_err(|error| failed(error.kind(), doing, error))?;
+        let limits = ArmLimits::ask(host, options.rich_port);
+        if let Some(limits) = &limits {
+            limits
+                .admit_acceleration(options.acceleration_mm_s2)
+                .map_err(|why| failed(ErrorKind::InvalidArgument, doing, why))?;
+        }
         Ok(Arm {
             keeper,
             exchange,
             observer,
             options,
             is_emulated: version.contains(EMULATED),
+            version,
+            limits,
         })
     }
 
@@ -104,7 +119,8 @@ impl Arm {
             let why = format!("a speed of {speed}, expected at most {most}");
             return Err(failed(ErrorKind::OutOfRange, doing, why));
         }
-        Ok(())
+        let admitted = self.limits.map_or(Ok(()), |limits| limits.admit(speed));
+        admitted.map_err(|why| failed(ErrorKind::OutOfRange, doing, why))
     }
 
     /// Sets the motion mode and makes the controller ready, which stops any motion.
@@ -156,6 +172,10 @@ const LAST_GOOD_STATE: u8 = 3;
 impl Robot for Arm {
     fn is_emulated(&self) -> bool {
         self.is_emulated
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        settings(&self.version)
     }
 
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {

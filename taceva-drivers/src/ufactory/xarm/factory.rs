@@ -21,6 +21,8 @@ submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
 ///   Studio: this driver never enables motors and never clears an error.
 /// - A move is one straight line with all six numbers of the pose. It ends once the controller is ready, its queue is empty and the
 ///   reported pose is within 0.05 mm of the target.
+/// - Speeds and accelerations outside the limits of the controller's complete report are refused, because it would change them without an
+///   error.
 /// - An expiring motion uses velocities that last 0.2 s (register 82, since firmware 1.10.0), renewed 20 times per second. Its last 0.1 s
 ///   is a line. The mode of the controller changes for it and back, which stops the arm for a moment.
 /// - A halt uses a separate connection, which is tested twice per second; without it no move begins. The controller confirms the halt.
@@ -57,6 +59,7 @@ impl XarmFactory {
             port("port", 502, "port for commands"),
             port("pose_port", 30_003, "port of 100 pose reports per second; if it is closed, poses are polled"),
             port("status_port", 30_001, "port of reports with errors; if it is closed, errors are polled"),
+            port("rich_port", 30_002, "port of complete reports, read once for limits; if it is closed, limits are unknown"),
             speed_limit(0.1, 100.0),
             ArgSpec::number("acceleration_mm_s2", 10.0, 5_000.0)
                 .default(ArgValue::Number(500.0))

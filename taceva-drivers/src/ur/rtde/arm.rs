@@ -1,5 +1,6 @@
 //! Robot over a UR controller.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -240,6 +241,12 @@ impl Robot for Arm {
             reports: Arc::clone(self.states.mailbox()),
             pose: watched_pose,
         }))
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        let version = Some(self.states.version()).filter(|version| !version.is_empty());
+        let named = version.map(|version| ("firmware".to_owned(), version.to_owned()));
+        named.into_iter().collect()
     }
 
     fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {

@@ -8,16 +8,35 @@ use crate::text::shown;
 pub(super) const VERSION: u8 = b'V';
 pub(super) const OUTPUTS: u8 = b'O';
 pub(super) const START: u8 = b'S';
+pub(super) const CONTROLLER: u8 = b'v';
 const DATA: u8 = b'U';
 const TEXT: u8 = b'M';
 
 /// Protocol version.
 const PROTOCOL: u16 = 2;
-/// Requested outputs, in this order, and their required types. The last is the register to which stops write their number: the first one
-/// for external programs.
-const NAMES: &str =
-    "timestamp,actual_TCP_pose,robot_mode,safety_status_bits,runtime_state,output_int_register_24";
-const TYPES: &str = "DOUBLE,VECTOR6D,INT32,UINT32,UINT32,INT32";
+/// An output that is requested.
+struct Output {
+    name: &'static str,
+    kind: &'static str,
+    /// First versions of a CB3 and an e-Series controller that have it, by the documents; empty if every version has it.
+    since: &'static str,
+}
+
+const fn output(name: &'static str, kind: &'static str, since: &'static str) -> Output {
+    Output { name, kind, since }
+}
+
+/// Requested outputs, in this order. The last is the register to which stops write their number: the first one for external programs.
+static ASKED: [Output; 6] = [
+    output("timestamp", "DOUBLE", ""),
+    output("actual_TCP_pose", "VECTOR6D", ""),
+    output("robot_mode", "INT32", ""),
+    output("safety_status_bits", "UINT32", "3.10 and 5.4"),
+    output("runtime_state", "UINT32", ""),
+    output("output_int_register_24", "INT32", "3.9 and 5.3"),
+];
+/// Type of an output that the controller lacks.
+const NOT_FOUND: &str = "NOT_FOUND";
 /// Number of that register in script.
 pub(super) const STOP_REGISTER: u8 = 24;
 /// Size of a data message, bytes: recipe number and outputs.
@@ -46,9 +65,23 @@ pub(super) enum Message {
     Accepted(u8, bool),
     /// Types of the requested outputs.
     Types(String),
+    /// Version of the controller: major, minor, bug fix, build; `None` if it does not state it.
+    Controller(Option<[u32; 4]>),
     State(ArmState),
     /// Text for people.
     Text,
+}
+
+impl Message {
+    /// True if this answers a request of type `request`.
+    pub(super) fn answers(&self, request: u8) -> bool {
+        match self {
+            Message::Accepted(of, _) => *of == request,
+            Message::Types(_) => request == OUTPUTS,
+            Message::Controller(_) => request == CONTROLLER,
+            Message::State(_) | Message::Text => false,
+        }
+    }
 }
 
 /// Invalid message: the stream has lost synchronisation.
@@ -58,8 +91,19 @@ pub(super) enum MessageError {
     Length { found: usize },
     #[error("an unexpected message of kind {kind:#04x} and {length} bytes")]
     Kind { kind: u8, length: usize },
-    #[error("outputs of types `{}`, expected `{TYPES}`", shown(.found))]
+    #[error("outputs of types `{}`, expected `{}`", shown(.found), kinds())]
     Types { found: String },
+}
+
+/// Types of all requested outputs, with commas.
+fn kinds() -> String {
+    joined(|output| output.kind)
+}
+
+/// Words of all requested outputs, with commas.
+fn joined(word: fn(&Output) -> &'static str) -> String {
+    let words: Vec<&str> = ASKED.iter().map(word).collect();
+    words.join(",")
 }
 
 /// Encodes the request for the protocol version.
@@ -67,11 +111,17 @@ pub(super) fn ask_version() -> Vec<u8> {
     message(VERSION, &PROTOCOL.to_be_bytes())
 }
 
+/// Encodes the request for the version of the controller.
+pub(super) fn ask_controller() -> Vec<u8> {
+    message(CONTROLLER, &[])
+}
+
 /// Encodes the request for states at `rate_hz`.
 pub(super) fn ask_outputs(rate_hz: f64) -> Vec<u8> {
+    let names = joined(|output| output.name);
     message(
         OUTPUTS,
-        &[&rate_hz.to_be_bytes()[..], NAMES.as_bytes()].concat(),
+        &[&rate_hz.to_be_bytes()[..], names.as_bytes()].concat(),
     )
 }
 
@@ -85,14 +135,27 @@ fn message(kind: u8, says: &[u8]) -> Vec<u8> {
     [&length.to_be_bytes()[..], &[kind], says].concat()
 }
 
-/// Fails unless the outputs have the requested types. A controller answers `NOT_FOUND` for an unknown output.
-pub(super) fn check_types(found: &str) -> Result<(), MessageError> {
-    if found == TYPES {
-        return Ok(());
+/// Requested outputs that the controller lacks, each with the versions that have it. Empty if it has all.
+///
+/// # Errors
+/// [`MessageError::Types`] if the others do not have the expected types.
+pub(super) fn missing_outputs(found: &str) -> Result<Vec<String>, MessageError> {
+    let types: Vec<&str> = found.split(',').collect();
+    let is_answer = |(output, kind): (&Output, &&str)| [output.kind, NOT_FOUND].contains(kind);
+    if types.len() != ASKED.len() || !ASKED.iter().zip(&types).all(is_answer) {
+        return Err(MessageError::Types {
+            found: found.to_owned(),
+        });
     }
-    Err(MessageError::Types {
-        found: found.to_owned(),
-    })
+    let missing = ASKED
+        .iter()
+        .zip(types)
+        .filter(|(_, kind)| *kind == NOT_FOUND);
+    let named = missing.map(|(Output { name, since, .. }, _)| match *since {
+        "" => format!("`{name}`"),
+        since => format!("`{name}` (since {since})"),
+    });
+    Ok(named.collect())
 }
 
 /// Splits bytes that arrive in pieces of any size into messages.
@@ -125,6 +188,7 @@ impl Messages {
         let says = &self.waiting[HEADER..length];
         let message = match (kind, says) {
             (VERSION | START, [accepted]) => Message::Accepted(kind, *accepted == 1),
+            (CONTROLLER, says) => Message::Controller(version(says)),
             // Recipe number, then the types.
             (OUTPUTS, [_, types @ ..]) => {
                 Message::Types(String::from_utf8_lossy(types).into_owned())
@@ -136,6 +200,13 @@ impl Messages {
         self.waiting.drain(..length);
         Ok(Some(message))
     }
+}
+
+/// Four big-endian numbers; `None` for another length.
+fn version(says: &[u8]) -> Option<[u32; 4]> {
+    let says = <[u8; 16]>::try_from(says).ok()?;
+    let number = |at: usize| u32::from_be_bytes(std::array::from_fn(|byte| says[4 * at + byte]));
+    Some(std::array::from_fn(number))
 }
 
 fn state(says: &[u8]) -> ArmState {
@@ -173,6 +244,7 @@ mod tests {
     fn requests_are_in_network_order() {
         assert_eq!(ask_version(), hexadecimal("0005 56 0002"));
         assert_eq!(ask_start(), hexadecimal("0003 53"));
+        assert_eq!(ask_controller(), hexadecimal("0003 76"));
         let outputs = ask_outputs(125.0);
         assert_eq!(outputs[..11], hexadecimal("0067 4f 405f400000000000"));
         assert_eq!(outputs.len(), 0x67);
@@ -180,7 +252,8 @@ mod tests {
 
     #[test]
     fn messages_are_the_same_however_they_are_split_and_merged() {
-        let types = message(OUTPUTS, &[&[1], TYPES.as_bytes()].concat());
+        let kinds = kinds();
+        let types = message(OUTPUTS, &[&[1], kinds.as_bytes()].concat());
         let stream = [
             hexadecimal("0004 56 01"),
             types,
@@ -201,7 +274,7 @@ mod tests {
             }
             assert_eq!(found.len(), 6, "in pieces of {piece}");
             assert_eq!(found[0], Message::Accepted(VERSION, true));
-            assert_eq!(found[1], Message::Types(TYPES.to_owned()));
+            assert_eq!(found[1], Message::Types(kinds.clone()));
             let Message::State(state) = found[5] else {
                 panic!("a state")
             };
@@ -245,6 +318,32 @@ mod tests {
             messages.push(&hexadecimal(bytes));
             assert_eq!(messages.next(), Err(expected));
         }
-        assert!(check_types("DOUBLE,NOT_FOUND").is_err());
+        assert!(missing_outputs("DOUBLE,NOT_FOUND").is_err());
+    }
+
+    #[test]
+    fn a_missing_output_is_named_with_the_versions_that_have_it() {
+        let all = "DOUBLE,VECTOR6D,INT32,UINT32,UINT32,INT32";
+        assert_eq!(missing_outputs(all), Ok(Vec::new()));
+        let without = "DOUBLE,VECTOR6D,INT32,NOT_FOUND,UINT32,NOT_FOUND";
+        let expected = [
+            "`safety_status_bits` (since 3.10 and 5.4)",
+            "`output_int_register_24` (since 3.9 and 5.3)",
+        ];
+        let missing = missing_outputs(without).expect("an answer");
+        assert_eq!(missing, expected);
+        let other = all.replace("VECTOR6D", "VECTOR3D");
+        assert!(missing_outputs(&other).is_err());
+    }
+
+    #[test]
+    fn the_version_of_the_controller_is_four_numbers() {
+        let mut messages = Messages::default();
+        messages.push(&hexadecimal("0013 76 00000005 0000000b 00000000 0001a6d9"));
+        let found = messages.next().expect("a message");
+        assert_eq!(found, Some(Message::Controller(Some([5, 11, 0, 108_249]))));
+        messages.push(&hexadecimal("0004 76 00"));
+        let refused = messages.next().expect("a message");
+        assert_eq!(refused, Some(Message::Controller(None)));
     }
 }

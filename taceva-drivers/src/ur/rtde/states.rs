@@ -10,8 +10,8 @@ use taceva_core::ErrorKind;
 use thiserror::Error;
 
 use super::message::{
-    ArmState, Message, MessageError, Messages, OUTPUTS, START, VERSION, ask_outputs, ask_start,
-    ask_version, check_types,
+    ArmState, CONTROLLER, Message, MessageError, Messages, OUTPUTS, START, VERSION, ask_controller,
+    ask_outputs, ask_start, ask_version, missing_outputs,
 };
 use crate::link::mailbox::Ending;
 use crate::link::{LinkError, Mailbox, connect, monotonic};
@@ -20,6 +20,8 @@ use crate::link::{LinkError, Mailbox, connect, monotonic};
 #[derive(Debug)]
 pub(super) struct States {
     states: Arc<Mailbox<ArmState>>,
+    /// Version of the controller, such as `5.11.0`; empty if it does not state it.
+    version: String,
     stream: TcpStream,
     reader: Option<JoinHandle<()>>,
 }
@@ -36,6 +38,12 @@ pub(super) enum StatesError {
     },
     #[error("{address} does not answer within {ANSWER:?}")]
     Silent { address: SocketAddr },
+    #[error("{address} has no output {outputs}, expected a controller that has it, but its software is {}: update it", named(.version))]
+    Missing {
+        address: SocketAddr,
+        outputs: String,
+        version: String,
+    },
     #[error("{address} refused version 2 of the data exchange, or its start")]
     Refused { address: SocketAddr },
 }
@@ -47,7 +55,7 @@ impl StatesError {
             StatesError::Link(error) => error.kind(),
             StatesError::Foreign { .. } => ErrorKind::Protocol,
             StatesError::Silent { .. } => ErrorKind::Timeout,
-            StatesError::Refused { .. } => ErrorKind::Unsupported,
+            StatesError::Missing { .. } | StatesError::Refused { .. } => ErrorKind::Unsupported,
         }
     }
 }
@@ -61,15 +69,32 @@ impl States {
         let broken = |source: io::Error| LinkError::Broken { address, source };
         stream.set_read_timeout(Some(ANSWER)).map_err(broken)?;
         let mut messages = Messages::default();
-        let questions = [
-            (VERSION, ask_version()),
-            (OUTPUTS, ask_outputs(rate_hz)),
-            (START, ask_start()),
-        ];
-        for (kind, question) in questions {
+        let mut ask = |kind: u8, question: Vec<u8>| -> Result<Message, StatesError> {
             stream.write_all(&question).map_err(broken)?;
-            await_answer(&mut stream, address, &mut messages, kind)?;
+            await_answer(&mut stream, address, &mut messages, kind)
+        };
+        ask(VERSION, ask_version())?;
+        let version = match ask(CONTROLLER, ask_controller()) {
+            Ok(Message::Controller(Some([major, minor, fix, _]))) => {
+                format!("{major}.{minor}.{fix}")
+            }
+            // A server that is no controller need not answer.
+            Ok(_) | Err(StatesError::Silent { .. }) => String::new(),
+            Err(error) => return Err(error),
+        };
+        if let Message::Types(types) = ask(OUTPUTS, ask_outputs(rate_hz))? {
+            let foreign = |source| StatesError::Foreign { address, source };
+            let missing = missing_outputs(&types).map_err(foreign)?;
+            if !missing.is_empty() {
+                let outputs = missing.join(", ");
+                return Err(StatesError::Missing {
+                    address,
+                    outputs,
+                    version,
+                });
+            }
         }
+        ask(START, ask_start())?;
         stream.set_read_timeout(None).map_err(broken)?;
         let reading = stream.try_clone().map_err(broken)?;
         let states = Arc::new(Mailbox::default());
@@ -83,9 +108,15 @@ impl States {
             .map_err(broken)?;
         Ok(States {
             states,
+            version,
             stream,
             reader: Some(reader),
         })
+    }
+
+    /// Version of the controller; empty if it does not state it.
+    pub(super) fn version(&self) -> &str {
+        &self.version
     }
 
     /// Mailbox of the states.
@@ -104,24 +135,29 @@ impl Drop for States {
     }
 }
 
-/// Waits until the controller accepts the request of type `kind`.
+/// Version as errors name it.
+fn named(version: &str) -> &str {
+    match version {
+        "" => "of an unknown version",
+        version => version,
+    }
+}
+
+/// Waits for the answer that accepts the request of type `kind`.
 fn await_answer(
     stream: &mut TcpStream,
     address: SocketAddr,
     messages: &mut Messages,
     kind: u8,
-) -> Result<(), StatesError> {
+) -> Result<Message, StatesError> {
     let foreign = |source| StatesError::Foreign { address, source };
     let mut bytes = [0; 1024];
     loop {
         match messages.next().map_err(foreign)? {
-            Some(Message::Accepted(of, true)) if of == kind => return Ok(()),
             Some(Message::Accepted(of, false)) if of == kind => {
                 return Err(StatesError::Refused { address });
             }
-            Some(Message::Types(types)) if kind == OUTPUTS => {
-                return check_types(&types).map_err(foreign);
-            }
+            Some(message) if message.answers(kind) => return Ok(message),
             Some(_) => continue,
             None => {}
         }

@@ -5,37 +5,15 @@ use std::net::TcpStream;
 use std::time::Duration;
 
 use super::Controller;
+use super::outputs::{NOT_FOUND, type_of};
 use super::program::REGISTER;
 use crate::fault::{ArmFault, Device, FaultKind};
 use crate::link::Link;
 use crate::server::{End, read};
 
-/// Outputs that public clients request, with their types; others do not exist here.
-const TYPES: [(&str, &str); 6] = [
-    ("actual_digital_input_bits", "UINT64"),
-    ("actual_digital_output_bits", "UINT64"),
-    ("timestamp", "DOUBLE"),
-    ("robot_mode", "INT32"),
-    ("safety_mode", "INT32"),
-    ("tool_mode", "UINT32"),
-];
-/// Words in output names, with the type of every such output.
-const KINDS: [(&str, &str); 12] = [
-    ("_TCP_", "VECTOR6D"),
-    ("_q", "VECTOR6D"),
-    ("joint_mode", "VECTOR6INT32"),
-    ("joint", "VECTOR6D"),
-    ("actual_current", "VECTOR6D"),
-    ("target_current", "VECTOR6D"),
-    ("target_moment", "VECTOR6D"),
-    ("accelerometer", "VECTOR3D"),
-    ("output_int", "INT32"),
-    ("_bits", "UINT32"),
-    ("state", "UINT32"),
-    ("digital", "UINT64"),
-];
-/// Supported rates of states, Hz.
-const RATES_HZ: std::ops::RangeInclusive<f64> = 1.0..=500.0;
+/// Least rate of states, and the greatest of a CB3 and of an e-Series controller, Hz.
+const RATE_MIN_HZ: f64 = 1.0;
+const RATES_MAX_HZ: [f64; 2] = [125.0, 500.0];
 
 /// Requests of one client.
 #[derive(Debug)]
@@ -43,12 +21,8 @@ struct Wanted {
     names: Vec<String>,
     rate_hz: f64,
     is_started: bool,
-}
-
-fn type_of(name: &str) -> &'static str {
-    let exact = TYPES.iter().find(|(known, _)| *known == name);
-    let alike = KINDS.iter().find(|(word, _)| name.contains(word));
-    exact.or(alike).map_or("DOUBLE", |(_, kind)| kind)
+    /// Version of the controller: major and minor.
+    version: [u32; 2],
 }
 
 /// A message shorter than its own header.
@@ -62,6 +36,7 @@ pub(super) fn serve(mut stream: TcpStream, controller: &Controller, end: &End) -
         names: Vec::new(),
         rate_hz: 125.0,
         is_started: false,
+        version: controller.version,
     };
     let mut waiting: Vec<u8> = Vec::new();
     let mut bytes = [0; 4096];
@@ -111,24 +86,35 @@ impl Wanted {
     fn answer(&mut self, kind: u8, says: &[u8]) -> Vec<u8> {
         match (kind, says) {
             (b'V', [0, version]) => message(b'V', &[u8::from((1..=2).contains(version))]),
-            // Version of the controller: 5.11.0 and a build.
+            // Version of the controller, and a build.
             (b'v', _) => {
-                let numbers = [5_u32, 11, 0, 108_249];
+                let [major, minor] = self.version;
+                let numbers = [major, minor, 0, 108_249];
                 let says: Vec<u8> = numbers.into_iter().flat_map(u32::to_be_bytes).collect();
                 message(b'v', &says)
             }
             (b'O', says) if says.len() >= 8 => {
                 let (rate, names) = says.split_at(8);
                 let rate_hz = rate.try_into().map_or(125.0, f64::from_be_bytes);
-                self.rate_hz = rate_hz.clamp(*RATES_HZ.start(), *RATES_HZ.end());
+                let most_hz = RATES_MAX_HZ[usize::from(self.version[0] >= 5)];
+                self.rate_hz = rate_hz.clamp(RATE_MIN_HZ, most_hz);
                 let names = String::from_utf8_lossy(names);
                 self.names = names.split(',').map(str::to_owned).collect();
-                let types: Vec<&str> = self.names.iter().map(|name| type_of(name)).collect();
-                message(b'O', &[&[1], types.join(",").as_bytes()].concat())
+                let types = self.names.iter().map(|name| type_of(name, self.version));
+                let types: Vec<&str> = types.collect();
+                // A recipe with an unknown output is none: its number is 0.
+                let is_known = !types.contains(&NOT_FOUND);
+                if !is_known {
+                    self.names.clear();
+                }
+                message(
+                    b'O',
+                    &[&[u8::from(is_known)], types.join(",").as_bytes()].concat(),
+                )
             }
             (b'S', _) => {
-                self.is_started = true;
-                message(b'S', &[1])
+                self.is_started = !self.names.is_empty();
+                message(b'S', &[u8::from(self.is_started)])
             }
             (b'P', _) => {
                 self.is_started = false;
@@ -163,13 +149,17 @@ impl Wanted {
                 }
                 _ => 0,
             };
-            match (name.as_str(), type_of(name)) {
+            match (name.as_str(), type_of(name, self.version)) {
                 ("timestamp", _) => {
                     says.extend(controller.bench.now().as_secs_f64().to_be_bytes());
                 }
                 ("actual_TCP_pose" | "target_TCP_pose", _) => {
                     says.extend(pose.into_iter().flat_map(f64::to_be_bytes));
                 }
+                ("speed_scaling" | "target_speed_fraction", _) => {
+                    says.extend(1.0_f64.to_be_bytes());
+                }
+                (_, "BOOL") => says.push(0),
                 (_, "VECTOR6D") => says.extend([0; 48]),
                 (_, "VECTOR3D" | "VECTOR6INT32") => says.extend([0; 24]),
                 (_, "INT32" | "UINT32") => says.extend(word.to_be_bytes()),

@@ -64,6 +64,7 @@ impl Session {
                     21 => Line::absolute(parameters, controller.takes_long_lines()),
                     _ => Line::relative(parameters),
                 };
+                let is_only_checked = line.as_ref().is_some_and(|line| line.is_only_checked);
                 let push = self.wants_push.then(|| Push {
                     client: client.clone(),
                     head,
@@ -73,7 +74,10 @@ impl Session {
                     Some(_) => refused = NOT_READY,
                     None => refused = INVALID,
                 }
-                controller.snapshot().queued.to_be_bytes().to_vec()
+                let mut data = controller.snapshot().queued.to_be_bytes().to_vec();
+                // Result of a check: the motion is possible.
+                data.extend(is_only_checked.then_some(0));
+                data
             }
             (41, _) => controller
                 .snapshot()
@@ -155,11 +159,12 @@ fn status(snapshot: &Snapshot) -> u8 {
     status
 }
 
-/// Identity of the controller: six axes, type 12, and serial numbers that mark it as simulated.
+/// Identity of the controller: six axes, type 12, and serial numbers. That of the control box marks it as simulated.
 fn version(controller: &Controller) -> Vec<u8> {
     let [major, minor, revision] = controller.firmware;
     let serial = controller.bench.serial();
-    let text = format!("6,12,{serial},AC0000,v{major}.{minor}.{revision}");
+    let number: String = serial.chars().filter(char::is_ascii_digit).collect();
+    let text = format!("6,12,XF1300{number},{serial},v{major}.{minor}.{revision}");
     let mut bytes = text.into_bytes();
     bytes.resize(VERSION_BYTES, 0);
     bytes

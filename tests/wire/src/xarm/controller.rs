@@ -67,6 +67,8 @@ const EMERGENCY_STOP: u8 = 2;
 const COLLISION: u8 = 31;
 const BOUNDARY: u8 = 35;
 const BAD_PARAMETER: u8 = 12;
+/// Least and greatest speed of the tip, mm/s. Other speeds become the nearest of these.
+pub(super) const SPEEDS_MM_S: [f64; 2] = [0.1, 1_000.0];
 /// Safety boundary: range of the tip about the centre of the gel, mm.
 const BOUNDARY_MM: [[f64; 2]; 3] = [[-60.0, 60.0], [-60.0, 60.0], [-100.0, 30.0]];
 
@@ -146,7 +148,8 @@ impl Controller {
         let last = inside.waiting.back().or(inside.current.as_ref());
         let from = last.map_or_else(|| self.pose(&inside), |order| order.pose);
         let pose = line.end(from);
-        let speed = Speed::try_new(f64::from(line.speed_mm_s));
+        let [least, most] = SPEEDS_MM_S;
+        let speed = Speed::try_new(f64::from(line.speed_mm_s).clamp(least, most));
         let (true, Ok(speed)) = (pose.iter().all(|side| side.is_finite()), speed) else {
             inside.warning = BAD_PARAMETER;
             return true;
@@ -292,7 +295,7 @@ impl Controller {
 }
 
 /// Converts a number to the controller's precision.
-fn single(number: f64) -> f32 {
+pub(super) fn single(number: f64) -> f32 {
     #[expect(
         clippy::cast_possible_truncation,
         reason = "the protocol has no finer numbers; a cast rounds to the nearest"

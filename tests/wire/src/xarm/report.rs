@@ -4,7 +4,7 @@ use std::io::Write;
 use std::net::TcpStream;
 use std::time::Duration;
 
-use super::controller::{Controller, Snapshot};
+use super::controller::{Controller, SPEEDS_MM_S, Snapshot, single};
 use crate::fault::{Device, FaultKind};
 use crate::link::Link;
 use crate::server::End;
@@ -91,6 +91,13 @@ fn write(port: ReportPort, shown: &Snapshot, [major, minor, revision]: [u32; 3])
         // Type and axes, then the version.
         put(145, &[12, 6]);
         put(151, format!("v{major}.{minor}.{revision}").as_bytes());
+        // Jerk, then accelerations and speeds of the tip, least and greatest, then those of joints.
+        let [least, most] = SPEEDS_MM_S.map(single);
+        let limits = [
+            1_000.0, 1.0, 50_000.0, least, most, 20.0, 0.01, 20.0, 0.001, 3.0,
+        ];
+        let limits: Vec<u8> = limits.into_iter().flat_map(f32::to_le_bytes).collect();
+        put(181, &limits);
     }
     bytes
 }

@@ -21,7 +21,7 @@ use super::track::Track;
 use super::transducer::Transducer;
 use crate::error::AcquireError;
 use crate::instruments::traced;
-use crate::presses::{HeldRigs, Opened, Turned};
+use crate::presses::{HeldRigs, Opened, Turned, add_settings};
 use crate::scene::read_rig_file;
 
 /// Deadline of the start of a sensor and of its first frame.
@@ -258,9 +258,26 @@ impl LiveDevices {
         self.traceability.clone()
     }
 
-    /// Settings of the camera, read back.
+    /// Settings of the devices, read back. Those of the transducer begin with `force_`.
     pub(super) fn settings(&self) -> BTreeMap<String, String> {
-        self.sensor.settings()
+        let mut settings = self.sensor.settings();
+        if let Some(force) = &self.force {
+            add_settings(&mut settings, "force", force.device.settings());
+        }
+        settings
+    }
+
+    /// Exposure of a frame, in s; `None` if the camera does not state it.
+    fn exposure_s(&self) -> Option<f64> {
+        let settings = self.sensor.settings();
+        let exposure_ms: f64 = settings.get("exposure_ms")?.parse().ok()?;
+        Some(1e-3 * exposure_ms)
+    }
+
+    /// Remarks of the transducer on its readings, each with its remedy.
+    pub fn warnings(&self) -> Vec<String> {
+        let force = self.force.as_ref();
+        force.map_or_else(Vec::new, |force| force.device.warnings())
     }
 
     /// True if a device is simulated or emulated, so that nothing is measured.
@@ -302,7 +319,7 @@ impl LiveDevices {
         let track = self
             .force
             .as_ref()
-            .map(|force| Track::new(force.period_s()));
+            .map(|force| Track::new(force.period_s(), self.exposure_s()));
         let failed: Mutex<Option<DriverError>> = Mutex::new(None);
         // The first failure is the cause; later ones may be its effect.
         let fail = |error: DriverError| {

@@ -22,7 +22,19 @@ pub(super) struct Labels {
     waiting: VecDeque<Taken>,
     /// Number of samples made.
     frames: u64,
+    lost: LostForces,
     has_ended: bool,
+}
+
+/// Numbers of frames without a force, by cause.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct LostForces {
+    /// Frames before the first reading.
+    pub(super) before: u64,
+    /// Frames between readings that are too far apart.
+    pub(super) in_gaps: u64,
+    /// Frames after which no reading came in time.
+    pub(super) late: u64,
 }
 
 /// A frame with the wrench at its time, if known.
@@ -37,6 +49,7 @@ impl Labels {
             channels,
             waiting: VecDeque::new(),
             frames: 0,
+            lost: LostForces::default(),
             has_ended: false,
         }
     }
@@ -44,6 +57,11 @@ impl Labels {
     /// Number of samples made so far.
     pub(super) fn frames(&self) -> u64 {
         self.frames
+    }
+
+    /// Frames without a force so far, by cause.
+    pub(super) fn lost(&self) -> LostForces {
+        self.lost
     }
 
     /// True if samples have no labels at all.
@@ -75,14 +93,23 @@ impl Labels {
     pub(super) fn next(&mut self, streams: &Streams<'_>) -> Option<Labelled> {
         let stamp_s = self.waiting.front()?.stamp.valid_s;
         let wrench = match streams.track.map(|track| (track, track.at(stamp_s))) {
-            None | Some((_, At::Gap)) => None,
+            None => None,
             Some((_, At::Known(wrench))) => Some(wrench),
+            Some((_, At::Gap)) => {
+                self.lost.in_gaps += 1;
+                None
+            }
+            Some((_, At::Before)) => {
+                self.lost.before += 1;
+                None
+            }
             Some((track, At::Early)) => {
                 let waited_s = MonotonicClock.now_s() - stamp_s;
                 let is_late = waited_s > track.longest_s() + SLACK_S;
                 if !is_late && !self.has_ended && self.waiting.len() <= WAITING_MAX {
                     return None;
                 }
+                self.lost.late += 1;
                 None
             }
         };

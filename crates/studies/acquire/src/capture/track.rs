@@ -8,16 +8,17 @@ use taceva_protocol::wrench_between;
 
 /// Age at which readings are removed, in s; every frame arrives earlier.
 const KEPT_S: f64 = 5.0;
-/// Longest interpolated gap between readings, in periods.
+/// Longest interpolated gap between readings: in periods, and at least this time, in s, since pauses of threads are no loss of the device.
 const PERIODS: f64 = 3.0;
+const GAP_S: f64 = 0.02;
 /// Factor on the period that allows for errors of clocks and rates.
 const TOLERANCE: f64 = 1.01;
 
 /// Readings ordered by time.
 #[derive(Debug)]
 pub(super) struct Track {
-    /// Period of the transducer, in s.
-    period_s: f64,
+    /// Longest interpolated gap, in s.
+    longest_s: f64,
     readings: Mutex<VecDeque<(f64, Wrench)>>,
 }
 
@@ -26,17 +27,20 @@ pub(super) struct Track {
 pub(super) enum At {
     /// Interpolated between two readings.
     Known(Wrench),
-    /// Unknown: the readings around the time are too far apart, or no reading precedes it.
+    /// Unknown: the readings around the time are too far apart.
     Gap,
+    /// Unknown: no reading precedes the time.
+    Before,
     /// Not yet known: the next reading has not arrived.
     Early,
 }
 
 impl Track {
-    /// Empty track of a transducer with the period `period_s`.
-    pub(super) fn new(period_s: f64) -> Track {
+    /// Empty track of a transducer with the period `period_s`, for frames that are exposed for `exposure_s`, if known.
+    pub(super) fn new(period_s: f64, exposure_s: Option<f64>) -> Track {
+        let periods_s = PERIODS * TOLERANCE * period_s;
         Track {
-            period_s,
+            longest_s: periods_s.max(GAP_S).max(exposure_s.unwrap_or(0.0)),
             readings: Mutex::default(),
         }
     }
@@ -71,16 +75,17 @@ impl Track {
         let before = after.checked_sub(1).and_then(|at| readings.get(at));
         match before {
             _ if after_s.total_cmp(&at_s).is_eq() => At::Known(*later),
-            Some((before_s, earlier)) if after_s - before_s <= self.longest_s() => At::Known(
+            Some((before_s, earlier)) if after_s - before_s <= self.longest_s => At::Known(
                 wrench_between((earlier, *before_s), (later, *after_s), at_s),
             ),
-            _ => At::Gap,
+            Some(_) => At::Gap,
+            None => At::Before,
         }
     }
 
     /// Longest interpolated gap between readings, in s.
     pub(super) fn longest_s(&self) -> f64 {
-        PERIODS * TOLERANCE * self.period_s
+        self.longest_s
     }
 
     fn readings(&self) -> MutexGuard<'_, VecDeque<(f64, Wrench)>> {
@@ -109,7 +114,7 @@ mod tests {
 
     #[test]
     fn a_force_is_known_between_readings_that_are_at_most_three_periods_apart() {
-        let track = Track::new(0.01);
+        let track = Track::new(0.01, None);
         for (at_s, force_n) in [(1.0, 0.0), (1.03, 3.0), (1.061, 3.0), (1.062, 4.0)] {
             track.push(at_s, pressed(force_n));
         }
@@ -117,13 +122,29 @@ mod tests {
         assert!((known - 2.0).abs() < 1e-9, "{known}");
         assert_eq!(track.at(1.05), At::Gap);
         assert_eq!(normal_n(track.at(1.062)), Some(4.0));
-        assert_eq!(track.at(0.9), At::Gap, "nothing came before");
+        assert_eq!(track.at(0.9), At::Before);
         assert_eq!(track.at(1.07), At::Early);
     }
 
     #[test]
+    fn a_short_pause_of_a_fast_transducer_is_no_gap_and_neither_is_one_within_an_exposure() {
+        for (exposure_s, pause_s, is_known) in [
+            (None, 0.019, true),
+            (None, 0.021, false),
+            (Some(0.04), 0.039, true),
+            (Some(0.001), 0.021, false),
+        ] {
+            let track = Track::new(0.002, exposure_s);
+            track.push(1.0, pressed(1.0));
+            track.push(1.0 + pause_s, pressed(1.0));
+            let found = normal_n(track.at(1.0 + 0.5 * pause_s));
+            assert_eq!(found.is_some(), is_known, "{exposure_s:?} {pause_s}");
+        }
+    }
+
+    #[test]
     fn a_reading_that_repeats_a_time_is_none_and_old_ones_are_forgotten() {
-        let track = Track::new(0.01);
+        let track = Track::new(0.01, None);
         track.push(1.0, pressed(1.0));
         track.push(1.0, pressed(9.0));
         assert_eq!(track.newest(), Some(pressed(1.0)));

@@ -21,6 +21,8 @@ const ZEROING: Deadline = Deadline::after(Duration::from_secs(6));
 const MEAN_OVER: Duration = Duration::from_millis(250);
 /// Delay after a failed call.
 const REST: Duration = Duration::from_millis(5);
+/// Force above which a hand presses, so that the load changes, N.
+const PRESSED_N: f64 = 0.1;
 
 /// A transducer, and the zero wrench that the host subtracts.
 pub(super) struct Transducer {
@@ -36,12 +38,12 @@ impl Transducer {
         self.device.start(ZEROING)?;
         self.zero = Wrench::default();
         match self.device.tare() {
-            Some(tare) => tare.zero(ZEROING),
-            None => {
-                self.zero = self.mean()?;
-                Ok(())
-            }
+            Some(tare) => tare.zero(ZEROING)?,
+            None => self.zero = self.mean()?,
         }
+        // Some devices know their steps from their first reading.
+        self.facts.resolution = self.facts.resolution.or(self.device.resolution());
+        Ok(())
     }
 
     fn mean(&mut self) -> Result<Wrench, DriverError> {
@@ -62,23 +64,27 @@ impl Transducer {
         self.facts.rate.map_or(UNKNOWN_S, |rate| 1.0 / rate.0)
     }
 
-    /// Puts readings into `track` until the capture ends. Skips repeated readings of a transducer that rarely repeats one.
+    /// Puts readings into `track` until the capture ends. Skips readings that repeat although the load or the noise must change them.
     ///
     /// # Errors
     /// The error that ended the readings: a lost device, a timeout, or a frozen signal.
     pub(super) fn read(&mut self, track: &Track, counts: &Counts) -> Result<(), DriverError> {
         let mut last: Option<(Wrench, Option<u64>)> = None;
+        let mut habit = Habit::default();
         let mut was_new = Instant::now();
         while !counts.is_over() {
             match self.device.read(CALL) {
                 Ok((said, stamp)) => {
                     let number = self.device.sequence();
-                    let repeats = last.is_some_and(|(wrench, before)| {
+                    let is_equal = last.is_some_and(|(wrench, _)| wrench == said);
+                    let repeats = last.is_some_and(|(_, before)| {
                         let same_number = before.is_some() && before == number;
-                        same_number || (wrench == said && self.facts.seldom_repeats())
+                        let must_change = habit.is_lively() || self.is_pressed(&said);
+                        same_number || (is_equal && self.facts.seldom_repeats() && must_change)
                     });
                     last = Some((said, number));
                     if !repeats {
+                        habit.count(is_equal);
                         was_new = Instant::now();
                         track.push(stamp.valid_s, self.zeroed(&said));
                     } else if was_new.elapsed() >= PATIENCE {
@@ -106,6 +112,11 @@ impl Transducer {
         Ok(())
     }
 
+    fn is_pressed(&self, said: &Wrench) -> bool {
+        let force = self.zeroed(said).force;
+        force.iter().any(|force| force.0.abs() > PRESSED_N)
+    }
+
     fn zeroed(&self, said: &Wrench) -> Wrench {
         let zero = numbers(&self.zero);
         let said = numbers(said);
@@ -114,13 +125,38 @@ impl Transducer {
 
     fn frozen(&self) -> DriverError {
         let why = format!(
-            "force has not changed for {PATIENCE:?}: signal frozen. Check the transducer, its cable and its amplifier; for a device with coarse steps set `resolution_n`"
+            "force has not changed for {PATIENCE:?}, although it always did or the gel is pressed: signal frozen. Check the transducer, its cable and its amplifier; for a device with coarse steps state them as `resolution_n` in its selector"
         );
         self.failed(ErrorKind::DeviceFault, why)
     }
 
     fn failed(&self, kind: ErrorKind, why: String) -> DriverError {
         device_error(kind, &self.driver, "read the force", why)
+    }
+}
+
+/// Share of readings that differ from the reading before.
+#[derive(Clone, Copy, Debug, Default)]
+struct Habit {
+    changed: u32,
+    equal: u32,
+}
+
+impl Habit {
+    /// Least number of changes that show a habit.
+    const LEAST: u32 = 10;
+
+    fn count(&mut self, is_equal: bool) {
+        let counter = match is_equal {
+            true => &mut self.equal,
+            false => &mut self.changed,
+        };
+        *counter = counter.saturating_add(1);
+    }
+
+    /// True if most readings differ by their noise, so that equal readings are no measurements.
+    fn is_lively(self) -> bool {
+        self.changed >= Self::LEAST && self.changed > self.equal
     }
 }
 
@@ -134,5 +170,74 @@ fn wrench([fx, fy, fz, tx, ty, tz]: [f64; 6]) -> Wrench {
     Wrench {
         force: [fx, fy, fz].map(Newton),
         torque: [tx, ty, tz].map(NewtonMillimetre),
+    }
+}
+
+#[cfg(test)]
+mod waiting {
+    use taceva_core::{Axes, Stamp};
+
+    use super::*;
+
+    /// Counts its readings, whose forces `loads` gives.
+    struct Scripted<F> {
+        loads: F,
+        read: u32,
+    }
+
+    impl<F: FnMut(u32) -> f64 + Send> ForceTransducer for Scripted<F> {
+        fn axes(&self) -> Axes {
+            Axes::NORMAL
+        }
+
+        fn read(&mut self, _: Deadline) -> Result<(Wrench, Stamp), DriverError> {
+            std::thread::sleep(Duration::from_millis(2));
+            self.read += 1;
+            let fz_n = (self.loads)(self.read);
+            let stamp = Stamp::at(Duration::from_millis(2 * u64::from(self.read)));
+            Ok((wrench([0.0, 0.0, fz_n, 0.0, 0.0, 0.0]), stamp))
+        }
+    }
+
+    /// Reads `loads` for three seconds; returns the error that ended them.
+    fn read(facts: ForceFacts, loads: impl FnMut(u32) -> f64 + Send + 'static) -> Option<String> {
+        let mut transducer = Transducer {
+            device: Box::new(Scripted { loads, read: 0 }),
+            driver: DriverKey::fixed("test/force"),
+            facts,
+            zero: Wrench::default(),
+        };
+        let counts = Counts::of(false);
+        let track = Track::new(0.002, None);
+        std::thread::scope(|scope| {
+            let reading = scope.spawn(|| transducer.read(&track, &counts));
+            let began = Instant::now();
+            while !reading.is_finished() && began.elapsed() < Duration::from_secs(3) {
+                std::thread::sleep(Duration::from_millis(10));
+            }
+            counts.end();
+            let ended = reading.join().expect("no panic");
+            ended.err().map(|error| error.to_string())
+        })
+    }
+
+    #[test]
+    fn a_transducer_at_rest_may_repeat_a_number_and_under_a_load_it_may_not() {
+        let facts = ForceFacts::default();
+        assert_eq!(read(facts, |_| 0.0), None, "a scale at rest");
+        let loaded = read(facts, |_| 0.5).expect("pressed and equal");
+        assert!(loaded.contains("`resolution_n`"), "{loaded}");
+        let stepped = facts.with_resolution(Newton(0.01));
+        assert_eq!(read(stepped, |_| 0.5), None, "a weight on a scale");
+    }
+
+    #[test]
+    fn a_transducer_that_always_changed_is_frozen_when_it_repeats_even_at_rest() {
+        let noisy = |read: u32| match read {
+            0..60 => 1e-4 * f64::from(read % 7),
+            _ => 0.0,
+        };
+        let frozen = read(ForceFacts::default(), noisy).expect("frozen");
+        assert!(frozen.contains("signal frozen"), "{frozen}");
     }
 }

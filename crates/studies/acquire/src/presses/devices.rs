@@ -1,6 +1,5 @@
 //! Devices of a rig, opened for one unit of the sensor and lent to a run.
 
-use std::collections::BTreeMap;
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
@@ -170,12 +169,6 @@ impl OpenRig {
             lighting: lighting.map(|lighting| lighting.device),
             surroundings,
         })
-    }
-
-    /// Settings of the camera, read back.
-    pub(super) fn settings_of_sensor(&self) -> BTreeMap<String, String> {
-        let sensor = self.sensor.as_ref();
-        sensor.map(|sensor| sensor.settings()).unwrap_or_default()
     }
 
     /// Raises the tip of a real rig under a guard and halts it, before an operator reaches in; returns true if the tip moved.

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use taceva_core::{
     Axes, Deadline, DriverError, DriverKey, ErrorKind, ExpiringMotion, ForceTransducer, FrameInfo,
-    FrameMut, Guard, GuardedMotion, GuardedStop, Halt, Interrupt, Lighting, Pose, Robot,
+    FrameMut, Guard, GuardedMotion, GuardedStop, Halt, Interrupt, Lighting, Newton, Pose, Robot,
     RobotWatch, SampleTiming, Sensor, Speed, Stamp, Tare, Wrench,
 };
 
@@ -95,6 +95,18 @@ impl ForceTransducer for Late<dyn ForceTransducer> {
         self.device.interrupt_handle()
     }
 
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.device.settings()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.device.warnings()
+    }
+
+    fn resolution(&self) -> Option<Newton> {
+        self.device.resolution()
+    }
+
     fn tare(&mut self) -> Option<&mut dyn Tare> {
         self.device.tare()
     }
@@ -103,6 +115,10 @@ impl ForceTransducer for Late<dyn ForceTransducer> {
 impl Robot for Late<dyn Robot> {
     fn is_emulated(&self) -> bool {
         self.device.is_emulated()
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.device.settings()
     }
 
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {

@@ -1,5 +1,6 @@
 //! Devices of a rig file in the frame of the sensor: poses by the registration of the robot, wrenches by the axes of the transducer.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use taceva_core::{
@@ -44,6 +45,10 @@ impl Registered {
 impl Robot for Registered {
     fn is_emulated(&self) -> bool {
         self.robot.is_emulated()
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.robot.settings()
     }
 
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
@@ -190,6 +195,18 @@ impl ForceTransducer for Turned {
 
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         self.force.interrupt_handle()
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.force.settings()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.force.warnings()
+    }
+
+    fn resolution(&self) -> Option<Newton> {
+        self.force.resolution()
     }
 
     fn tare(&mut self) -> Option<&mut dyn Tare> {

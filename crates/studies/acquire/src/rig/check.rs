@@ -14,7 +14,7 @@ use super::stock::{Stock, TriedStock, take_stock};
 use super::stream::{Listener, Stream};
 use super::switch::{SwitchCheck, look_at};
 use crate::error::AcquireError;
-use crate::presses::FileOpener;
+use crate::presses::{FileOpener, add_settings};
 use crate::scene::{check_switch, is_untaught, open_switch};
 
 /// Duration of the measurement of each device.
@@ -59,6 +59,10 @@ pub struct RigCheck {
     pub halt: Option<HaltTrip>,
     /// Reason why the halt was skipped; `None` if it was timed.
     pub halt_left_out: Option<String>,
+    /// Settings of the devices, read back; those of the transducer and of the robot begin with `force_` and `robot_`.
+    pub settings: std::collections::BTreeMap<String, String>,
+    /// Remarks of the force transducer on its readings, with their remedies.
+    pub warnings: Vec<String>,
     /// Problems that would reject or stop a run, and devices that failed.
     pub problems: Vec<RigProblem>,
 }
@@ -109,9 +113,12 @@ pub fn check_rig(
         if let Some(heard) = check.of("force", heard) {
             check.hear_force(heard, &descriptor);
         }
+        add_settings(&mut check.settings, "force", force.settings());
+        check.warnings = force.warnings();
     }
     if let Some((mut sensor, _)) = sensor {
         let heard = listen_to_sensor(&mut *sensor);
+        check.settings.extend(sensor.settings());
         if let Some(heard) = check.of("sensor", heard) {
             check.note("sensor", &heard, None);
             check.sensor = Some(heard);
@@ -129,6 +136,7 @@ pub fn check_rig(
         return Ok(check);
     };
     check.simulated |= robot.is_emulated();
+    add_settings(&mut check.settings, "robot", robot.settings());
     let heard = listen_to_robot(&mut *robot).map_err(without_answer);
     if let Some(heard) = check.of("robot", heard) {
         let facts = descriptor.robot();
@@ -327,11 +335,6 @@ impl RigCheck {
     }
 }
 
-/// True for a timeout.
-fn came_late(error: &DriverError) -> bool {
-    error.kind() == ErrorKind::Timeout
-}
-
 /// Calls `hear` until the measurement ends.
 fn listen(
     mut hear: impl FnMut(&mut Listener) -> Result<(), DriverError>,
@@ -340,7 +343,7 @@ fn listen(
     let until_s = MonotonicClock.now_s() + LISTENED.as_secs_f64();
     while MonotonicClock.now_s() < until_s {
         match hear(&mut listener) {
-            Err(error) if !came_late(&error) => return Err(error),
+            Err(error) if error.kind() != ErrorKind::Timeout => return Err(error),
             _ => {}
         }
     }

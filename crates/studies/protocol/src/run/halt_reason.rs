@@ -141,7 +141,7 @@ impl fmt::Display for Trip {
             Trip::Frozen { readings } => {
                 write!(
                     f,
-                    "{readings} equal force readings while the tip moved: the signal is frozen"
+                    "{readings} equal force readings while the tip moved: the signal is frozen; if the steps of the transducer are coarse, state them as `resolution_n` in its selector"
                 )
             }
             Trip::StaleForce { age_s } => write!(

@@ -13,6 +13,9 @@ pub trait Operator {
 
     /// Shows that the enabling switch must be held within `patience_s`. Returns at once; does nothing by default.
     fn call_to_hold(&mut self, _patience_s: f64) {}
+
+    /// Shows a remark of a device on valid readings, with its remedy. Returns at once; does nothing by default.
+    fn warn(&mut self, _warning: &str) {}
 }
 
 /// Questions to the operator. [`Display`](fmt::Display) formats them.

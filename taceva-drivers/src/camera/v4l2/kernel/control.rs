@@ -29,6 +29,8 @@ impl ControlId {
     pub const FOCUS: ControlId = ControlId(0x009a_090a);
     /// Automatic focus: 0 off, 1 on.
     pub const FOCUS_AUTOMATIC: ControlId = ControlId(0x009a_090c);
+    /// Zoom, in steps of the camera. A DIGIT sets its LEDs by it.
+    pub const ZOOM: ControlId = ControlId(0x009a_090d);
 }
 
 impl fmt::Display for ControlId {

@@ -25,7 +25,7 @@ fn moves_and_stops(last: u8, firmware: [u32; 3], report: &str) {
     let script = include_str!("xarm.py");
     let said = python::run(&python, script, &[host.to_string(), report.to_owned()]);
     let expected = [
-        "serial TACEVA-SIM0007",
+        "serial XF13000007",
         "enabled 0 0 0",
         "at 0 300.0 0.0 271.3 180.0 0.0 0.0",
         "moved 0",

@@ -110,6 +110,8 @@ fn a_scale_weighs_and_says_when_it_does_not() {
         (wrench.force[2].0 - 0.124 * 9.806_65).abs() < 1e-9,
         "{wrench:?}"
     );
+    let step_n = transducer.resolution().expect("of its report").0;
+    assert!((step_n - 0.001 * 9.806_65).abs() < 1e-12, "{step_n}");
     scale.report(&[3, 6, 2, 0, 124, 0]).expect("it is sent");
     let overloaded = transducer.read(PATIENCE).expect_err("overloaded");
     assert_eq!(overloaded.kind(), ErrorKind::OutOfRange, "{overloaded}");

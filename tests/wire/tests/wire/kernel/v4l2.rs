@@ -74,6 +74,8 @@ fn what_it_does_not_give_is_refused_with_what_it_does() {
         let absent = refused(&format!("{ARGUMENTS};{setting}"));
         assert_eq!(absent.kind(), ErrorKind::Unsupported, "{absent}");
     }
+    let light = refused(&format!("{ARGUMENTS};led=15"));
+    assert_eq!(light.kind(), ErrorKind::InvalidArgument, "{light}");
     // The second device file is a video output.
     let output = refused("device=/dev/video1;pixels=yuyv");
     assert_eq!(output.kind(), ErrorKind::InvalidArgument, "{output}");

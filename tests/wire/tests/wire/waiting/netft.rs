@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use taceva_conformance::{self as conformance, Trial};
 use taceva_core::{Deadline, DriverError, ErrorKind, Factory, ForceTransducer, Rig};
 use taceva_drivers::ati::netft::NetftFactory;
-use taceva_wire::netft::Emulator;
+use taceva_wire::netft::{self, Emulator};
 use taceva_wire::{BenchOptions, Device, FaultKind, WallBench};
 
 use crate::waiting::support::{MOMENT, inject};
@@ -17,8 +17,12 @@ struct Setup {
 }
 
 fn setup() -> Setup {
+    set_up(netft::Setup::PLAIN)
+}
+
+fn set_up(settings: netft::Setup) -> Setup {
     let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
-    let emulator = Emulator::start(&bench, Ipv4Addr::LOCALHOST, 0, 0).expect("a box");
+    let emulator = Emulator::set_up(&bench, Ipv4Addr::LOCALHOST, 0, 0, settings).expect("a box");
     Setup { bench, emulator }
 }
 
@@ -40,6 +44,103 @@ impl Setup {
         transducer.start(MOMENT).expect("it starts");
         transducer
     }
+
+    /// Error of a box that does not open with these further arguments.
+    fn refused(&self, more: &str) -> String {
+        match opened(&format!("{}{more}", self.arguments())) {
+            Ok(_) => panic!("opened a box that contradicts its selector"),
+            Err(error) => {
+                assert_eq!(error.kind(), ErrorKind::InvalidArgument);
+                error.to_string()
+            }
+        }
+    }
+}
+
+#[test]
+fn a_turned_tool_frame_is_refused_unless_it_is_wanted_and_is_then_a_setting() {
+    let setup = set_up(netft::Setup {
+        tool: [0.0, 0.0, 0.0, 90.0, 0.0, 45.0],
+        ..netft::Setup::PLAIN
+    });
+    let refused = setup.refused("");
+    assert!(refused.contains("0;0;0;90;0;45 (mm, degrees)"), "{refused}");
+    let wanted = opened(&format!("{};frame=tool", setup.arguments())).expect("wanted");
+    let settings = wanted.settings();
+    assert_eq!(settings["frame"], "tool 0;0;0;90;0;45 (mm, degrees)");
+    assert_eq!(settings["serial"], setup.bench.serial());
+}
+
+#[test]
+fn a_box_of_another_rate_or_a_smaller_range_is_refused() {
+    let setup = setup();
+    let refused = setup.refused(";rate=1000");
+    assert!(refused.contains("write `rate=500`"), "{refused}");
+    opened(&format!("{};rate=500", setup.arguments())).expect("its rate");
+    let arguments = setup.arguments();
+    let wide = format!("{:?}", 2.0 * setup.bench.force_range_n());
+    let wide = arguments.replace("force_max_n=50", &format!("force_max_n={wide}"));
+    let Err(error) = opened(&wide) else {
+        panic!("a range beyond that of the box")
+    };
+    assert!(error.to_string().contains("write `force_max_n="), "{error}");
+}
+
+#[test]
+fn a_low_pass_is_a_setting_and_its_delay_a_warning() {
+    let setup = set_up(netft::Setup {
+        filter: 8,
+        ..netft::Setup::PLAIN
+    });
+    let transducer = setup.started();
+    assert_eq!(transducer.settings()["filter"], "8");
+    let warnings = transducer.warnings();
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    assert!(warnings[0].contains("about 31.8 ms"), "{warnings:?}");
+}
+
+#[test]
+fn a_latched_threshold_is_a_warning_and_any_other_word_an_error_by_name() {
+    let setup = setup();
+    let mut transducer = setup.started();
+    transducer.read(MOMENT).expect("a reading");
+    assert_eq!(transducer.warnings(), Vec::<String>::new());
+    setup.emulator.set_status(0x8001_0000);
+    std::thread::sleep(Duration::from_millis(20));
+    for _ in 0..20 {
+        transducer.read(MOMENT).expect("valid");
+    }
+    let warnings = transducer.warnings();
+    assert!(
+        warnings.len() == 1 && warnings[0].contains("latched"),
+        "{warnings:?}"
+    );
+    // Without the bit of any error.
+    setup.emulator.set_status(0x0000_0020);
+    std::thread::sleep(Duration::from_millis(20));
+    let error = (0..5).find_map(|_| transducer.read(MOMENT).err());
+    let error = error.expect("an error of the box");
+    assert_eq!(error.kind(), ErrorKind::DeviceFault);
+    let said = error.to_string();
+    assert!(
+        said.contains("supply of the analog board too low (bit 5)"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_request_of_three_records_gets_three() {
+    let setup = setup();
+    let client = UdpSocket::bind("127.0.0.1:0").expect("a port");
+    client.connect(setup.emulator.address()).expect("a box");
+    let patience = Some(Duration::from_millis(500));
+    client.set_read_timeout(patience).expect("a timeout");
+    client.send(&[0x12, 0x34, 0, 2, 0, 0, 0, 3]).expect("sent");
+    let mut record = [0; 64];
+    for _ in 0..3 {
+        assert_eq!(client.recv(&mut record).expect("a record"), 36);
+    }
+    assert!(client.recv(&mut record).is_err(), "a fourth record");
 }
 
 #[test]

@@ -3,10 +3,10 @@
 use std::net::Ipv4Addr;
 use std::time::Duration;
 
-use taceva_core::{Deadline, ErrorKind};
+use taceva_core::{Deadline, ErrorKind, Factory, Rig};
 use taceva_drivers::ur::rtde::UrFactory;
 use taceva_wire::ur::Emulator;
-use taceva_wire::{Arm, ArmFault, Device, FaultKind};
+use taceva_wire::{Arm, ArmFault, BenchOptions, Device, FaultKind, WallBench};
 
 use crate::waiting::expiring::die_moving;
 use crate::waiting::gate::{Gate, halted_while_shut};
@@ -22,6 +22,32 @@ fn setup() -> Setup<Emulator> {
 #[test]
 fn the_suite_passes() {
     setup().passes_the_suite();
+}
+
+#[test]
+fn a_controller_without_an_output_is_refused_by_the_name_of_the_output_and_its_version() {
+    let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
+    let open = |version: [u32; 2]| {
+        let emulator = Emulator::of_version(&bench, Ipv4Addr::LOCALHOST, [0, 0], version);
+        let emulator = emulator.expect("a controller");
+        let factory = UrFactory::new().expect("a factory");
+        let selector = emulator.selector();
+        let (_, arguments) = selector.split_once(':').expect("arguments");
+        let args = factory.descriptor().args(arguments).expect("good");
+        factory
+            .open(&args, &mut Rig::new())
+            .map(|arm| arm.settings())
+    };
+    let error = open([3, 8]).expect_err("it lacks an output");
+    assert_eq!(error.kind(), ErrorKind::Unsupported);
+    let said = error.to_string();
+    for words in ["`safety_status_bits` (since 3.10 and 5.4)", "3.8.0"] {
+        assert!(said.contains(words), "{said}");
+    }
+    for (version, expected) in [([3, 15], "3.15.0"), ([5, 11], "5.11.0")] {
+        let settings = open(version).expect("it has all");
+        assert_eq!(settings["firmware"], expected);
+    }
 }
 
 #[test]

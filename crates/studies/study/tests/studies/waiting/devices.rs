@@ -313,6 +313,10 @@ impl ForceTransducer for Transducer {
     fn sequence(&self) -> Option<u64> {
         Some(self.0.state().readings)
     }
+
+    fn warnings(&self) -> Vec<String> {
+        vec!["a low pass delays forces: switch it off".to_owned()]
+    }
 }
 
 const FRAME: FrameInfo = FrameInfo {

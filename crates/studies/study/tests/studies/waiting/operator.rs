@@ -87,6 +87,30 @@ fn each_unit_is_asked_for_and_one_that_is_skipped_is_left_for_the_next_call() {
     assert_eq!(whole.table().samples().len(), 4);
 }
 
+/// Answers every question, and keeps what it is warned of.
+struct Warned(Vec<String>);
+
+impl Operator for Warned {
+    fn ask(&mut self, _: &Question, _: &Cancel) -> Answer {
+        Answer::Done
+    }
+
+    fn warn(&mut self, warning: &str) {
+        self.0.push(warning.to_owned());
+    }
+}
+
+#[test]
+fn a_remark_of_the_transducer_is_shown_once_for_all_units() {
+    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let path = folder.path().join("run");
+    let hands = Mutex::new(Warned(Vec::new()));
+    let whole = record_by_hand(&world, &path, &SilentProgress, (SCENE, Some(&hands)));
+    assert_eq!(whole.expect("two units").table().samples().len(), 4);
+    let warned = &hands.lock().expect("whole").0;
+    assert_eq!(warned[..], ["a low pass delays forces: switch it off"]);
+}
+
 /// Stores the tip height when a unit is requested, whether the tip is halted, and whether it moves before the answer.
 struct Hands {
     world: World,

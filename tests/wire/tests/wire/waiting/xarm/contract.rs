@@ -20,6 +20,36 @@ fn an_emulated_arm_is_recognised_by_its_serial_number() {
 }
 
 #[test]
+fn a_speed_that_the_controller_would_change_is_refused_and_its_least_one_is_not() {
+    let setup = setup(Ports::ANY);
+    let mut arm = setup.open();
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    let refused = arm.move_to(lower(home, 0.01), speed(0.05), PATIENCE);
+    let refused = refused.expect_err("below the least");
+    assert_eq!(refused.kind(), ErrorKind::OutOfRange);
+    assert!(
+        refused.to_string().contains("at least 0.1 mm/s"),
+        "{refused}"
+    );
+    assert!(!setup.bench.truth().is_moving);
+    arm.move_to(lower(home, 0.01), speed(0.1), PATIENCE)
+        .expect("the least speed");
+}
+
+#[test]
+fn an_arm_says_its_serial_numbers_and_its_firmware() {
+    let setup = setup(Ports::ANY);
+    let settings = setup.open().settings();
+    for (name, expected) in [
+        ("serial", "XF13000007"),
+        ("control_box", "TACEVA-SIM0007"),
+        ("firmware", "v2.7.0"),
+    ] {
+        assert_eq!(settings[name], expected, "{name}");
+    }
+}
+
+#[test]
 fn the_suite_passes_with_the_layout_of_old_firmware() {
     let ports = Ports {
         firmware: [1, 10, 0],

@@ -14,10 +14,11 @@ pub(crate) fn setup(ports: Ports) -> Setup<Emulator> {
 /// Driver arguments of this arm.
 fn arguments(arm: &Emulator) -> String {
     let port = |port| arm.address(port).port();
-    let [command, pose, status] = [Port::Command, Port::Pose, Port::Status].map(port);
+    let [command, pose, status, rich] =
+        [Port::Command, Port::Pose, Port::Status, Port::Rich].map(port);
     // A missing report port is replaced by a port without a listener.
     let [pose, status] = [pose, status].map(|port| if port == command { 1 } else { port });
     format!(
-        "host=127.0.0.1;port={command};pose_port={pose};status_port={status};workspace=240,-60,220,360,60,340"
+        "host=127.0.0.1;port={command};pose_port={pose};status_port={status};rich_port={rich};workspace=240,-60,220,360,60,340"
     )
 }

@@ -1,0 +1,61 @@
+//! Settings of the devices of a rig, with names that differ by device, and remarks of its transducer.
+
+use std::collections::BTreeMap;
+use std::sync::PoisonError;
+
+use super::devices::OpenRig;
+use super::workshop::Workshop;
+
+impl OpenRig {
+    /// Settings of the devices, read back. Those of the transducer and of the robot begin with `force_` and `robot_`.
+    pub(super) fn settings(&self) -> BTreeMap<String, String> {
+        let sensor = self.sensor.as_ref();
+        let mut settings = sensor.map(|sensor| sensor.settings()).unwrap_or_default();
+        add_settings(&mut settings, "force", self.force.settings());
+        add_settings(&mut settings, "robot", self.robot.settings());
+        settings
+    }
+
+    /// Shows the operator, if any, the remarks of the transducer that are not in `shown`, and adds them to it.
+    pub(super) fn warn(&self, workshop: Workshop<'_>, shown: &mut Vec<String>) {
+        let Some(operator) = workshop.operator else {
+            return;
+        };
+        let mut operator = operator.lock().unwrap_or_else(PoisonError::into_inner);
+        for warning in self.force.warnings() {
+            if !shown.contains(&warning) {
+                operator.warn(&warning);
+                shown.push(warning);
+            }
+        }
+    }
+}
+
+/// Adds the settings of a device to those of its rig; their names begin with `kind`: `force_serial`.
+pub(crate) fn add_settings(
+    all: &mut BTreeMap<String, String>,
+    kind: &str,
+    settings: BTreeMap<String, String>,
+) {
+    let named = settings.into_iter();
+    all.extend(named.map(|(name, value)| (format!("{kind}_{name}"), value)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_of_a_transducer_stand_beside_those_of_a_camera() {
+        let pair = |name: &str, value: &str| (name.to_owned(), value.to_owned());
+        let mut all = BTreeMap::from([pair("serial", "D20042")]);
+        let force = BTreeMap::from([pair("serial", "FT12345"), pair("filter", "0")]);
+        add_settings(&mut all, "force", force);
+        let expected = [
+            pair("force_filter", "0"),
+            pair("force_serial", "FT12345"),
+            pair("serial", "D20042"),
+        ];
+        assert_eq!(all, BTreeMap::from(expected));
+    }
+}

@@ -1,0 +1,198 @@
+//! Light of a sensor whose camera sets its LEDs by the zoom control, as a DIGIT does.
+
+use std::collections::BTreeMap;
+
+use super::kernel::{Camera, ControlId};
+use taceva_core::{ArgSpec, ArgValue, Args, DriverError, ErrorKind};
+
+use super::error::{failed, refused};
+use crate::camera::preset::Preset;
+use crate::text::shown;
+
+/// Red, green and blue, each from 0 (off) to [`MOST`].
+type Colour = [i32; 3];
+
+/// Requested light. Without a request the LEDs stay unchanged; their value is still read back.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Leds {
+    /// Argument, before it is read.
+    wanted: Option<String>,
+    /// True if the preset states that its sensor has LEDs.
+    are_there: bool,
+}
+
+const LED: &str = "led";
+const SET: &str = "set the LEDs of the sensor";
+const MOST: i32 = 15;
+
+impl Leds {
+    /// Argument for the light.
+    pub(super) fn argument() -> ArgSpec {
+        ArgSpec::text(LED)
+            .optional()
+            .help("LEDs of preset=digit, 0 to 15 for all, or red,green,blue; default: unchanged")
+    }
+
+    /// Requested light in `args`, of a sensor with `preset`.
+    pub(super) fn of(args: &Args, preset: Option<&Preset>) -> Leds {
+        let wanted = args.get(LED).and_then(ArgValue::as_text);
+        Leds {
+            wanted: wanted.map(str::to_owned),
+            are_there: preset.is_some_and(|preset| preset.leds),
+        }
+    }
+
+    /// Requested colour.
+    ///
+    /// # Errors
+    /// `InvalidArgument` for a text that is no colour, and for a sensor without LEDs.
+    pub(super) fn colour(&self) -> Result<Option<Colour>, DriverError> {
+        let Some(text) = &self.wanted else {
+            return Ok(None);
+        };
+        let wrong = |why: String| failed(ErrorKind::InvalidArgument, SET, why);
+        if !self.are_there {
+            return Err(wrong(format!(
+                "`{LED}` is {}, expected none without `preset=digit`: its zoom control sets LEDs, and that of other cameras zooms",
+                shown(text)
+            )));
+        }
+        let colour = colour(text).ok_or_else(|| {
+            wrong(format!(
+                "`{LED}` is {}, expected a number from 0 to {MOST}, or three with commas for red, green and blue",
+                shown(text)
+            ))
+        })?;
+        Ok(Some(colour))
+    }
+
+    /// Sets the LEDs, reads them back, and adds them to the settings as `led` = `15,15,15`.
+    ///
+    /// # Errors
+    /// As [`colour`](Leds::colour); `Unsupported` for a camera without the control, `DeviceFault` if the LEDs do not hold.
+    pub(super) fn apply(
+        &self,
+        camera: &mut Camera,
+        found: &mut BTreeMap<String, String>,
+    ) -> Result<(), DriverError> {
+        let wanted = self.colour()?.map(number);
+        if !self.are_there {
+            return Ok(());
+        }
+        let control = camera.control(ControlId::ZOOM).map_err(refused(SET))?;
+        let value = match (control, wanted) {
+            (None, None) => return Ok(()),
+            (None, Some(_)) => {
+                let why = "the camera has no zoom control, by which a DIGIT sets its LEDs: expected a DIGIT; omit `led` for another camera";
+                return Err(failed(ErrorKind::Unsupported, SET, why));
+            }
+            (Some(_), None) => camera.value(ControlId::ZOOM).map_err(refused(SET))?,
+            (Some(_), Some(wanted)) => {
+                let value = camera.set(ControlId::ZOOM, wanted).map_err(refused(SET))?;
+                held(wanted, value)?
+            }
+        };
+        found.insert(LED.to_owned(), words(value));
+        Ok(())
+    }
+}
+
+/// Colour in an argument; `None` if it is none.
+fn colour(text: &str) -> Option<Colour> {
+    let parts: Option<Vec<i32>> = text
+        .split(',')
+        .map(|part| part.trim().parse().ok())
+        .map(|level: Option<i32>| level.filter(|level| (0..=MOST).contains(level)))
+        .collect();
+    match parts?[..] {
+        [all] => Some([all; 3]),
+        [red, green, blue] => Some([red, green, blue]),
+        _ => None,
+    }
+}
+
+/// Value of the zoom control for a colour: four bits each for red, green and blue.
+fn number([red, green, blue]: Colour) -> i32 {
+    (red << 8) | (green << 4) | blue
+}
+
+/// Colour of a value of the zoom control, as in the argument; the number itself if it is no colour.
+fn words(value: i32) -> String {
+    let colour = [value >> 8, (value >> 4) & MOST, value & MOST];
+    match number(colour) == value && colour[0] <= MOST && value >= 0 {
+        true => colour.map(|level| level.to_string()).join(","),
+        false => value.to_string(),
+    }
+}
+
+/// The value that was read back, if it is the one that was set.
+fn held(wanted: i32, value: i32) -> Result<i32, DriverError> {
+    if wanted == value {
+        return Ok(value);
+    }
+    let why = format!(
+        "the LEDs are {} after they were set, expected {}: unplug the sensor and plug it in again, and close other programs that set them",
+        words(value),
+        words(wanted)
+    );
+    Err(failed(ErrorKind::DeviceFault, SET, why))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::v4l2::KEY;
+
+    #[test]
+    fn levels_and_colours_are_numbers_of_the_zoom_control() {
+        for (text, expected) in [
+            ("0", 0x000),
+            ("15", 0xfff),
+            ("15,0,0", 0xf00),
+            ("0, 7, 15", 0x07f),
+        ] {
+            let found = colour(text).expect(text);
+            assert_eq!(number(found), expected, "{text}");
+            assert_eq!(colour(&words(expected)), Some(found), "{text}");
+        }
+        for text in ["", "16", "-1", "1,2", "1,2,3,4", "15,15,16", "red", "0xfff"] {
+            assert_eq!(colour(text), None, "{text}");
+        }
+        assert_eq!(words(0x1000), "4096");
+        assert_eq!(words(-1), "-1");
+    }
+
+    #[test]
+    fn leds_that_do_not_hold_are_a_fault_that_names_both_colours() {
+        assert_eq!(held(0xfff, 0xfff).expect("held"), 0xfff);
+        let error = held(0xfff, 0xf00).expect_err("not held");
+        assert_eq!(error.kind(), ErrorKind::DeviceFault);
+        let said = error.to_string();
+        assert!(
+            said.contains("15,0,0") && said.contains("15,15,15"),
+            "{said}"
+        );
+    }
+
+    #[test]
+    fn only_a_sensor_with_leds_takes_a_light() {
+        let digit = Preset::named(&KEY, "digit").expect("a preset");
+        let light = |text: &str, preset| {
+            let specs = [Leds::argument()];
+            let args = Args::parse(&specs, text).expect("good");
+            Leds::of(&args, preset).colour()
+        };
+        assert_eq!(
+            light("led=15,0,3", Some(digit)).expect("set"),
+            Some([15, 0, 3])
+        );
+        assert_eq!(light("", Some(digit)).expect("unchanged"), None);
+        let mini = Preset::named(&KEY, "gelsight-mini").expect("a preset");
+        for preset in [None, Some(mini)] {
+            let error = light("led=15", preset).expect_err("no LEDs");
+            assert!(error.to_string().contains("preset=digit"), "{error}");
+        }
+        let error = light("led=16", Some(digit)).expect_err("too bright");
+        assert!(error.to_string().contains("from 0 to 15"), "{error}");
+    }
+}
