@@ -93,7 +93,7 @@ driver = "lab/camera"
         assert_eq!((&robot.serial, &robot.certificate), (&None, &None));
         assert_eq!(kept(instruments.clone(), Source::Recorded), instruments);
         let drawn = kept(instruments.clone(), Source::Simulated);
-        assert_eq!(drawn, [force.clone()]);
+        assert_eq!(drawn, std::slice::from_ref(force));
         assert_eq!(day_of(Source::Simulated), None);
         assert!(day_of(Source::Recorded).is_some());
     }

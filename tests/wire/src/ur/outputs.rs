@@ -78,7 +78,7 @@ pub(super) fn type_of(name: &str, [major, minor]: [u32; 2]) -> &'static str {
     let named = OUTPUTS.iter().find(|(known, ..)| *known == name);
     if let Some((_, kind, [cb3, e_series])) = named {
         let since = if major < 5 { cb3 } else { e_series };
-        return if minor >= *since { *kind } else { NOT_FOUND };
+        return if minor >= *since { kind } else { NOT_FOUND };
     }
     let register = REGISTERS.iter().find_map(|(begin, kind, end)| {
         let number: u32 = name.strip_prefix(*begin)?.parse().ok()?;

@@ -48,9 +48,9 @@ fn outside(
         let mut certificates = certificates.iter();
         certificates.any(|certificate| certificate.covers(channel.name(), value))
     };
+    let is_below = |value: f64| value < least.value;
     let outside = labels.iter().filter(|(_, value)| !is_covered(*value));
-    let (below, above): (Vec<(usize, f64)>, Vec<(usize, f64)>) =
-        outside.partition(|(_, value)| *value < least.value);
+    let (below, above): (Vec<_>, Vec<_>) = outside.partition(|(_, value)| is_below(*value));
     let count = below.len() + above.len();
     if count == 0 {
         return None;
