@@ -36,6 +36,8 @@ struct Line<'a> {
 struct Sheet<'a> {
     heads: Vec<Words>,
     lines: Vec<Line<'a>>,
+    /// True if the heads are names of studies, which may stand on several lines.
+    has_names: bool,
     /// True if a last column has the number of samples of each line.
     has_n: bool,
     /// Numbers of samples of the columns, if shown in a last row.
@@ -54,7 +56,11 @@ impl ScoreTable {
         };
         let (digits, room) = sheet.room();
         let columns: Vec<usize> = (0..sheet.heads.len()).collect();
-        let columns: Vec<&[usize]> = columns.chunks(room).collect();
+        // Parts of equal width: 2 and 2 of four columns, not 3 and 1.
+        let parts = columns.len().div_ceil(room).max(1);
+        let columns: Vec<&[usize]> = columns
+            .chunks(columns.len().div_ceil(parts).max(1))
+            .collect();
         let rows: Vec<&[Line<'_>]> = sheet.lines.chunks(MOST_ROWS).collect();
         let count = columns.len() * rows.len();
         let mut tables = Vec::new();
@@ -109,6 +115,7 @@ impl ScoreTable {
         Sheet {
             lines: lines.collect(),
             heads: metrics.iter().map(|id| directed(id)).collect(),
+            has_names: false,
             has_n,
             counts: None,
         }
@@ -127,12 +134,10 @@ impl ScoreTable {
                 n: None,
             });
         }
-        let heads = self.names.iter();
-        let heads =
-            heads.map(|name| Words::new(name).latex(stacked(name, HEAD_PT, SMALL_SIZE, 'r')));
         Sheet {
-            heads: heads.collect(),
+            heads: self.names.iter().map(Words::new).collect(),
             lines,
+            has_names: true,
             has_n: false,
             counts: self.counts(),
         }
@@ -226,7 +231,17 @@ impl Sheet<'_> {
 
     /// Table of some lines and columns.
     fn table(&self, lines: &[Line<'_>], columns: &[usize], digits: usize) -> Table {
-        let heads = columns.iter().map(|at| self.heads[*at].clone());
+        let share = (COLUMN_PT - NAME_PT) / columns.len().max(1) as f64 - GAP_PT;
+        let heads = columns.iter().map(|at| {
+            let head = self.heads[*at].clone();
+            match self.has_names {
+                true => {
+                    let latex = stacked(head.plain(), share.max(HEAD_PT), SMALL_SIZE, 'r');
+                    head.latex(latex)
+                }
+                false => head,
+            }
+        });
         let n = self.has_n.then(|| Words::new("n").latex("$n$"));
         let heads = heads
             .chain(n)

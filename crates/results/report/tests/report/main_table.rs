@@ -103,6 +103,29 @@ fn four_sensors_stand_in_columns_with_the_best_in_bold() {
 }
 
 #[test]
+fn sensors_that_need_two_tables_are_divided_evenly_and_their_names_stay_whole() {
+    let sensors = ["ViTacTip", "MagicTac", "GelSight", "GelSightWM"];
+    let studies = sensors.map(|name| {
+        let mut result = result(name, &PLANES);
+        result["metrics"]["mae"]["Fxy"]["value"] = 0.0091.into();
+        result["metrics"]["mae"]["Fxy"]["ci95"] = json!([0.0055, 0.0152]);
+        support::study(&result)
+    });
+    let columns = tables(&studies)
+        .into_iter()
+        .map(|table| table.columns.len());
+    assert_eq!(columns.collect::<Vec<_>>(), [3, 3]);
+    let text = latex("two tables", &studies);
+    assert_holds(
+        &text,
+        &[
+            " & ViTacTip & MagicTac \\\\",
+            " & GelSight & GelSightWM \\\\",
+        ],
+    );
+}
+
+#[test]
 fn a_result_without_intervals_says_so_and_why() {
     let mut result = result("GelSight", &PLANES);
     for metric in ["mae", "r2", "smape"] {
