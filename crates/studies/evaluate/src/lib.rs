@@ -22,6 +22,7 @@ mod plan;
 mod predict;
 mod provenance;
 mod recordings;
+mod recount;
 mod report;
 mod rotation;
 mod row_ledger;
@@ -66,6 +67,7 @@ pub use predict::{
 };
 pub use provenance::{choices, model as model_provenance, of as provenance_of};
 pub use recordings::{depth_zeros, reduced};
+pub use recount::{Recount, recount_samples};
 pub use report::skipped;
 pub use row_ledger::Taken;
 pub use rows::{DataPart, Divided, Need, require_samples, usable};
@@ -73,7 +75,7 @@ pub use run_layout::{PLANS, RECORDINGS};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
     Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, read_table,
-    score_in_one_pass,
+    recount_tables, score_in_one_pass,
 };
 pub use skill::{skill, with_skill};
 pub use state_file::{STATE_SCHEMA, StateFile};
