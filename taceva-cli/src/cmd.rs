@@ -4,6 +4,7 @@ pub(crate) mod accept;
 mod attachments;
 mod attended;
 pub(crate) mod bench;
+pub(crate) mod bundle;
 pub(crate) mod cache;
 pub(crate) mod capture;
 pub(crate) mod catalogue;

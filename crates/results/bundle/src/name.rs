@@ -1,0 +1,61 @@
+//! Names of files in a bundle.
+
+use taceva_core::is_obeyed;
+
+use crate::layout::{MOST_NAME, MOST_PARTS};
+
+/// Rule of names.
+pub(crate) const RULE: &str = "names lead to files inside the bundle";
+
+/// The fault of a name in a bundle; `None` for a relative path of plain parts.
+pub(crate) fn fault(name: &str) -> Option<String> {
+    if name.len() > MOST_NAME {
+        return Some(format!(
+            "a name of {} bytes, expected at most {MOST_NAME}",
+            name.len()
+        ));
+    }
+    if name
+        .chars()
+        .any(|letter| is_obeyed(letter) || "\\:".contains(letter))
+    {
+        return Some("a name with control characters, `\\` or `:`, expected none".to_owned());
+    }
+    let parts: Vec<&str> = name.split('/').collect();
+    if parts.iter().any(|part| ["", ".", ".."].contains(part)) {
+        return Some(
+            "a path that leads out of the bundle, expected one below it, without `..`".to_owned(),
+        );
+    }
+    (parts.len() > MOST_PARTS).then(|| {
+        format!(
+            "a path of {} parts, expected at most {MOST_PARTS}",
+            parts.len()
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_that_leads_out_of_the_bundle_is_refused() {
+        for name in [
+            "../x",
+            "a/../x",
+            "/x",
+            "a//x",
+            "",
+            ".",
+            "a\\x",
+            "c:x",
+            "a\u{202e}x",
+        ] {
+            assert!(fault(name).is_some(), "{name:?}");
+        }
+        assert!(fault(&"x".repeat(256)).is_some());
+        assert!(fault(&["x"; 9].join("/")).is_some());
+        assert_eq!(fault("states/0.json"), None);
+    }
+}
