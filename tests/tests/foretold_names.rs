@@ -17,7 +17,7 @@ const SOME: usize = 8;
 const MOST: usize = 24;
 
 /// Commands, each in a folder `work` in which only they create names. Inputs are in `given` beside it.
-const COMMANDS: [(&str, &str); 27] = [
+const COMMANDS: [(&str, &str); 28] = [
     (
         "import",
         "import ../given/lab --map ../given/map.toml --out set",
@@ -62,6 +62,10 @@ const COMMANDS: [(&str, &str); 27] = [
     (
         "merge",
         "merge ../given/ridge.state --state-out both.state --format csv --out scores.csv",
+    ),
+    (
+        "bundle",
+        "bundle ../given/ridge.json --state ../given/ridge.state --draft --date 2026-11-28 --out b.tar.gz",
     ),
     ("report", "report ../given/ridge.json --out print"),
     (

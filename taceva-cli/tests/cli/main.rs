@@ -3,6 +3,7 @@
 //! Modules whose tests mostly wait, for emulated devices in real time or a cluster, are below [`waiting`].
 
 mod bench_models;
+mod bundle;
 mod cache;
 mod cache_list;
 mod curve;

@@ -94,6 +94,24 @@ impl Claim {
         }
     }
 
+    /// The same claim with the number that stands in `report`, if there is one.
+    pub(crate) fn as_in(&self, report: &EvaluationReport) -> Claim {
+        let own = claims(self.study, report, &self.from);
+        let is_same = |claim: &Claim| {
+            claim.metric == self.metric
+                && claim.channel == self.channel
+                && claim.variant == self.variant
+        };
+        let found = own.into_iter().find(is_same);
+        found.map_or_else(
+            || self.clone(),
+            |found| Claim {
+                level: self.level,
+                ..found
+            },
+        )
+    }
+
     /// Metric, variant and channel in words: `mae of Fz`.
     pub(crate) fn words(&self) -> String {
         words(&self.metric, self.variant.as_deref(), &self.channel)
