@@ -1,6 +1,7 @@
 //! Bundles of results: made, verified, forged, compared.
 
 mod forgery;
+mod inputs;
 
 use std::fs;
 
@@ -331,23 +332,6 @@ fn another_schema_and_deep_nesting_are_refused_with_their_reason() {
 }
 
 #[test]
-fn an_evaluation_is_verified_by_its_samples_as_far_as_they_hold_what_metrics_read() {
-    let bench = Bench::new();
-    bench.record("data", 20);
-    bench.ok("evaluate data --model ridge --split random --no-cache --format json --out r.json --state-out r.state --samples-out r.samples.csv -q");
-    bench.ok("bundle r.json --state r.state --dataset data --draft --out b.tar.gz -q");
-    let found = verified(&bench, "b.tar.gz", 0);
-    assert_eq!(found["summary"]["differs"], 0, "{}", found["others"]);
-    let claims = found["claims"].as_array().expect("claims");
-    let errors: Vec<&Value> = claims
-        .iter()
-        .filter(|claim| claim["metric"] == "mae")
-        .collect();
-    assert!(!errors.is_empty());
-    assert!(errors.iter().all(|claim| claim["level"] == "predictions"));
-}
-
-#[test]
 fn two_bundles_are_compared_by_claims_and_samples() {
     let bench = bench();
     bench.ok(&format!("{BUNDLE} one"));
@@ -368,28 +352,5 @@ fn two_bundles_are_compared_by_claims_and_samples() {
     assert!(
         said.contains("samples  the same") && said.contains("neither bundle was verified"),
         "{said}"
-    );
-}
-
-#[test]
-fn texts_are_redacted_and_counted() {
-    let bench = bench();
-    bench.write(
-        "rig.toml",
-        "address = \"10.0.0.7\"\nmap = \"/home/lab/map.toml\"\nserial = \"X81\"\n",
-    );
-    bench.ok(&format!("{BUNDLE} b --text rig.toml --redact hosts,paths"));
-    let text = fs::read_to_string(bench.path("b/rig.toml")).expect("written");
-    assert_eq!(
-        text,
-        "address = \"redacted\"\nmap = \"redacted\"\nserial = \"X81\"\n"
-    );
-    assert_eq!(manifest(&bench, "b")["redacted"]["rig.toml"], 2);
-    verified(&bench, "b", 0);
-    bench.write("notes.toml", "");
-    bench.refused(
-        &format!("{BUNDLE} c --text notes.toml"),
-        3,
-        "expected a file called scene.toml",
     );
 }

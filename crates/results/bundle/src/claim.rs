@@ -96,20 +96,33 @@ impl Claim {
 
     /// The same claim with the number that stands in `report`, if there is one.
     pub(crate) fn as_in(&self, report: &EvaluationReport) -> Claim {
-        let own = claims(self.study, report, &self.from);
-        let is_same = |claim: &Claim| {
-            claim.metric == self.metric
-                && claim.channel == self.channel
-                && claim.variant == self.variant
+        let score = self.score_in(&report.scores);
+        let variant = self.variant.as_deref();
+        let number = score.and_then(|score| Number::of(score, variant));
+        let (Some(score), Some(number)) = (score, number) else {
+            return self.clone();
         };
-        let found = own.into_iter().find(is_same);
-        found.map_or_else(
-            || self.clone(),
-            |found| Claim {
-                level: self.level,
-                ..found
-            },
-        )
+        Claim {
+            value: number.value,
+            ci95: number.ci95,
+            unit: unit_of(score, variant).unwrap_or(self.unit),
+            n: score.n,
+            definition: score.definition.clone(),
+            ..self.clone()
+        }
+    }
+
+    /// Score of the metric and the channel of the claim.
+    pub(crate) fn score_in<'a>(&self, scores: &'a [Score]) -> Option<&'a Score> {
+        let mut scores = scores.iter();
+        scores.find(|score| score.metric == self.metric && score.channel == self.channel)
+    }
+
+    /// True if unit, number of samples and definition are those of `score`.
+    pub(crate) fn is_of(&self, score: &Score) -> bool {
+        unit_of(score, self.variant.as_deref()) == Some(self.unit)
+            && score.n == self.n
+            && score.definition == self.definition
     }
 
     /// Metric, variant and channel in words: `mae of Fz`.
@@ -123,6 +136,14 @@ pub(crate) fn words(metric: &str, variant: Option<&str>, channel: &str) -> Strin
     match variant {
         Some(variant) => format!("{metric}.{variant} of {channel}"),
         None => format!("{metric} of {channel}"),
+    }
+}
+
+/// Unit of a score or of one of its variants.
+fn unit_of(score: &Score, variant: Option<&str>) -> Option<Unit> {
+    match variant {
+        None => Some(score.unit),
+        Some(name) => score.variant(name).map(|variant| variant.unit),
     }
 }
 

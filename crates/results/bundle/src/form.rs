@@ -9,7 +9,7 @@ use taceva_results::EvaluationReport;
 use crate::card;
 use crate::environment::{ENVIRONMENT_SCHEMA, Environment};
 use crate::error::{BundleError, Damage};
-use crate::layout::{ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_TEXT, RESULTS, SAMPLES};
+use crate::layout::{ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES};
 use crate::manifest::{Manifest, StudyFiles, badge_of, source_of};
 use crate::name;
 use crate::sample_digest::{SAMPLES_SCHEMA, SampleDigest, StudySamples};
@@ -132,6 +132,14 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
             "{} in bundle.json, {} in results.json",
             manifest.studies.len(),
             reports.len()
+        );
+        return vec![Damage::new(MANIFEST, rule, problem)];
+    }
+    let scores: usize = reports.iter().map(|report| report.scores.len()).sum();
+    if scores.max(manifest.claims.len()) > MOST_CLAIMS {
+        let problem = format!(
+            "{scores} scores and {} claims, expected at most {MOST_CLAIMS}",
+            manifest.claims.len()
         );
         return vec![Damage::new(MANIFEST, rule, problem)];
     }

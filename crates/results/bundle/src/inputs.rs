@@ -5,6 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use taceva_evaluate::{RECORDINGS, STATES};
 use taceva_files::parent_of;
 use taceva_results::EvaluationReport;
 
@@ -15,8 +16,6 @@ use crate::source::digest_of;
 
 /// Folder of the reports of a run, with the tables of samples.
 const REPORTS: &str = "reports";
-/// Folder of the recordings of a run.
-const RECORDINGS: &str = "recordings";
 
 /// Results with the files behind them.
 pub(crate) struct Inputs {
@@ -106,11 +105,24 @@ fn studies(
         true => BTreeMap::new(),
         false => tables_in(&folder, &wanted)?,
     };
+    let of_run = match run
+        .map(|run| run.join(STATES))
+        .filter(|folder| folder.is_dir())
+    {
+        Some(folder) => entries(&folder)?,
+        None => Vec::new(),
+    };
     let mut studies = Vec::new();
-    for report in reports {
+    for (report, number) in reports.iter().zip(1_usize..) {
+        let is_own = |path: &&PathBuf| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            name.starts_with(&format!("{number}-")) && name.ends_with(".json")
+        };
+        let states = request.states.iter();
+        let states = states.chain(of_run.iter().filter(is_own)).cloned();
         let digest = report.provenance.samples_table.as_ref();
         studies.push(StudyInputs {
-            states: request.states.clone(),
+            states: states.collect(),
             tables: request.tables.clone(),
             samples: digest.and_then(|digest| known.get(digest).cloned()),
         });

@@ -35,6 +35,8 @@ pub const MOST_BYTES: u64 = 2 << 30;
 pub(crate) const MOST_TEXT: u64 = 24 << 20;
 /// Most bytes of a table.
 pub(crate) const MOST_TABLE: u64 = 256 << 20;
+/// Most claims, and most scores of the results.
+pub(crate) const MOST_CLAIMS: usize = 10_000;
 /// Most bytes of a name.
 pub(crate) const MOST_NAME: usize = 255;
 /// Most folders in a name, and the file.

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use taceva_evaluate::{Recount, RowKey, merge, recount_samples, recount_tables};
+use taceva_evaluate::{Recount, RowKey, merge, recount_samples, recount_tables, side_by_side};
 use taceva_results::{EvaluationReport, Samples, Score, Skip, read, sealed};
 
 use crate::layout::{MOST_TABLE, MOST_TEXT};
@@ -91,7 +91,12 @@ fn of_states(source: &Source, files: &StudyFiles) -> Result<Vec<Score>, Stop> {
         source.size(name, MOST_TEXT).map_err(Stop::failed)?;
     }
     let paths: Vec<PathBuf> = files.states.iter().map(|name| source.path(name)).collect();
-    let (report, _) = merge(&paths).map_err(Stop::failed)?;
+    // Shards merge; the states of the phases of a run have plans of their own.
+    let report = match merge(&paths) {
+        Ok((report, _)) => report,
+        Err(error) if paths.len() == 1 => return Err(Stop::failed(error)),
+        Err(error) => side_by_side(&paths).map_err(|_| Stop::failed(error))?,
+    };
     as_read(&report)
 }
 

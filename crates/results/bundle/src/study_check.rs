@@ -33,8 +33,8 @@ impl StudyCheck<'_> {
             reason: None,
             is_absent: false,
         };
-        let named = find(&self.report.scores, claim);
-        let Some(named) = named.filter(|score| is_of(claim, score)) else {
+        let named = claim.score_in(&self.report.scores);
+        let Some(named) = named.filter(|score| claim.is_of(score)) else {
             let reason = "results.json has no such number".to_owned();
             return check.ended(Verdict::Differs, reason);
         };
@@ -97,11 +97,11 @@ impl StudyCheck<'_> {
             Level::Predictions => "the tables",
             _ => "the state",
         };
-        let Some(score) = find(scores, claim) else {
+        let Some(score) = claim.score_in(scores) else {
             let reason = format!("{} is not in {from}", claim.words());
             return check.ended(Verdict::NotRecomputable, reason);
         };
-        let own = find(&self.report.scores, claim).map(definition);
+        let own = claim.score_in(&self.report.scores).map(definition);
         let other = definition(score);
         if own.as_ref() != Some(&other) {
             let own = own.unwrap_or_default();
@@ -204,21 +204,6 @@ impl ClaimCheck {
         self.is_absent = stop.is_absent;
         self.ended(Verdict::NotRecomputable, stop.reason.clone())
     }
-}
-
-/// Score of the metric and the channel of a claim.
-fn find<'a>(scores: &'a [Score], claim: &Claim) -> Option<&'a Score> {
-    let mut scores = scores.iter();
-    scores.find(|score| score.metric == claim.metric && score.channel == claim.channel)
-}
-
-/// True if unit, number of samples and definition of a claim are those of its score.
-fn is_of(claim: &Claim, score: &Score) -> bool {
-    let unit = match claim.variant.as_deref() {
-        None => Some(score.unit),
-        Some(name) => score.variant(name).map(|variant| variant.unit),
-    };
-    unit == Some(claim.unit) && score.n == claim.n && score.definition == claim.definition
 }
 
 /// Definition of a score with its constants: `mae/1 with gate 0.02`.
