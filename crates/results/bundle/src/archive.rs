@@ -13,8 +13,7 @@ use tar::{Archive, Builder, EntryType, Header};
 
 use crate::error::{BundleError, Damage};
 use crate::layout::{GROWTH, GROWTH_BYTES};
-use crate::name;
-use crate::source::{check_amount, check_case};
+use crate::name::{self, check_amount, check_case};
 
 /// Rule of entries.
 const ENTRIES: &str = "a packed bundle holds regular files alone";

@@ -74,7 +74,7 @@ impl fmt::Display for Author {
 /// True for four groups of four digits whose last digit is the check digit of ISO 7064, mod 11-2.
 fn is_orcid(text: &str) -> bool {
     let groups: Vec<&str> = text.split('-').collect();
-    if groups.len() != 4 || groups.iter().any(|group| group.len() != 4) {
+    if !text.is_ascii() || groups.len() != 4 || groups.iter().any(|group| group.len() != 4) {
         return false;
     }
     let digits = groups.concat();

@@ -67,7 +67,7 @@ pub(crate) fn files(source: &Source, manifest: &Manifest) -> Result<Vec<Damage>,
     Ok(damage)
 }
 
-/// Results of the bundle, and what is wrong with its form.
+/// Results of the bundle.
 ///
 /// # Errors
 /// The damage that keeps the results from being read.
@@ -82,7 +82,7 @@ pub(crate) fn results(source: &Source) -> Result<Vec<EvaluationReport>, Damage> 
     })
 }
 
-/// What is wrong with the form of a bundle whose files are those of its manifest.
+/// Faults of the form of a bundle whose files are those of its manifest.
 ///
 /// # Errors
 /// [`BundleError::File`] for a file that cannot be read.

@@ -10,7 +10,7 @@ pub(crate) const SAMPLES: &str = "samples.json";
 pub(crate) const ENVIRONMENT: &str = "environment.json";
 /// The card for readers.
 pub(crate) const CARD: &str = "README.md";
-/// How to cite the bundle.
+/// The citation.
 pub(crate) const CITATION: &str = "CITATION.cff";
 /// The licence.
 pub(crate) const LICENCE: &str = "LICENSE";

@@ -40,11 +40,11 @@ pub struct Manifest {
     pub badge: Option<String>,
     /// Every other file.
     pub files: Vec<BundledFile>,
-    /// What each study of the results was computed from.
+    /// Files behind each study of the results.
     pub studies: Vec<StudyFiles>,
     /// Numbers of the results that the bundle stands for.
     pub claims: Vec<Claim>,
-    /// What was left out.
+    /// Files that were left out.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub withheld: Vec<Withheld>,
     /// Number of redacted words in each text.
@@ -96,7 +96,7 @@ pub struct TableFiles {
     pub key: Option<String>,
 }
 
-/// What was left out of a bundle.
+/// File that was left out of a bundle.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Withheld {

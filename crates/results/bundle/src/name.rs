@@ -1,8 +1,11 @@
-//! Names of files in a bundle.
+//! Names of the files in a bundle, and their number.
 
-use taceva_core::is_obeyed;
+use std::collections::BTreeMap;
 
-use crate::layout::{MOST_NAME, MOST_PARTS};
+use taceva_core::{counted, is_obeyed};
+
+use crate::error::{BundleError, Damage};
+use crate::layout::{MOST_FILES, MOST_NAME, MOST_PARTS};
 
 /// Rule of names.
 pub(crate) const RULE: &str = "names lead to files inside the bundle";
@@ -33,6 +36,32 @@ pub(crate) fn fault(name: &str) -> Option<String> {
             parts.len()
         )
     })
+}
+
+/// Rejects more files or bytes than the limits.
+pub(crate) fn check_amount(files: usize, bytes: u64, most: u64) -> Result<(), BundleError> {
+    let rule = "a bundle is not too large to read";
+    let refused = |problem: String| Err(BundleError::Damaged(Damage::new(".", rule, problem)));
+    if files > MOST_FILES {
+        return refused(format!("more than {}", counted(MOST_FILES as u64, "file")));
+    }
+    if bytes > most {
+        return refused(format!("more than {most} bytes; --most raises the limit"));
+    }
+    Ok(())
+}
+
+/// Rejects two names that are equal but for case, which some file systems cannot hold.
+pub(crate) fn check_case<'a>(names: impl Iterator<Item = &'a String>) -> Result<(), BundleError> {
+    let mut known: BTreeMap<String, &String> = BTreeMap::new();
+    for name in names {
+        if let Some(other) = known.insert(name.to_lowercase(), name) {
+            let problem = format!("equal to `{other}` but for case");
+            let rule = "names differ in more than case";
+            return Err(BundleError::Damaged(Damage::new(name, rule, problem)));
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -51,16 +51,22 @@ impl Recomputation {
         with_tables: bool,
         jobs: NonZeroUsize,
     ) -> Recomputation {
-        // A run scores each phase of its protocol by itself, and its table holds every sample.
-        let is_of_run = report.provenance.part.is_none();
+        let own = &report.provenance;
+        let unscored = match (own.tables.is_empty(), own.part.is_some()) {
+            _ if files.tables.is_some() => None,
+            (true, true) => None,
+            // A run scores each phase of its protocol by itself.
+            (true, false) => Some("the table of samples holds every sample, scored or not"),
+            (false, _) => Some("name the tables that were scored by --truth and --pred"),
+        };
         Recomputation {
             states: of_states(source, files),
             tables: match with_tables {
-                true if files.tables.is_none() && is_of_run => {
-                    Err(Stop::absent("the table holds every sample, scored or not"))
-                }
-                true => of_tables(source, files, jobs),
                 false => Err(Stop::absent("not asked for")),
+                true => match unscored {
+                    Some(reason) => Err(Stop::absent(reason)),
+                    None => of_tables(source, files, jobs),
+                },
             },
         }
     }

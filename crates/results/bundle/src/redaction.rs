@@ -7,7 +7,7 @@ use taceva_core::shown;
 /// Word in the place of what was redacted.
 const REDACTED: &str = "redacted";
 
-/// What is redacted in the texts of a bundle.
+/// Words that are redacted in the texts of a bundle.
 ///
 /// ```
 /// use taceva_bundle::{Redaction, redacted};

@@ -30,7 +30,7 @@ pub struct BundleRequest {
     pub texts: Vec<PathBuf>,
     /// True if tables are left out, and only their digests are stated.
     pub withholds_predictions: bool,
-    /// What is redacted in texts.
+    /// Words that are redacted in texts.
     pub redactions: Vec<Redaction>,
     /// Number of threads.
     pub jobs: NonZeroUsize,

@@ -80,7 +80,7 @@ impl StudySamples {
         let (table, _) = read_table(path, jobs)?;
         let names = table.names();
         let position = |name: &str| names.iter().position(|own| own == name);
-        let id = IDS.iter().find_map(|name| position(name));
+        let id = IDS.into_iter().find_map(position);
         let frame = position(FRAME);
         let is_label = |name: &str| {
             !IDS.contains(&name) && !BESIDE.contains(&name) && !name.contains(Samples::PREDICTED)

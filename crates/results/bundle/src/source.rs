@@ -6,11 +6,11 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest as _, Sha256};
-use taceva_core::counted;
 use taceva_files::TemporaryFolder;
 
 use crate::error::{BundleError, Damage};
-use crate::layout::{MANIFEST, MOST_FILES};
+use crate::layout::MANIFEST;
+use crate::name::{check_amount, check_case};
 use crate::{archive, name};
 
 /// Prefix of the folder of an unpacked bundle.
@@ -163,32 +163,6 @@ pub(crate) fn digest_of(path: &Path) -> Result<String, BundleError> {
         Ok(format!("sha256:{digits}"))
     };
     digest().map_err(failed)
-}
-
-/// Rejects more files or bytes than the limits.
-pub(crate) fn check_amount(files: usize, bytes: u64, most: u64) -> Result<(), BundleError> {
-    let rule = "a bundle is not too large to read";
-    let refused = |problem: String| Err(BundleError::Damaged(Damage::new(".", rule, problem)));
-    if files > MOST_FILES {
-        return refused(format!("more than {}", counted(MOST_FILES as u64, "file")));
-    }
-    if bytes > most {
-        return refused(format!("more than {most} bytes; --most raises the limit"));
-    }
-    Ok(())
-}
-
-/// Rejects two names that are equal but for case, which some file systems cannot hold.
-pub(crate) fn check_case<'a>(names: impl Iterator<Item = &'a String>) -> Result<(), BundleError> {
-    let mut known: BTreeMap<String, &String> = BTreeMap::new();
-    for name in names {
-        if let Some(other) = known.insert(name.to_lowercase(), name) {
-            let problem = format!("equal to `{other}` but for case");
-            let rule = "names differ in more than case";
-            return Err(BundleError::Damaged(Damage::new(name, rule, problem)));
-        }
-    }
-    Ok(())
 }
 
 /// The only folder of a packed folder, else the folder itself.
