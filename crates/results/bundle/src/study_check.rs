@@ -143,7 +143,7 @@ impl StudyCheck<'_> {
         };
         let (tables, left_out) = match &self.again.tables {
             Ok(tables) => (tables.scores.as_slice(), tables.left_out.as_slice()),
-            Err(_) => (&[][..], &[][..]),
+            Err(_) => (Default::default(), Default::default()),
         };
         for score in &self.report.scores {
             let is_own = |claim: &&ClaimCheck| {
