@@ -8,7 +8,7 @@ use taceva_tests::structure::{
 
 /// Most lines of product code, and of all `.rs` files. Readers of SQLite, bags, Arrow and protobuf, and angles, take 6,000 and 11,000 of
 /// them, gauge studies, budgets, curves and their distributions 9,000 and 13,000, bundles 3,500 and 5,000.
-const MOST_LINES: (usize, usize) = (223_800, 425_900);
+const MOST_LINES: (usize, usize) = (223_800, 426_100);
 
 /// Most lines of one file, with its comments and tests.
 const MOST_LINES_OF_A_FILE: usize = 400;

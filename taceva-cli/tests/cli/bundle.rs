@@ -166,6 +166,10 @@ fn a_changed_a_missing_an_added_and_a_linked_file_are_damage() {
             "a link, expected a regular file"
         );
     }
+    bench.shell("rm whole/link");
+    let found = verified(&bench, "whole --most 1000", 3);
+    let problem = found["damage"][0]["problem"].as_str().expect("words");
+    assert!(problem.contains("more than 1000 bytes"), "{problem}");
     bench.write("text.tar.gz", "no archive");
     let found = verified(&bench, "text.tar.gz", 3);
     let problem = found["damage"][0]["problem"].as_str().expect("words");
