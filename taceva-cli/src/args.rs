@@ -2,6 +2,7 @@
 
 mod bench;
 mod budget;
+mod bundle;
 mod cache;
 mod curve;
 mod dataset;
@@ -24,6 +25,9 @@ use clap::{Args, CommandFactory as _, Parser, Subcommand};
 
 pub(crate) use self::bench::{Bench, BenchKernels, BenchModels, BenchSubject};
 pub(crate) use self::budget::Budget;
+pub(crate) use self::bundle::{
+    Bundle, BundleDiff, BundleMake, BundleSubject, BundleVerify, WithoutPart,
+};
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
 pub(crate) use self::curve::Curve;
 pub(crate) use self::dataset::{Check, Export, Import, Reseal};
@@ -125,6 +129,8 @@ pub(crate) enum Command {
     Score(Score),
     /// Merge the states of shards; the scores equal those of one unsharded run, bit for bit
     Merge(Merge),
+    /// Pack results with what is needed to compute them again; verify and compare such bundles
+    Bundle(Bundle),
     /// Accept a deliberate edit of a sealed file, and record it with its reason in the file's history
     Reseal(Reseal),
     /// Write the page, the figures and the tables of finished results again; nothing is acquired, fitted or scored

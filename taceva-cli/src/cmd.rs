@@ -5,6 +5,7 @@ mod attachments;
 mod attended;
 pub(crate) mod bench;
 pub(crate) mod budget;
+pub(crate) mod bundle;
 pub(crate) mod cache;
 pub(crate) mod capture;
 pub(crate) mod catalogue;

@@ -95,6 +95,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Predict(args) => cmd::predict::run(args, context),
         Command::Score(args) => cmd::score::run(args, context),
         Command::Merge(args) => cmd::merge::run(args, context),
+        Command::Bundle(args) => cmd::bundle::run(args, context),
         Command::Reseal(args) => cmd::reseal::run(args, context),
         Command::Report(args) => cmd::report::run(args, context),
         Command::Compare(args) => cmd::compare::run(args, context),

@@ -1,6 +1,7 @@
 //! Rendering of results: pure functions of finished reports.
 
 mod bench;
+pub(crate) mod bundle;
 mod chart;
 mod check;
 pub(crate) mod devices;

@@ -63,6 +63,10 @@ const COMMANDS: [(&str, &str); 28] = [
         "merge",
         "merge ../given/ridge.state --state-out both.state --format csv --out scores.csv",
     ),
+    (
+        "bundle",
+        "bundle ../given/ridge.json --state ../given/ridge.state --draft --date 2026-11-28 --out b.tar.gz",
+    ),
     ("report", "report ../given/ridge.json --out print"),
     (
         "compare",

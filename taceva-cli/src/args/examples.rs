@@ -84,7 +84,7 @@ mod tests {
 
     fn leaves(command: &Command, path: &[String], found: &mut Vec<String>) {
         let subs: Vec<&Command> = command.get_subcommands().collect();
-        if !path.is_empty() && (subs.is_empty() || path == ["sweep"]) {
+        if !path.is_empty() && (subs.is_empty() || path == ["sweep"] || path == ["bundle"]) {
             found.push(path.join(" "));
         }
         for sub in subs {

@@ -4,6 +4,7 @@
 
 mod bench_models;
 mod budget;
+mod bundle;
 mod cache;
 mod cache_list;
 mod curve;

@@ -268,6 +268,14 @@ impl Samples {
         })
     }
 
+    /// Prediction of `channel` for a sample before limiting to the model's bounds; the prediction itself if no column holds it.
+    pub fn unbounded(&self, channel: &str, row: usize) -> Option<f64> {
+        match self.numbers(&format!("{channel}{UNBOUNDED}")) {
+            Some((_, numbers)) => numbers.get(row),
+            None => self.channel(channel)?.prediction(row),
+        }
+    }
+
     fn column(&self, name: &str) -> Option<&(String, SampleColumn)> {
         self.columns.iter().find(|(own, _)| own == name)
     }

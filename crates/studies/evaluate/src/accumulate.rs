@@ -6,7 +6,7 @@ use std::ops::Range;
 use taceva_core::{Batch, Column, Field, Labels};
 use taceva_dataset::Dataset;
 use taceva_dataset::internal::each_part;
-use taceva_metrics::{ClusteredBy, Evaluator, MetricPlan};
+use taceva_metrics::{ClusteredBy, Evaluator, Metric, MetricPlan};
 
 use crate::error::EvaluateError;
 use crate::recordings;
@@ -62,6 +62,34 @@ fn accumulate_block(
         evaluator.update(&source.batch(plan, start..end)?)?;
     }
     Ok(evaluator)
+}
+
+/// The plan with fewer metrics. Its states merge with those of the whole plan.
+///
+/// # Errors
+/// [`EvaluateError::Scores`] for an unusable constant or setting.
+pub(crate) fn restricted(
+    plan: &MetricPlan,
+    metrics: &[&'static Metric],
+) -> Result<MetricPlan, EvaluateError> {
+    let restricted = MetricPlan::new(metrics, plan.channels().clone(), plan.available())
+        .with_facts(plan.facts().clone())
+        .with_seed(plan.seed())
+        .with_interval_method(plan.interval_method())
+        .with_constants(plan.constants().clone())?
+        .with_settings(*plan.settings())?;
+    Ok(match plan.clustered_by() {
+        ClusteredBy::Recording => restricted.by_recording(),
+        ClusteredBy::Group => restricted.by_group(),
+        ClusteredBy::Sample => restricted.independent_samples(),
+        _ => restricted,
+    })
+}
+
+/// True if `metric` reads the truth alone, and so every row of a recording.
+pub(crate) fn reads_no_prediction(metric: &Metric) -> bool {
+    let fields = metric.needs.fields;
+    !fields.contains(Field::Prediction) && !fields.contains(Field::PredictedSpacing)
 }
 
 /// Truth and predictions in memory, column by column. The dataset holds the other fields of the same rows.

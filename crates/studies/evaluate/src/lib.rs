@@ -22,6 +22,7 @@ mod plan;
 mod predict;
 mod provenance;
 mod recordings;
+mod recount;
 mod report;
 mod rotation;
 mod row_ledger;
@@ -52,7 +53,7 @@ pub use evaluate::{
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
-pub use merge::merge;
+pub use merge::{merge, side_by_side};
 pub use neighbours::Resemblance;
 pub use note::{
     Coverage, Detection, Division, FewClusters, Independence, Learning, Neighbours, Note, PairedBy,
@@ -66,14 +67,15 @@ pub use predict::{
 };
 pub use provenance::{choices, model as model_provenance, of as provenance_of};
 pub use recordings::{depth_zeros, reduced};
+pub use recount::{Recount, recount_samples};
 pub use report::skipped;
 pub use row_ledger::Taken;
 pub use rows::{DataPart, Divided, Need, require_samples, usable};
-pub use run_layout::{PLANS, RECORDINGS};
+pub use run_layout::{PLANS, RECORDINGS, STATES};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
     Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, read_table,
-    score_in_one_pass,
+    recount_tables, score_in_one_pass,
 };
 pub use skill::{skill, with_skill};
 pub use state_file::{STATE_SCHEMA, StateFile};

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
-use taceva_metrics::Evaluator;
+use taceva_metrics::{Evaluation, Evaluator};
 
 use crate::assess::{Assessed, Context, FitFacts, ScoredRows, assess};
 use crate::error::EvaluateError;
@@ -12,14 +12,42 @@ use crate::row_ledger::{AllTaken, Taken};
 use crate::state_file::{ReadState, StateFile};
 use taceva_results::EvaluationReport;
 
+/// Scores of states of different plans side by side, such as those of the phases of a run. No sums are merged.
+///
+/// # Errors
+/// [`EvaluateError::State`] for a file that is no state of its plan; [`EvaluateError::Request`] without a file.
+pub fn side_by_side(paths: &[PathBuf]) -> Result<EvaluationReport, EvaluateError> {
+    let (mut parts, mut first) = (Vec::new(), None);
+    for path in paths {
+        let file = StateFile::read(path)?;
+        let mut evaluator = Evaluator::new(&file.plan.to_plan(path)?);
+        let merged = evaluator.merge_states(&file.states);
+        merged.map_err(|error| EvaluateError::State {
+            path: path.clone(),
+            problem: error.to_string(),
+        })?;
+        parts.push(file.finish(evaluator)?);
+        first.get_or_insert(file);
+    }
+    let first = first.ok_or_else(no_state)?;
+    let evaluation = Evaluation::joined(parts, Vec::new());
+    Ok(EvaluationReport::new(
+        first.subject,
+        &evaluation,
+        first.provenance,
+    ))
+}
+
+fn no_state() -> EvaluateError {
+    EvaluateError::Request("no state file is given: name at least one".to_owned())
+}
+
 /// Scores of several states together, and the merged state.
 ///
 /// # Errors
 /// [`EvaluateError::State`] with the first file that does not match the first state; [`EvaluateError::Request`] without a file.
 pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), EvaluateError> {
-    let (first_path, rest) = paths.split_first().ok_or_else(|| {
-        EvaluateError::Request("no state file is given: name at least one".to_owned())
-    })?;
+    let (first_path, rest) = paths.split_first().ok_or_else(no_state)?;
     let mut all_taken = AllTaken::default();
     let ReadState {
         file: first,

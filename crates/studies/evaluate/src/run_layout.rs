@@ -4,3 +4,5 @@
 pub const PLANS: &str = "plans.json";
 /// Folder of the recordings, with one folder for each study.
 pub const RECORDINGS: &str = "recordings";
+/// Folder of the states behind the scores, whose names begin with the number of the study.
+pub const STATES: &str = "states";

@@ -9,6 +9,7 @@ mod likely_radians;
 mod one_pass;
 mod parquet_parts;
 mod period;
+mod recount;
 mod request;
 mod row_key;
 mod row_pairs;
@@ -47,6 +48,7 @@ use tables::Pairing;
 
 pub use one_pass::score_in_one_pass;
 pub use period::Period;
+pub use recount::recount_tables;
 pub use request::ScoreRequest;
 pub use row_key::RowKey;
 pub use shard::{Shard, ShardError};

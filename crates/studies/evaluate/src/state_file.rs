@@ -57,11 +57,11 @@ pub(crate) struct ReadState {
 }
 
 impl StateFile {
-    /// State of `evaluator`.
+    /// State of `evaluator`, without the rows that it has counted.
     ///
     /// # Errors
     /// [`EvaluateError::Scores`] for collected samples that it rejects.
-    pub(crate) fn of(
+    pub fn of(
         evaluator: &mut Evaluator,
         subject: &Subject,
         provenance: &Provenance,

@@ -59,6 +59,7 @@ pub fn run_scene(
             cache: setup.cache_of(study, number),
             models: setup.models,
             checkpoint: &folder.checkpoint(number, &study.plan.name),
+            states: &folder.states(number, &study.plan.name),
         };
         assess(scene, study, dataset, context)
     });

@@ -5,18 +5,22 @@ mod gratings;
 mod phase_rows;
 mod score;
 
+use std::io;
+use std::path::Path;
+
 use taceva_dataset::{Dataset, RecordedSessions, frame_retries};
+use taceva_files::{parent_of, replace};
 use taceva_metrics::Evaluation;
 use taceva_models::{Checkpoints, Model};
 use taceva_protocol::PhaseKind;
 
 use taceva_acquire::{PlannedScene, PlannedStudy};
-use taceva_evaluate::EvaluateError;
 use taceva_evaluate::{
     Bounded, Context, Note, ScoredRows, calibration, choices, depth_zeros, reduced,
 };
 use taceva_evaluate::{CachedStage, Key};
 use taceva_evaluate::{DataPart, Divided, Need, usable};
+use taceva_evaluate::{EvaluateError, StateFile};
 use taceva_evaluate::{FitPlan, FitRequest, Recipe};
 use taceva_evaluate::{Predicted, Predictor, Target, predicted_numbers, predicted_table};
 use taceva_evaluate::{
@@ -30,7 +34,7 @@ use crate::models::{classifier, fit_request, model_file};
 pub(crate) use context::RunContext;
 use gratings::PredictedSpacings;
 use phase_rows::{PhaseRows, seen};
-use score::{Scores, score};
+use score::{Scores, StudyScores, score};
 
 /// Report of `study` with the recording `dataset`.
 pub(crate) fn assess(
@@ -69,13 +73,22 @@ pub(crate) fn assess(
             jobs: context.work.jobs,
         })
     };
-    let (evaluation, mut notes) = scores_of(predicted.as_ref())?;
+    let StudyScores {
+        evaluation,
+        mut notes,
+        states,
+    } = scores_of(predicted.as_ref())?;
+    for (number, state) in states.iter().enumerate() {
+        let mut name = context.states.as_os_str().to_owned();
+        name.push(format!(".{number}.json"));
+        write_state(state, Path::new(&name))?;
+    }
     let mut others = Vec::new();
     for seed in scene.seeds.iter().skip(1) {
         let learnt = Learnt::new(scene, study, dataset, &phase_rows, context, Some(*seed))?;
         if let Some(learnt) = learnt {
             let predicted = learnt.predict(study, dataset, &phase_rows, context)?;
-            others.push(scores_of(Some(&predicted))?.0);
+            others.push(scores_of(Some(&predicted))?.evaluation);
         }
     }
     let over_seeds = (!others.is_empty()).then(|| {
@@ -143,6 +156,21 @@ pub(crate) fn assess(
     };
     let rows = ScoredRows::Finished(Box::new(evaluation));
     Ok(taceva_evaluate::assess(rows, beyond, context)?.report)
+}
+
+/// Writes the state of a group of rows, for bundles of the run.
+fn write_state(state: &StateFile, path: &Path) -> Result<(), StudyError> {
+    let failed = |error: io::Error| StudyError::RunFolder {
+        path: path.to_owned(),
+        problem: error.to_string(),
+    };
+    std::fs::create_dir_all(parent_of(path)).map_err(failed)?;
+    replace(path, |staged| -> io::Result<()> {
+        let mut text = Vec::new();
+        state.write(&mut text)?;
+        std::fs::write(staged, text)
+    })
+    .map_err(failed)
 }
 
 /// Model of a study, and the split of its fit.

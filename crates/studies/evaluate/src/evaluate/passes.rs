@@ -3,11 +3,11 @@
 use std::num::NonZeroUsize;
 use std::ops::Range;
 
-use taceva_core::{Column, Field};
+use taceva_core::Column;
 use taceva_dataset::Dataset;
-use taceva_metrics::{ClusteredBy, Evaluation, Evaluator, Metric, MetricPlan};
+use taceva_metrics::{Evaluation, Evaluator, Metric, MetricPlan};
 
-use crate::accumulate::{Columns, accumulate};
+use crate::accumulate::{Columns, accumulate, reads_no_prediction, restricted};
 use crate::error::EvaluateError;
 use crate::note::Note;
 use crate::predict::{Predicted, truth};
@@ -68,7 +68,7 @@ impl<'a> Passes<'a> {
                 rows,
                 groups: self.groups,
             };
-            let plan = self.restricted(metrics)?;
+            let plan = restricted(self.plan, metrics)?;
             total.merge(accumulate(&columns, &plan, jobs)?)?;
         }
         if !self.of_truth.is_empty() {
@@ -86,7 +86,7 @@ impl<'a> Passes<'a> {
                 rows: &rows,
                 groups: self.groups,
             };
-            let plan = self.restricted(&self.of_truth)?;
+            let plan = restricted(self.plan, &self.of_truth)?;
             total.merge(accumulate(&columns, &plan, jobs)?)?;
         }
         Ok(total)
@@ -107,7 +107,7 @@ impl<'a> Passes<'a> {
         };
         let truth = slice(predicted.truth());
         let metrics = [&self.of_predictions[..], &self.of_unbounded].concat();
-        let mut total = Evaluator::new(&self.restricted(&metrics)?);
+        let mut total = Evaluator::new(&restricted(self.plan, &metrics)?);
         for (metrics, prediction) in [
             (&self.of_predictions, predicted.prediction()),
             (&self.of_unbounded, predicted.unbounded()),
@@ -119,7 +119,7 @@ impl<'a> Passes<'a> {
                 rows: &rows[own.clone()],
                 groups: self.groups,
             };
-            let plan = self.restricted(metrics)?;
+            let plan = restricted(self.plan, metrics)?;
             total.merge(accumulate(&columns, &plan, jobs)?)?;
         }
         let evaluation = total.finish()?;
@@ -133,26 +133,4 @@ impl<'a> Passes<'a> {
         let rows = dataset.table().rows();
         (!metrics.is_empty() && reads_predictions).then_some(Note::EveryRow { metrics, rows })
     }
-
-    /// The plan with fewer metrics. Its states merge with those of the whole plan.
-    fn restricted(&self, metrics: &[&'static Metric]) -> Result<MetricPlan, EvaluateError> {
-        let plan = self.plan;
-        let restricted = MetricPlan::new(metrics, plan.channels().clone(), plan.available())
-            .with_facts(plan.facts().clone())
-            .with_seed(plan.seed())
-            .with_interval_method(plan.interval_method())
-            .with_constants(plan.constants().clone())?
-            .with_settings(*plan.settings())?;
-        Ok(match plan.clustered_by() {
-            ClusteredBy::Recording => restricted.by_recording(),
-            ClusteredBy::Group => restricted.by_group(),
-            ClusteredBy::Sample => restricted.independent_samples(),
-            _ => restricted,
-        })
-    }
-}
-
-fn reads_no_prediction(metric: &Metric) -> bool {
-    let fields = metric.needs.fields;
-    !fields.contains(Field::Prediction) && !fields.contains(Field::PredictedSpacing)
 }

@@ -11,7 +11,7 @@ use taceva_files::{Staged, clear_leftovers, parent_of, sync_folder};
 use taceva_models::Checkpoints;
 
 use taceva_acquire::PlannedScene;
-use taceva_evaluate::{PLANS, RECORDINGS};
+use taceva_evaluate::{PLANS, RECORDINGS, STATES};
 
 use super::layout::{FIGURES, REPORTS, SCENE, STAGES};
 use crate::error::StudyError;
@@ -66,7 +66,7 @@ impl RunFolder {
         let (is_run, is_there) = (path.join(PLANS).exists(), path.exists());
         match existing {
             Existing::Resume if folder.is_begun(scene)? => {
-                for written in ["", REPORTS, FIGURES, RECORDINGS] {
+                for written in ["", REPORTS, FIGURES, RECORDINGS, STATES] {
                     clear_leftovers(&path.join(written));
                 }
                 return Ok(folder);
@@ -130,6 +130,12 @@ impl RunFolder {
         self.path.join(name)
     }
 
+    /// Beginning of the names of the state files of study `number`, counted from 0.
+    pub(crate) fn states(&self, number: usize, study: &str) -> PathBuf {
+        let name = format!("{}-{}", number + 1, slug(study));
+        self.path.join(STATES).join(name)
+    }
+
     /// Removes the files that only a resumed run needs. Call it after the reports are written.
     ///
     /// # Errors
@@ -149,7 +155,7 @@ impl RunFolder {
     /// Removes the folder of a run that recorded nothing, so that the command can be repeated after its error is fixed. Returns true if it was
     /// removed.
     pub fn remove_if_untouched(&self) -> bool {
-        let is_untouched = [RECORDINGS, REPORTS, FIGURES]
+        let is_untouched = [RECORDINGS, REPORTS, FIGURES, STATES]
             .iter()
             .all(|inner| is_empty(&self.path.join(inner)).unwrap_or(false));
         is_untouched && fs::remove_dir_all(&self.path).is_ok()
@@ -187,7 +193,7 @@ fn is_empty(path: &Path) -> io::Result<bool> {
 fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
     fs::create_dir_all(parent_of(path))?;
     let staged = Staged::beside(path)?;
-    for inner in [RECORDINGS, REPORTS, FIGURES] {
+    for inner in [RECORDINGS, REPORTS, FIGURES, STATES] {
         fs::create_dir_all(staged.path().join(inner))?;
     }
     for (name, text) in [(SCENE, scene), (PLANS, plans)] {

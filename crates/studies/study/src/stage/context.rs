@@ -15,4 +15,6 @@ pub(crate) struct RunContext<'a> {
     pub(crate) models: &'a Models,
     /// Checkpoint file of a long training.
     pub(crate) checkpoint: &'a Path,
+    /// Beginning of the names of its state files.
+    pub(crate) states: &'a Path,
 }

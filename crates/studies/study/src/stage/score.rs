@@ -12,11 +12,11 @@ use taceva_protocol::{PhaseKind, PlanReason, Subject};
 use super::gratings::PredictedSpacings;
 use super::phase_rows::PhaseRows;
 use taceva_acquire::{PlannedScene, PlannedStudy};
-use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Note;
 use taceva_evaluate::skill;
+use taceva_evaluate::{Bounded, EvaluateError, StateFile};
 use taceva_evaluate::{Columns, Rows, accumulate};
-use taceva_evaluate::{Predicted, truth};
+use taceva_evaluate::{Predicted, provenance_of, subject_of, truth};
 
 /// Inputs of the scores.
 pub(super) struct Scores<'a> {
@@ -67,8 +67,17 @@ impl Within {
 /// parts of the protocol.
 const OF_SENSOR: &str = "intrinsic";
 
-/// Scores, and notes on omissions that a skip cannot express.
-pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<Note>), EvaluateError> {
+/// Scores of a study, with the sums behind them.
+pub(super) struct StudyScores {
+    pub(super) evaluation: Evaluation,
+    /// Notes on omissions that a skip cannot express.
+    pub(super) notes: Vec<Note>,
+    /// State of each group of rows.
+    pub(super) states: Vec<StateFile>,
+}
+
+/// Scores of all groups of rows.
+pub(super) fn score(scores: &Scores<'_>) -> Result<StudyScores, EvaluateError> {
     let mut groups: BTreeMap<ScoreGroup, Vec<&'static Metric>> = BTreeMap::new();
     for (planned, metric) in scores.phase_rows.metrics() {
         let group = ScoreGroup {
@@ -87,13 +96,24 @@ pub(super) fn score(scores: &Scores<'_>) -> Result<(Evaluation, Vec<Note>), Eval
         groups.entry(group).or_default().push(skill());
     }
     let (mut skipped, notes) = left_out(scores.study);
-    let mut parts = Vec::new();
+    let (mut parts, mut states) = (Vec::new(), Vec::new());
     for (group, metrics) in &groups {
-        let part = scores.on(group, metrics)?;
-        skipped.extend(part.skipped().iter().cloned());
-        parts.push(part);
+        let GroupScores { evaluation, state } = scores.on(group, metrics)?;
+        skipped.extend(evaluation.skipped().iter().cloned());
+        parts.push(evaluation);
+        states.push(state);
     }
-    Ok((Evaluation::joined(parts, skipped), notes))
+    Ok(StudyScores {
+        evaluation: Evaluation::joined(parts, skipped),
+        notes,
+        states,
+    })
+}
+
+/// Scores of one group of rows, and its state.
+struct GroupScores {
+    evaluation: Evaluation,
+    state: StateFile,
 }
 
 impl Scores<'_> {
@@ -101,12 +121,12 @@ impl Scores<'_> {
         &self,
         group: &ScoreGroup,
         metrics: &[&'static Metric],
-    ) -> Result<Evaluation, EvaluateError> {
+    ) -> Result<GroupScores, EvaluateError> {
         let channels = self.channels(group)?;
         let Taken {
             rows,
             prediction,
-            shares,
+            bounded,
         } = self.rows(group, &channels);
         let truth: Vec<Column> = channels
             .iter()
@@ -139,8 +159,12 @@ impl Scores<'_> {
             timed: group.of_sensor.then(|| self.phase_rows.rows(group.phase)),
             spacings: predicted_spacings.map(|predicted_spacings| &predicted_spacings.spacings),
         };
-        let evaluation = accumulate(&samples, &plan, self.jobs)?.finish()?;
-        Ok(evaluation.with_bounded_shares(&shares))
+        let mut evaluator = accumulate(&samples, &plan, self.jobs)?;
+        let shares = bounded.shares();
+        let (subject, provenance) = (subject_of(self.dataset), provenance_of(self.dataset));
+        let state = StateFile::of(&mut evaluator, &subject, &provenance, bounded)?;
+        let evaluation = evaluator.finish()?.with_bounded_shares(&shares);
+        Ok(GroupScores { evaluation, state })
     }
 
     /// Group that shows the skill of the model: the unseen presses of the calibration. If there are none, the part of the protocol with the most
@@ -193,7 +217,7 @@ impl Scores<'_> {
             return Taken {
                 rows,
                 prediction: vec![nothing; channels.len()],
-                shares: BTreeMap::new(),
+                bounded: Bounded::default(),
             };
         };
         let of_model = match within {
@@ -214,7 +238,7 @@ impl Scores<'_> {
         };
         Taken {
             prediction: channels.iter().map(column).collect(),
-            shares: predicted.bounded(positions.iter().copied()).shares(),
+            bounded: predicted.bounded(positions.iter().copied()),
             rows,
         }
     }
@@ -225,8 +249,8 @@ struct Taken {
     rows: Vec<usize>,
     /// Their predictions, channel by channel.
     prediction: Vec<Column>,
-    /// Share of the predictions of each channel beyond the bounds of the model.
-    shares: BTreeMap<String, f64>,
+    /// Predictions of each channel beyond the bounds of the model.
+    bounded: Bounded,
 }
 
 /// Rows with their predicted spacings, if any.

@@ -1,0 +1,182 @@
+//! A bundle as one file: `.tar.gz` with sorted names, zero times and no owner.
+
+use std::cell::Cell;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::path::Path;
+use std::rc::Rc;
+
+use flate2::Compression;
+use flate2::read::MultiGzDecoder;
+use flate2::write::GzEncoder;
+use tar::{Archive, Builder, EntryType, Header};
+
+use crate::error::{BundleError, Damage};
+use crate::layout::{GROWTH, GROWTH_BYTES};
+use crate::name::{self, check_amount, check_case};
+
+/// Rule of entries.
+const ENTRIES: &str = "a packed bundle holds regular files alone";
+
+/// Packs the files `names`, ascending, of the folder `root` into a new file at `path`. Equal files give equal bytes.
+///
+/// # Errors
+/// [`io::Error`] if a file cannot be read or written.
+pub(crate) fn pack(root: &Path, names: &[String], path: &Path) -> io::Result<()> {
+    let file = BufWriter::new(File::create_new(path)?);
+    let mut archive = Builder::new(GzEncoder::new(file, Compression::best()));
+    for name in names {
+        let bytes = fs::read(root.join(name))?;
+        let mut header = Header::new_ustar();
+        header.set_path(name)?;
+        header.set_entry_type(EntryType::Regular);
+        header.set_size(bytes.len() as u64);
+        header.set_mode(0o644);
+        header.set_uid(0);
+        header.set_gid(0);
+        header.set_mtime(0);
+        header.set_cksum();
+        archive.append(&header, bytes.as_slice())?;
+    }
+    let mut file = archive.into_inner()?.finish()?;
+    file.flush()
+}
+
+/// Unpacks the bundle at `path` into the empty folder `into`. At most `most` bytes are unpacked, and no more than its size allows.
+///
+/// # Errors
+/// [`BundleError::Damaged`] for the first entry that is refused: a link, a device, a name that leads out or comes twice; for too many files
+/// or bytes, and for a file that is no `.tar.gz`.
+pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleError> {
+    let file = File::open(path).map_err(BundleError::file(path))?;
+    let about = file.metadata().map_err(BundleError::file(path))?;
+    if !about.is_file() {
+        let problem = "no regular file, expected a folder or a .tar.gz";
+        return Err(damaged(".", problem));
+    }
+    let allowed = about
+        .len()
+        .saturating_mul(GROWTH)
+        .saturating_add(GROWTH_BYTES);
+    let allowed = allowed.min(most);
+    let is_beyond = Rc::new(Cell::new(false));
+    let reader = Capped {
+        decoder: MultiGzDecoder::new(BufReader::new(file)),
+        left: allowed,
+        is_beyond: Rc::clone(&is_beyond),
+    };
+    unpack_all(Archive::new(reader), into, most).map_err(|fault| match fault {
+        Fault::Refused(error) => error,
+        Fault::Read(_) if is_beyond.get() => damaged(
+            ".",
+            &format!(
+                "more than {allowed} bytes unpacked, which is beyond the limit for a file of {} bytes",
+                about.len()
+            ),
+        ),
+        Fault::Read(error) => damaged(".", &format!("no whole .tar.gz: {error}")),
+    })
+}
+
+/// Reason why unpacking stopped.
+enum Fault {
+    Refused(BundleError),
+    Read(io::Error),
+}
+
+impl From<io::Error> for Fault {
+    fn from(error: io::Error) -> Fault {
+        Fault::Read(error)
+    }
+}
+
+impl From<BundleError> for Fault {
+    fn from(error: BundleError) -> Fault {
+        Fault::Refused(error)
+    }
+}
+
+fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<(), Fault> {
+    let mut names: Vec<String> = Vec::new();
+    let mut total = 0_u64;
+    // Reads raw entries, so entries that carry long names are refused too.
+    for entry in archive.entries()?.raw(true) {
+        let mut entry = entry?;
+        let name = String::from_utf8_lossy(&entry.path_bytes()).into_owned();
+        let kind = entry.header().entry_type();
+        let own = name.strip_prefix("./").unwrap_or(&name);
+        if kind == EntryType::Directory {
+            let folder = own.trim_end_matches('/');
+            if !folder.is_empty()
+                && let Some(fault) = name::fault(folder)
+            {
+                return Err(damaged(folder, &fault).into());
+            }
+            continue;
+        }
+        if let Some(fault) = name::fault(own) {
+            return Err(BundleError::Damaged(Damage::new(own, name::RULE, fault)).into());
+        }
+        if kind != EntryType::Regular {
+            let what = match kind {
+                EntryType::Symlink | EntryType::Link => "a link",
+                EntryType::XHeader | EntryType::XGlobalHeader | EntryType::GNULongName => {
+                    "a name or attributes too long for a header"
+                }
+                _ => "no regular file",
+            };
+            return Err(damaged(own, &format!("{what}, expected a regular file")).into());
+        }
+        let size = entry.header().size()?;
+        total = total.saturating_add(size);
+        names.push(own.to_owned());
+        check_amount(names.len(), total, most)?;
+        let path = into.join(own);
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).map_err(BundleError::file(folder))?;
+        }
+        let created = OpenOptions::new().write(true).create_new(true).open(&path);
+        let mut file = match created {
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
+                return Err(damaged(own, "it comes twice, expected once").into());
+            }
+            created => created.map_err(BundleError::file(&path))?,
+        };
+        let copied = io::copy(&mut entry, &mut file)?;
+        if copied != size {
+            return Err(damaged(own, &format!("{copied} bytes, expected {size}")).into());
+        }
+    }
+    check_case(names.iter())?;
+    // The checksum of the packed bytes follows their end.
+    io::copy(&mut archive.into_inner(), &mut io::sink())?;
+    Ok(())
+}
+
+fn damaged(path: &str, problem: &str) -> BundleError {
+    BundleError::Damaged(Damage::new(path, ENTRIES, problem))
+}
+
+/// Packed bytes, unpacked up to a limit.
+struct Capped {
+    decoder: MultiGzDecoder<BufReader<File>>,
+    left: u64,
+    is_beyond: Rc<Cell<bool>>,
+}
+
+impl Read for Capped {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        let read = self.decoder.read(into)?;
+        match self.left.checked_sub(read as u64) {
+            Some(left) => self.left = left,
+            None => {
+                self.is_beyond.set(true);
+                return Err(io::Error::other("too many bytes"));
+            }
+        }
+        Ok(read)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,145 @@
+//! Whole packed bundles, and forged ones.
+
+use super::*;
+
+/// Entry of a forged archive.
+struct Forged<'a> {
+    name: &'a str,
+    kind: EntryType,
+    bytes: &'a [u8],
+}
+
+fn plain<'a>(name: &'a str, bytes: &'a [u8]) -> Forged<'a> {
+    Forged {
+        name,
+        kind: EntryType::Regular,
+        bytes,
+    }
+}
+
+/// Writes an archive of `entries` without checking their names.
+fn forge(path: &Path, entries: &[Forged<'_>]) {
+    let file = File::create(path).expect("room");
+    let mut archive = Builder::new(GzEncoder::new(file, Compression::fast()));
+    for entry in entries {
+        let mut header = Header::new_ustar();
+        header.as_old_mut().name[..entry.name.len()].copy_from_slice(entry.name.as_bytes());
+        header.set_entry_type(entry.kind);
+        header.set_size(entry.bytes.len() as u64);
+        if entry.kind == EntryType::Symlink {
+            header.set_link_name("/etc/passwd").expect("short");
+        }
+        header.set_cksum();
+        archive.append(&header, entry.bytes).expect("room");
+    }
+    let packed = archive.into_inner().expect("room");
+    packed.finish().expect("room");
+}
+
+/// Outcome of unpacking a forged archive, in words.
+fn unpacked(entries: &[Forged<'_>]) -> Result<(), String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("b.tar.gz");
+    forge(&path, entries);
+    let into = folder.path().join("into");
+    fs::create_dir(&into).expect("made");
+    let outcome = unpack(&path, &into, u64::MAX).map_err(|error| error.to_string());
+    let beside = fs::read_dir(folder.path()).expect("readable").count();
+    assert_eq!(beside, 2, "something was written beside the folder");
+    outcome
+}
+
+#[track_caller]
+fn refused(entries: &[Forged<'_>], words: &str) {
+    let why = unpacked(entries).expect_err("it must be refused");
+    assert!(why.contains(words), "{why}");
+}
+
+#[test]
+fn what_is_packed_is_unpacked_and_equal_files_give_equal_bytes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let root = folder.path().join("root");
+    fs::create_dir_all(root.join("states")).expect("made");
+    fs::write(root.join("bundle.json"), "{}").expect("room");
+    fs::write(root.join("states/0.json"), "[1]").expect("room");
+    let names = ["bundle.json", "states/0.json"].map(str::to_owned);
+    let one = folder.path().join("one.tar.gz");
+    let other = folder.path().join("other.tar.gz");
+    pack(&root, &names, &one).expect("packed");
+    pack(&root, &names, &other).expect("packed");
+    assert_eq!(
+        fs::read(&one).expect("there"),
+        fs::read(&other).expect("there")
+    );
+    let into = folder.path().join("into");
+    fs::create_dir(&into).expect("made");
+    unpack(&one, &into, u64::MAX).expect("unpacked");
+    assert_eq!(fs::read(into.join("states/0.json")).expect("there"), b"[1]");
+}
+
+#[test]
+fn links_devices_and_paths_that_lead_out_are_refused() {
+    for kind in [EntryType::Symlink, EntryType::Link, EntryType::Fifo] {
+        let entry = Forged {
+            name: "x",
+            kind,
+            bytes: b"",
+        };
+        refused(&[entry], "expected a regular file");
+    }
+    for name in ["../x", "a/../../x", "/etc/x", "a//x"] {
+        refused(&[plain(name, b"1")], "leads out of the bundle");
+    }
+}
+
+#[test]
+fn names_that_come_twice_or_differ_in_case_alone_are_refused() {
+    refused(&[plain("a", b"1"), plain("a", b"2")], "it comes twice");
+    refused(
+        &[plain("a.json", b"1"), plain("A.json", b"2")],
+        "but for case",
+    );
+}
+
+#[test]
+fn a_file_of_many_zeros_ends_at_the_limit_for_its_size() {
+    let zeros = vec![0; 200 << 20];
+    refused(&[plain("zeros", &zeros)], "which is beyond the limit");
+}
+
+#[test]
+fn too_many_files_are_refused() {
+    let names: Vec<String> = (0..=crate::layout::MOST_FILES)
+        .map(|at| at.to_string())
+        .collect();
+    let entries: Vec<Forged<'_>> = names.iter().map(|name| plain(name, b"")).collect();
+    refused(&entries, "more than 4096 files");
+}
+
+#[test]
+fn every_cut_is_refused_and_a_damaged_byte_changes_no_content_unnoticed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("b.tar.gz");
+    let content = b"[1, 2, 3]";
+    forge(&path, &[plain("bundle.json", content)]);
+    let whole = fs::read(&path).expect("there");
+    let tried = |bytes: &[u8], number: usize| {
+        let path = folder.path().join("damaged.tar.gz");
+        fs::write(&path, bytes).expect("room");
+        let into = folder.path().join(number.to_string());
+        fs::create_dir(&into).expect("made");
+        let outcome = unpack(&path, &into, u64::MAX);
+        outcome.map(|()| fs::read(into.join("bundle.json")).unwrap_or_default())
+    };
+    for cut in 1..whole.len() {
+        assert!(tried(&whole[..cut], cut).is_err(), "cut at {cut}");
+    }
+    // Some bits are of no meaning: the time in the header of gzip, and those after the last block.
+    for place in 0..whole.len() {
+        let mut damaged = whole.clone();
+        damaged[place] ^= 0x10;
+        if let Ok(found) = tried(&damaged, whole.len() + place) {
+            assert_eq!(found, content, "byte {place}");
+        }
+    }
+}

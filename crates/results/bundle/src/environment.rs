@@ -1,0 +1,48 @@
+//! The machine and the program that made a bundle.
+
+use std::num::NonZeroUsize;
+
+use serde::{Deserialize, Serialize};
+use taceva_core::Isa;
+use taceva_results::EvaluationReport;
+
+/// Schema of `environment.json`.
+pub(crate) const ENVIRONMENT_SCHEMA: &str = "taceva.environment/1";
+
+/// Content of `environment.json`. It names neither the host nor its user.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Environment {
+    pub(crate) schema: String,
+    /// Version of the program.
+    pub(crate) taceva: String,
+    /// Operating system: `linux`.
+    pub(crate) os: String,
+    /// Processor: `x86_64`.
+    pub(crate) arch: String,
+    /// Instruction sets that the program can use here, the fastest first.
+    pub(crate) instruction_sets: Vec<String>,
+    /// Number of threads. No result depends on it.
+    pub(crate) threads: usize,
+    /// Plugins behind the results, as they name them.
+    pub(crate) plugins: Vec<String>,
+}
+
+impl Environment {
+    /// This machine, and the plugins behind `reports`.
+    pub(crate) fn here(reports: &[EvaluationReport], jobs: NonZeroUsize) -> Environment {
+        let plugins = reports.iter().flat_map(|report| &report.provenance.plugins);
+        let mut plugins: Vec<String> = plugins.cloned().collect();
+        plugins.sort();
+        plugins.dedup();
+        let sets = Isa::available();
+        Environment {
+            schema: ENVIRONMENT_SCHEMA.to_owned(),
+            taceva: env!("CARGO_PKG_VERSION").to_owned(),
+            os: std::env::consts::OS.to_owned(),
+            arch: std::env::consts::ARCH.to_owned(),
+            instruction_sets: sets.iter().map(|set| set.name().to_owned()).collect(),
+            threads: jobs.get(),
+            plugins,
+        }
+    }
+}

@@ -1,0 +1,296 @@
+//! Form of a bundle: its files against the manifest, schemas, seals, and generated files.
+
+use std::collections::BTreeSet;
+use std::num::NonZeroUsize;
+
+use taceva_evaluate::StateFile;
+use taceva_results::EvaluationReport;
+
+use crate::card;
+use crate::environment::{ENVIRONMENT_SCHEMA, Environment};
+use crate::error::{BundleError, Damage};
+use crate::layout::{ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES};
+use crate::manifest::{Manifest, StudyFiles, badge_of, source_of};
+use crate::name;
+use crate::sample_digest::{SAMPLES_SCHEMA, SampleDigest, StudySamples};
+use crate::source::Source;
+
+/// Most findings of damage that are listed.
+const MOST_DAMAGE: usize = 50;
+
+/// Differences of the files from the manifest, byte for byte.
+///
+/// # Errors
+/// [`BundleError::File`] for a file that cannot be read.
+pub(crate) fn files(source: &Source, manifest: &Manifest) -> Result<Vec<Damage>, BundleError> {
+    let mut damage = Vec::new();
+    let mut listed: BTreeSet<&str> = BTreeSet::from([MANIFEST]);
+    for file in &manifest.files {
+        if damage.len() >= MOST_DAMAGE {
+            return Ok(damage);
+        }
+        let mut add = |rule, problem: String| damage.push(Damage::new(&file.path, rule, problem));
+        if let Some(fault) = name::fault(&file.path) {
+            add(name::RULE, fault);
+            continue;
+        }
+        if !listed.insert(&file.path) {
+            add(
+                "the manifest lists each file once",
+                "it is listed twice".to_owned(),
+            );
+            continue;
+        }
+        let Some(size) = source.files().get(&file.path) else {
+            add("every listed file is there", "it is missing".to_owned());
+            continue;
+        };
+        if *size != file.size {
+            let problem = format!("{size} bytes, expected {}", file.size);
+            add("sizes are those of the manifest", problem);
+            continue;
+        }
+        let found = source.digest(&file.path)?;
+        if found != file.sha256 {
+            let problem = format!("SHA-256 {found}, expected {}", file.sha256);
+            add("digests are those of the manifest", problem);
+        }
+    }
+    let extra = source
+        .files()
+        .keys()
+        .filter(|name| !listed.contains(name.as_str()));
+    for name in extra.take(MOST_DAMAGE) {
+        let problem = "bundle.json does not list it; remove it, or make the bundle again";
+        damage.push(Damage::new(name, "nothing is added", problem));
+    }
+    Ok(damage)
+}
+
+/// Results of the bundle.
+///
+/// # Errors
+/// The damage that keeps the results from being read.
+pub(crate) fn results(source: &Source) -> Result<Vec<EvaluationReport>, Damage> {
+    let text = source.text(RESULTS, MOST_TEXT)?;
+    taceva_results::read(&text).map_err(|error| {
+        Damage::new(
+            RESULTS,
+            "results have their schema and seal",
+            error.to_string(),
+        )
+    })
+}
+
+/// Faults of the form of a bundle whose files are those of its manifest.
+///
+/// # Errors
+/// [`BundleError::File`] for a file that cannot be read.
+pub(crate) fn form(
+    source: &Source,
+    manifest: &Manifest,
+    reports: &[EvaluationReport],
+    jobs: NonZeroUsize,
+) -> Result<Vec<Damage>, BundleError> {
+    let mut damage = Vec::new();
+    damage.extend(studies(source, manifest, reports));
+    damage.extend(origin(manifest, reports));
+    if !damage.is_empty() {
+        return Ok(damage);
+    }
+    damage.extend(environment(source).err());
+    damage.extend(samples(source, manifest, reports, jobs)?);
+    let headers = manifest
+        .files
+        .iter()
+        .filter(|file| file.role == HEADER_ROLE);
+    damage.extend(headers.filter_map(|file| header(source, &file.path).err()));
+    // Another version may write these texts in other words.
+    if manifest.taceva == env!("CARGO_PKG_VERSION") {
+        let mut restored = manifest.clone();
+        for claim in &mut restored.claims {
+            // A claim that was edited in the manifest alone is found by its number.
+            *claim = claim.as_in(&reports[claim.study]);
+        }
+        for (name, expected) in card::texts(&restored) {
+            let rule = "generated files are what bundle.json and results.json give";
+            match source.text(name, MOST_TEXT) {
+                Ok(found) if found == expected => {}
+                Ok(_) => damage.push(Damage::new(name, rule, "it has another text")),
+                Err(own) => damage.push(own),
+            }
+        }
+    }
+    Ok(damage)
+}
+
+/// Faults of the files behind studies.
+fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -> Vec<Damage> {
+    let rule = "each study of the results has its files";
+    if manifest.studies.len() != reports.len() {
+        let problem = format!(
+            "{} in bundle.json, {} in results.json",
+            manifest.studies.len(),
+            reports.len()
+        );
+        return vec![Damage::new(MANIFEST, rule, problem)];
+    }
+    let scores: usize = reports.iter().map(|report| report.scores.len()).sum();
+    if scores.max(manifest.claims.len()) > MOST_CLAIMS {
+        let problem = format!(
+            "{scores} scores and {} claims, expected at most {MOST_CLAIMS}",
+            manifest.claims.len()
+        );
+        return vec![Damage::new(MANIFEST, rule, problem)];
+    }
+    let mut damage = Vec::new();
+    for (files, report) in manifest.studies.iter().zip(reports) {
+        let unlisted = names(files).find(|name| !source.files().contains_key(*name));
+        if let Some(name) = unlisted {
+            damage.push(Damage::new(name, rule, "it is missing"));
+            continue;
+        }
+        for name in &files.states {
+            let rule = "states have their schema and seal";
+            match source.size(name, MOST_TEXT) {
+                Err(own) => damage.push(own),
+                Ok(_) => {
+                    if let Err(error) = StateFile::read(&source.path(name)) {
+                        damage.push(Damage::new(name, rule, error.to_string()));
+                    }
+                }
+            }
+        }
+        let digest = report.provenance.samples_table.as_ref();
+        let listed = |name: &&String| {
+            let mut listed = manifest.files.iter();
+            listed.any(|file| file.path == **name && Some(&file.sha256) != digest)
+        };
+        if let Some(name) = files.samples.as_ref().filter(listed) {
+            let rule = "the table of samples is that of the results";
+            let problem = format!(
+                "another digest than `samples_table` of results.json: {}",
+                digest.map_or("none", String::as_str)
+            );
+            damage.push(Damage::new(name, rule, problem));
+        }
+    }
+    if manifest
+        .claims
+        .iter()
+        .any(|claim| claim.study >= reports.len())
+    {
+        damage.push(Damage::new(
+            MANIFEST,
+            rule,
+            "a claim names a study that is not there",
+        ));
+    }
+    damage
+}
+
+/// Names of the files behind a study.
+pub(crate) fn names(files: &StudyFiles) -> impl Iterator<Item = &String> {
+    let tables = files.tables.iter();
+    let tables = tables.flat_map(|tables| [&tables.truth, &tables.prediction]);
+    files.states.iter().chain(tables).chain(&files.samples)
+}
+
+/// A manifest that states another origin than the results.
+fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
+    let (source, badge) = (source_of(reports), badge_of(reports));
+    let is_same = manifest.source == source && manifest.badge == badge;
+    (!is_same).then(|| {
+        let problem = format!(
+            "origin `{}` with the badge `{}`, expected `{source}` and `{}`",
+            manifest.source,
+            manifest.badge.as_deref().unwrap_or("none"),
+            badge.as_deref().unwrap_or("none"),
+        );
+        Damage::new(
+            MANIFEST,
+            "the origin of samples is that of the results",
+            problem,
+        )
+    })
+}
+
+/// Fault of the header of a dataset.
+fn header(source: &Source, name: &str) -> Result<(), Damage> {
+    let text = source.text(name, MOST_TEXT)?;
+    match taceva_files::seal::toml_text::check(&text) {
+        Ok(_) => Ok(()),
+        Err(error) => {
+            let rule = "headers of datasets have their seal";
+            Err(Damage::new(name, rule, error.to_string()))
+        }
+    }
+}
+
+fn environment(source: &Source) -> Result<(), Damage> {
+    let rule = "environment.json has its schema";
+    let text = source.text(ENVIRONMENT, MOST_TEXT)?;
+    let found: Environment = serde_json::from_str(&text)
+        .map_err(|error| Damage::new(ENVIRONMENT, rule, error.to_string()))?;
+    match found.schema == ENVIRONMENT_SCHEMA {
+        true => Ok(()),
+        false => {
+            let problem = format!("schema `{}`, expected `{ENVIRONMENT_SCHEMA}`", found.schema);
+            Err(Damage::new(ENVIRONMENT, rule, problem))
+        }
+    }
+}
+
+/// Faults of the digest of samples.
+fn samples(
+    source: &Source,
+    manifest: &Manifest,
+    reports: &[EvaluationReport],
+    jobs: NonZeroUsize,
+) -> Result<Option<Damage>, BundleError> {
+    let rule = "samples.json is the digest of the samples";
+    let refused = |problem: String| Ok(Some(Damage::new(SAMPLES, rule, problem)));
+    let text = match source.text(SAMPLES, MOST_TEXT) {
+        Ok(text) => text,
+        Err(damage) => return Ok(Some(damage)),
+    };
+    let found: SampleDigest = match serde_json::from_str(&text) {
+        Ok(found) => found,
+        Err(error) => return refused(error.to_string()),
+    };
+    if found.schema != SAMPLES_SCHEMA || found.digest != manifest.samples_digest {
+        return refused(format!(
+            "schema `{}` and digest {}, expected `{SAMPLES_SCHEMA}` and {}",
+            found.schema, found.digest, manifest.samples_digest
+        ));
+    }
+    if found.studies.len() != reports.len() || SampleDigest::of(found.studies.clone()) != found {
+        return refused("its digest is not that of its studies".to_owned());
+    }
+    for ((files, report), stated) in manifest.studies.iter().zip(reports).zip(&found.studies) {
+        let Some(table) = sample_table(files) else {
+            let is_withheld = stated.by == "samples" && !manifest.withheld.is_empty();
+            if !is_withheld && *stated != StudySamples::of_provenance(report) {
+                return refused("without a table it names the provenance".to_owned());
+            }
+            continue;
+        };
+        let again = match StudySamples::of_table(&source.path(table), jobs) {
+            Ok(again) => again,
+            Err(error) => return refused(error.to_string()),
+        };
+        if again != *stated {
+            return refused(format!(
+                "{} of {table}, expected {}",
+                again.digest, stated.digest
+            ));
+        }
+    }
+    Ok(None)
+}
+
+/// Table whose rows are the samples of a study.
+pub(crate) fn sample_table(files: &StudyFiles) -> Option<&str> {
+    let truth = files.tables.as_ref().map(|tables| tables.truth.as_str());
+    truth.or(files.samples.as_deref())
+}

@@ -1,0 +1,231 @@
+//! Files behind results, as a run, an evaluation or a score left them.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use taceva_evaluate::{RECORDINGS, STATES};
+use taceva_files::parent_of;
+use taceva_results::EvaluationReport;
+
+use crate::error::BundleError;
+use crate::layout::{HEADER, MOST_TABLE, MOST_TEXT, RESULTS, TEXTS};
+use crate::request::{BundleRequest, ScoredTables};
+use crate::source::digest_of;
+
+/// Folder of the reports of a run, with the tables of samples.
+const REPORTS: &str = "reports";
+
+/// Results with the files behind them.
+pub(crate) struct Inputs {
+    /// Path of the results.
+    pub(crate) path: PathBuf,
+    /// Text of the results.
+    pub(crate) text: String,
+    pub(crate) reports: Vec<EvaluationReport>,
+    /// Files of each study.
+    pub(crate) studies: Vec<StudyInputs>,
+    /// Texts, by their names in the bundle.
+    pub(crate) texts: BTreeMap<String, String>,
+    /// Headers of datasets.
+    pub(crate) headers: Vec<String>,
+}
+
+/// Files of one study.
+#[derive(Default)]
+pub(crate) struct StudyInputs {
+    pub(crate) states: Vec<PathBuf>,
+    pub(crate) tables: Option<ScoredTables>,
+    pub(crate) samples: Option<PathBuf>,
+}
+
+impl Inputs {
+    /// Files behind the results of `request`.
+    ///
+    /// # Errors
+    /// [`BundleError`] if a file cannot be read, or does not belong to the results.
+    pub(crate) fn find(request: &BundleRequest) -> Result<Inputs, BundleError> {
+        let run = request.result.is_dir().then_some(request.result.as_path());
+        let path = run.map_or_else(|| request.result.clone(), |run| run.join(RESULTS));
+        let text = text(&path)?;
+        let reports = taceva_results::read(&text).map_err(|source| BundleError::Results {
+            path: path.clone(),
+            source,
+        })?;
+        let studies = studies(request, run, &path, &reports)?;
+        let mut texts = BTreeMap::new();
+        let of_run = run
+            .map(|run| run.join(TEXTS[0]))
+            .filter(|scene| scene.is_file());
+        for from in of_run.iter().chain(&request.texts) {
+            let name = from
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
+            if !TEXTS.contains(&name.as_str()) {
+                let problem = format!("expected a file called {}", TEXTS.join(", "));
+                return Err(BundleError::input(from, problem));
+            }
+            texts.insert(name, self::text(from)?);
+        }
+        Ok(Inputs {
+            headers: headers(request, run, &reports)?,
+            path,
+            text,
+            reports,
+            studies,
+            texts,
+        })
+    }
+}
+
+/// Files of each study.
+fn studies(
+    request: &BundleRequest,
+    run: Option<&Path>,
+    path: &Path,
+    reports: &[EvaluationReport],
+) -> Result<Vec<StudyInputs>, BundleError> {
+    let are_given = !request.states.is_empty() || request.tables.is_some();
+    if are_given && reports.len() != 1 {
+        let problem = format!(
+            "it has {} studies, and states and tables are given for one: name the result of one study",
+            reports.len()
+        );
+        return Err(BundleError::input(path, problem));
+    }
+    let folder = run.map_or_else(|| parent_of(path).to_owned(), |run| run.join(REPORTS));
+    let wanted = reports
+        .iter()
+        .filter_map(|report| report.provenance.samples_table.as_ref());
+    let wanted: Vec<&String> = wanted.collect();
+    let known = match wanted.is_empty() {
+        true => BTreeMap::new(),
+        false => tables_in(&folder, &wanted)?,
+    };
+    let of_run = match run
+        .map(|run| run.join(STATES))
+        .filter(|folder| folder.is_dir())
+    {
+        Some(folder) => entries(&folder)?,
+        None => Vec::new(),
+    };
+    let mut studies = Vec::new();
+    for (report, number) in reports.iter().zip(1_usize..) {
+        let is_own = |path: &&PathBuf| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            name.starts_with(&format!("{number}-")) && name.ends_with(".json")
+        };
+        let states = request.states.iter();
+        let states = states.chain(of_run.iter().filter(is_own)).cloned();
+        let digest = report.provenance.samples_table.as_ref();
+        studies.push(StudyInputs {
+            states: states.collect(),
+            tables: request.tables.clone(),
+            samples: digest.and_then(|digest| known.get(digest).cloned()),
+        });
+    }
+    let is_bare = |study: &StudyInputs| {
+        let has_tables = study.tables.is_some() || study.samples.is_some();
+        study.states.is_empty() && (request.withholds_predictions || !has_tables)
+    };
+    if studies.iter().all(is_bare) {
+        let problem = "nothing to compute its numbers again from: write a state by --state-out or samples by --samples-out, and name the state by --state";
+        return Err(BundleError::input(path, problem));
+    }
+    Ok(studies)
+}
+
+/// Tables in `folder` with the digests `wanted`, by digest.
+fn tables_in(folder: &Path, wanted: &[&String]) -> Result<BTreeMap<String, PathBuf>, BundleError> {
+    let mut known = BTreeMap::new();
+    for path in entries(folder)? {
+        let is_table = path.extension().is_some_and(|extension| extension == "csv");
+        let length = fs::metadata(&path).map_or(u64::MAX, |about| about.len());
+        if !is_table || !path.is_file() || length > MOST_TABLE {
+            continue;
+        }
+        let digest = digest_of(&path)?;
+        if wanted.contains(&&digest) {
+            known.entry(digest).or_insert(path);
+        }
+    }
+    Ok(known)
+}
+
+/// Headers of the datasets of `request`, and of the recordings of a run, which must be those of the results.
+fn headers(
+    request: &BundleRequest,
+    run: Option<&Path>,
+    reports: &[EvaluationReport],
+) -> Result<Vec<String>, BundleError> {
+    let mut known: Vec<&str> = Vec::new();
+    for report in reports {
+        let own = &report.provenance;
+        known.extend(own.dataset.as_deref());
+        known.extend(
+            own.recordings
+                .iter()
+                .map(|recording| recording.digest.as_str()),
+        );
+    }
+    let of_run = match run
+        .map(|run| run.join(RECORDINGS))
+        .filter(|folder| folder.is_dir())
+    {
+        Some(folder) => entries(&folder)?,
+        None => Vec::new(),
+    };
+    let mut headers = Vec::new();
+    for (path, is_given) in request
+        .datasets
+        .iter()
+        .map(|path| (path, true))
+        .chain(of_run.iter().map(|path| (path, false)))
+    {
+        let path = path.join(HEADER);
+        if !is_given && !path.is_file() {
+            continue;
+        }
+        let text = text(&path)?;
+        let table: toml::Table = toml::from_str(&text)
+            .map_err(|error| BundleError::input(&path, error.message().to_owned()))?;
+        let digest = table
+            .get("digest")
+            .and_then(toml::Value::as_str)
+            .unwrap_or_default();
+        if known.contains(&digest) {
+            headers.push(text);
+        } else if is_given {
+            let problem = format!(
+                "the dataset {digest} is not one of the results: {}",
+                known.join(", ")
+            );
+            return Err(BundleError::input(&path, problem));
+        }
+    }
+    Ok(headers)
+}
+
+/// Paths in `folder`, in order.
+fn entries(folder: &Path) -> Result<Vec<PathBuf>, BundleError> {
+    let read = || -> io::Result<Vec<PathBuf>> {
+        let entries = fs::read_dir(folder)?.map(|entry| Ok(entry?.path()));
+        entries.collect()
+    };
+    let mut paths = read().map_err(BundleError::file(folder))?;
+    paths.sort_unstable();
+    Ok(paths)
+}
+
+/// Text of the file at `path`.
+fn text(path: &Path) -> Result<String, BundleError> {
+    let about = fs::metadata(path).map_err(BundleError::file(path))?;
+    if !about.is_file() || about.len() > MOST_TEXT {
+        let problem = format!("expected a file of at most {MOST_TEXT} bytes");
+        return Err(BundleError::input(path, problem));
+    }
+    fs::read_to_string(path).map_err(BundleError::file(path))
+}

@@ -1,0 +1,47 @@
+//! Names of the files of a bundle, and the limits of its readers.
+
+/// The manifest, written last and sealed.
+pub const MANIFEST: &str = "bundle.json";
+/// The results, as they were written.
+pub(crate) const RESULTS: &str = "results.json";
+/// The digest of the samples.
+pub(crate) const SAMPLES: &str = "samples.json";
+/// The machine that made the bundle.
+pub(crate) const ENVIRONMENT: &str = "environment.json";
+/// The card for readers.
+pub(crate) const CARD: &str = "README.md";
+/// The citation.
+pub(crate) const CITATION: &str = "CITATION.cff";
+/// The licence.
+pub(crate) const LICENCE: &str = "LICENSE";
+/// The header of a dataset.
+pub(crate) const HEADER: &str = "dataset.toml";
+/// Role of such a header.
+pub(crate) const HEADER_ROLE: &str = "dataset";
+/// Texts that a bundle may hold.
+pub(crate) const TEXTS: [&str; 5] = [
+    "scene.toml",
+    "rig.toml",
+    "map.toml",
+    "limits.toml",
+    "tasks.toml",
+];
+
+/// Most files of a bundle.
+pub(crate) const MOST_FILES: usize = 4096;
+/// Most bytes of all files, unless the caller sets another limit.
+pub const MOST_BYTES: u64 = 2 << 30;
+/// Most bytes of a text: JSON, TOML or Markdown.
+pub(crate) const MOST_TEXT: u64 = 24 << 20;
+/// Most bytes of a table.
+pub(crate) const MOST_TABLE: u64 = 256 << 20;
+/// Most claims, and most scores of the results.
+pub(crate) const MOST_CLAIMS: usize = 10_000;
+/// Most bytes of a name.
+pub(crate) const MOST_NAME: usize = 255;
+/// Most folders in a name, and the file.
+pub(crate) const MOST_PARTS: usize = 8;
+/// Growth that a packed bundle may have: a multiple of its size, and further bytes.
+pub(crate) const GROWTH: u64 = 128;
+/// The further bytes.
+pub(crate) const GROWTH_BYTES: u64 = 64 << 20;

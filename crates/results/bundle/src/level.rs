@@ -1,0 +1,42 @@
+//! Levels of a verification.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// Depth to which a bundle is verified. Each level needs those before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Level {
+    /// The files are those of the manifest, byte for byte.
+    Files,
+    /// Schemas, seals and generated files are right, and claims stand in the results.
+    Form,
+    /// States give the scores.
+    Scores,
+    /// Tables give the states and the scores.
+    Predictions,
+}
+
+impl Level {
+    /// Every level, the first first.
+    ///
+    /// ```
+    /// use taceva_bundle::Level;
+    /// assert!(Level::ALL.is_sorted());
+    /// assert_eq!(Level::Predictions.to_string(), "predictions");
+    /// ```
+    pub const ALL: [Level; 4] = [Level::Files, Level::Form, Level::Scores, Level::Predictions];
+}
+
+impl fmt::Display for Level {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Level::Files => "files",
+            Level::Form => "form",
+            Level::Scores => "scores",
+            Level::Predictions => "predictions",
+        })
+    }
+}

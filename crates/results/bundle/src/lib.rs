@@ -1,0 +1,43 @@
+#![doc = include_str!("../README.md")]
+
+mod archive;
+mod author;
+mod card;
+mod claim;
+mod comparison;
+mod environment;
+mod error;
+mod form;
+mod inputs;
+mod layout;
+mod level;
+mod make;
+mod manifest;
+mod name;
+mod recomputation;
+mod redaction;
+mod request;
+mod sample_digest;
+mod source;
+mod study_check;
+mod verification;
+mod verify;
+
+pub use author::{Author, is_licence};
+pub use card::SEAL_REMARK;
+pub use claim::Claim;
+pub use comparison::{
+    BundleComparison, COMPARISON_SCHEMA, ClaimDifference, DefinitionDifference, compare,
+};
+pub use error::{BundleError, Damage};
+pub use layout::{MANIFEST, MOST_BYTES};
+pub use level::Level;
+pub use make::{MadeBundle, make};
+pub use manifest::{BUNDLE_SCHEMA, BundledFile, Manifest, StudyFiles, TableFiles, Withheld};
+pub use redaction::{Redaction, redacted};
+pub use request::{BundleRequest, ScoredTables};
+pub use verification::{
+    BundleFacts, ClaimCheck, LevelCheck, OtherCheck, Outcome, Summary, VERIFICATION_SCHEMA,
+    Verdict, Verification,
+};
+pub use verify::{VerifyRequest, verify};

@@ -1,0 +1,182 @@
+//! The manifest of a bundle: its files, what was computed from which, and its claims.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use taceva_core::shown;
+use taceva_results::{EvaluationReport, not_measured};
+
+use crate::author::Author;
+use crate::claim::Claim;
+use crate::error::{BundleError, Damage};
+use crate::layout::MANIFEST;
+
+/// Schema of the manifest.
+pub const BUNDLE_SCHEMA: &str = "taceva.bundle/1";
+
+/// Content of `bundle.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Manifest {
+    /// [`BUNDLE_SCHEMA`].
+    pub schema: String,
+    /// Name in words.
+    pub name: String,
+    /// Day on which it was made.
+    pub created: String,
+    /// Version of the program that made it.
+    pub taceva: String,
+    /// SPDX identifier of the licence; `None` for a draft.
+    pub licence: Option<String>,
+    /// Authors; none for a draft.
+    pub authors: Vec<Author>,
+    /// True if author or licence is still missing.
+    #[serde(rename = "draft", default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_unfinished: bool,
+    /// Origin of the samples, as in the results.
+    pub source: String,
+    /// Sentence on samples that nobody measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub badge: Option<String>,
+    /// Every other file.
+    pub files: Vec<BundledFile>,
+    /// Files behind each study of the results.
+    pub studies: Vec<StudyFiles>,
+    /// Numbers of the results that the bundle stands for.
+    pub claims: Vec<Claim>,
+    /// Files that were left out.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub withheld: Vec<Withheld>,
+    /// Number of redacted words in each text.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub redacted: BTreeMap<String, u64>,
+    /// Digest of the samples.
+    pub samples_digest: String,
+}
+
+/// File of a bundle.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct BundledFile {
+    /// Path in the bundle.
+    pub path: String,
+    /// Size in bytes.
+    pub size: u64,
+    /// `sha256:` and 64 hexadecimal digits.
+    pub sha256: String,
+    /// Part that the file plays: `state`, `truth`, `prediction`, `samples`, `results`, …
+    pub role: String,
+}
+
+/// Files behind a study.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct StudyFiles {
+    /// States; several are merged.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub states: Vec<String>,
+    /// Two tables that were scored.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tables: Option<TableFiles>,
+    /// The table of samples that an evaluation wrote.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub samples: Option<String>,
+}
+
+/// Two tables that were scored.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct TableFiles {
+    /// The truth.
+    pub truth: String,
+    /// The predictions.
+    pub prediction: String,
+    /// Key of the rows that the caller chose.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub key: Option<String>,
+}
+
+/// File that was left out of a bundle.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Withheld {
+    /// Part that the file plays.
+    pub role: String,
+    /// Reason.
+    pub reason: String,
+    /// Digest of the file.
+    pub digest: String,
+}
+
+/// Keys that are read before the schema is known.
+#[derive(Deserialize)]
+struct Head {
+    schema: String,
+    #[serde(default)]
+    taceva: Option<String>,
+}
+
+/// A manifest, with the digest of its seal and its accepted edits.
+pub(crate) struct SealedManifest {
+    pub(crate) manifest: Manifest,
+    pub(crate) digest: String,
+    pub(crate) edits: Vec<String>,
+}
+
+impl Manifest {
+    /// Reads the text of a manifest.
+    ///
+    /// # Errors
+    /// [`Damage`] for another schema, a broken seal or a value that breaks the schema.
+    pub(crate) fn parse(text: &str) -> Result<SealedManifest, Damage> {
+        let damaged = |rule, problem: String| Damage::new(MANIFEST, rule, problem);
+        let rule = "the manifest has the schema of this version";
+        let head: Head = serde_json::from_str(text)
+            .map_err(|error| damaged(rule, format!("no manifest of a bundle: {error}")))?;
+        if head.schema != BUNDLE_SCHEMA {
+            let problem = format!(
+                "schema `{}`, written by TacEva {}: expected `{BUNDLE_SCHEMA}`, which TacEva {} reads; make the bundle again with this version",
+                shown(&head.schema),
+                shown(head.taceva.as_deref().unwrap_or("of an unknown version")),
+                env!("CARGO_PKG_VERSION"),
+            );
+            return Err(damaged(rule, problem));
+        }
+        let opened = taceva_files::seal::json::check(text)
+            .map_err(|error| damaged("the manifest has its seal", error.to_string()))?;
+        let manifest = serde_json::from_str(text)
+            .map_err(|error| damaged(rule, shown(&error.to_string()).to_string()))?;
+        Ok(SealedManifest {
+            manifest,
+            digest: opened.digest,
+            edits: opened.history.iter().map(ToString::to_string).collect(),
+        })
+    }
+
+    /// The sealed text.
+    ///
+    /// # Errors
+    /// [`BundleError::Results`] if it cannot be written as JSON.
+    pub(crate) fn sealed(&self) -> Result<String, BundleError> {
+        let sealed = taceva_results::sealed(self).map_err(|source| BundleError::Results {
+            path: MANIFEST.into(),
+            source,
+        })?;
+        Ok(format!("{sealed}\n"))
+    }
+}
+
+/// Origin of the samples of all `reports`.
+pub(crate) fn source_of(reports: &[EvaluationReport]) -> String {
+    let mut sources = reports.iter().map(|report| report.subject.source.as_str());
+    let first = sources.next().unwrap_or("unknown");
+    match sources.all(|source| source == first) {
+        true => first.to_owned(),
+        false => "several".to_owned(),
+    }
+}
+
+/// Sentence on samples of `reports` that nobody measured.
+pub(crate) fn badge_of(reports: &[EvaluationReport]) -> Option<String> {
+    not_measured(reports.iter().map(|report| report.subject.source.as_str()))
+}

@@ -1,0 +1,90 @@
+//! Names of the files in a bundle, and their number.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{counted, is_obeyed};
+
+use crate::error::{BundleError, Damage};
+use crate::layout::{MOST_FILES, MOST_NAME, MOST_PARTS};
+
+/// Rule of names.
+pub(crate) const RULE: &str = "names lead to files inside the bundle";
+
+/// The fault of a name in a bundle; `None` for a relative path of plain parts.
+pub(crate) fn fault(name: &str) -> Option<String> {
+    if name.len() > MOST_NAME {
+        return Some(format!(
+            "a name of {} bytes, expected at most {MOST_NAME}",
+            name.len()
+        ));
+    }
+    if name
+        .chars()
+        .any(|letter| is_obeyed(letter) || "\\:".contains(letter))
+    {
+        return Some("a name with control characters, `\\` or `:`, expected none".to_owned());
+    }
+    let parts: Vec<&str> = name.split('/').collect();
+    if parts.iter().any(|part| ["", ".", ".."].contains(part)) {
+        return Some(
+            "a path that leads out of the bundle, expected one below it, without `..`".to_owned(),
+        );
+    }
+    (parts.len() > MOST_PARTS).then(|| {
+        format!(
+            "a path of {} parts, expected at most {MOST_PARTS}",
+            parts.len()
+        )
+    })
+}
+
+/// Rejects more files or bytes than the limits.
+pub(crate) fn check_amount(files: usize, bytes: u64, most: u64) -> Result<(), BundleError> {
+    let rule = "a bundle is not too large to read";
+    let refused = |problem: String| Err(BundleError::Damaged(Damage::new(".", rule, problem)));
+    if files > MOST_FILES {
+        return refused(format!("more than {}", counted(MOST_FILES as u64, "file")));
+    }
+    if bytes > most {
+        return refused(format!("more than {most} bytes; --most raises the limit"));
+    }
+    Ok(())
+}
+
+/// Rejects two names that are equal but for case, which some file systems cannot hold.
+pub(crate) fn check_case<'a>(names: impl Iterator<Item = &'a String>) -> Result<(), BundleError> {
+    let mut known: BTreeMap<String, &String> = BTreeMap::new();
+    for name in names {
+        if let Some(other) = known.insert(name.to_lowercase(), name) {
+            let problem = format!("equal to `{other}` but for case");
+            let rule = "names differ in more than case";
+            return Err(BundleError::Damaged(Damage::new(name, rule, problem)));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_that_leads_out_of_the_bundle_is_refused() {
+        for name in [
+            "../x",
+            "a/../x",
+            "/x",
+            "a//x",
+            "",
+            ".",
+            "a\\x",
+            "c:x",
+            "a\u{202e}x",
+        ] {
+            assert!(fault(name).is_some(), "{name:?}");
+        }
+        assert!(fault(&"x".repeat(256)).is_some());
+        assert!(fault(&["x"; 9].join("/")).is_some());
+        assert_eq!(fault("states/0.json"), None);
+    }
+}

@@ -1,0 +1,177 @@
+//! Redaction of texts: addresses, serial numbers and absolute paths are replaced by a word.
+
+use std::str::FromStr;
+
+use taceva_core::shown;
+
+/// Word in the place of what was redacted.
+const REDACTED: &str = "redacted";
+
+/// Words that are redacted in the texts of a bundle.
+///
+/// ```
+/// use taceva_bundle::{Redaction, redacted};
+/// let scene = "robot = { driver = \"ur/robot:address=10.0.0.7,serial=X81\" }\nmap = \"/home/lab/map.toml\"\n";
+/// let (text, words) = redacted(scene, &[Redaction::Hosts, Redaction::Paths]);
+/// assert_eq!(
+///     text,
+///     "robot = { driver = \"ur/robot:address=redacted,serial=X81\" }\nmap = \"redacted\"\n"
+/// );
+/// assert_eq!(words, 2);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Redaction {
+    /// Addresses and names of machines.
+    Hosts,
+    /// Serial numbers.
+    Serials,
+    /// Absolute paths.
+    Paths,
+}
+
+impl FromStr for Redaction {
+    type Err = String;
+
+    fn from_str(word: &str) -> Result<Redaction, String> {
+        match word {
+            "hosts" => Ok(Redaction::Hosts),
+            "serials" => Ok(Redaction::Serials),
+            "paths" => Ok(Redaction::Paths),
+            other => Err(format!(
+                "`{}`: expected hosts, serials or paths",
+                shown(other)
+            )),
+        }
+    }
+}
+
+/// Keys whose value is a machine.
+const HOST_KEYS: [&str; 6] = ["address", "host", "hostname", "ip", "server", "url"];
+/// Keys whose value is a serial number.
+const SERIAL_KEYS: [&str; 4] = ["serial", "serial_number", "serial_no", "sn"];
+/// Letters that end a word outside a path.
+const ENDS: &str = " \t\r\n\"',;()[]{}=";
+
+/// The text with `what` redacted, and the number of redacted words.
+pub fn redacted(text: &str, what: &[Redaction]) -> (String, u64) {
+    let (mut written, mut count) = (String::with_capacity(text.len()), 0);
+    let (mut key, mut quote) = (String::new(), None);
+    let mut rest = text;
+    while let Some(letter) = rest.chars().next() {
+        if ENDS.contains(letter) {
+            match letter {
+                '"' | '\'' if quote.is_none() => quote = Some(letter),
+                own if quote == Some(own) => quote = None,
+                '\n' => (quote, key) = (None, String::new()),
+                ',' | ';' | '{' => key.clear(),
+                _ => {}
+            }
+            written.push(letter);
+            rest = &rest[letter.len_utf8()..];
+            continue;
+        }
+        let end = rest.find(|letter: char| ENDS.contains(letter));
+        let word = &rest[..end.unwrap_or(rest.len())];
+        let after = rest[word.len()..].trim_start();
+        if after.starts_with('=') {
+            // The key of a driver's argument stands behind the driver's name.
+            key = word.rsplit(':').next().unwrap_or(word).to_lowercase();
+            written.push_str(word);
+            rest = &rest[word.len()..];
+            continue;
+        }
+        let is_wanted = |kind: Redaction| what.contains(&kind);
+        let word = match is_path(word) {
+            true => &rest[..path_length(rest, quote)],
+            false => word,
+        };
+        let is_redacted = (is_wanted(Redaction::Paths) && is_path(word))
+            || (is_wanted(Redaction::Serials) && is_serial(&key, word))
+            || (is_wanted(Redaction::Hosts) && is_host(&key, word));
+        count += u64::from(is_redacted);
+        written.push_str(if is_redacted { REDACTED } else { word });
+        rest = &rest[word.len()..];
+    }
+    (written, count)
+}
+
+/// True if a word begins an absolute path.
+fn is_path(word: &str) -> bool {
+    let mut letters = word.chars();
+    let drive = letters
+        .next()
+        .is_some_and(|first| first.is_ascii_alphabetic())
+        && letters.next() == Some(':')
+        && letters.next().is_some_and(|third| "/\\".contains(third));
+    let is_rooted = word.starts_with('/') && word.len() > 1;
+    let beginnings = ["~/", "\\\\", "file:"];
+    drive || is_rooted || beginnings.iter().any(|own| word.starts_with(own))
+}
+
+/// Length of the path at the start of `rest`: up to the closing quote, or the end of the word without one.
+fn path_length(rest: &str, quote: Option<char>) -> usize {
+    let ends = |letter: char| match quote {
+        Some(quote) => letter == quote || letter == ',' || letter == '\n',
+        None => ENDS.contains(letter),
+    };
+    rest.find(ends).unwrap_or(rest.len())
+}
+
+fn is_serial(key: &str, word: &str) -> bool {
+    SERIAL_KEYS.contains(&key) || word.contains("/serial/by-id/")
+}
+
+fn is_host(key: &str, word: &str) -> bool {
+    let is_local = word.ends_with(".local") || word.contains('@');
+    HOST_KEYS.contains(&key) || word.contains("://") || is_local || is_address(word)
+}
+
+/// True if a part of the word is an address: of IPv4, of IPv6 or of an interface.
+fn is_address(word: &str) -> bool {
+    let of_four = |part: &str| part.parse::<std::net::Ipv4Addr>().is_ok();
+    let is_six = word.matches(':').count() > 1 && word.parse::<std::net::Ipv6Addr>().is_ok();
+    let octets: Vec<&str> = word.split([':', '-']).collect();
+    let is_octet = |octet: &&str| octet.len() == 2 && u8::from_str_radix(octet, 16).is_ok();
+    let is_interface = octets.len() == 6 && octets.iter().all(is_octet);
+    is_six || is_interface || word.split([':', '/']).any(of_four)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Redaction; 3] = [Redaction::Hosts, Redaction::Serials, Redaction::Paths];
+
+    #[test]
+    fn addresses_serials_and_absolute_paths_are_redacted_and_numbers_stay() {
+        for (text, expected) in [
+            ("a = \"10.1.2.3:50000\"", "a = \"redacted\""),
+            ("a = \"tcp://lab-pc:3000\"", "a = \"redacted\""),
+            ("host = \"lab-pc\"", "host = \"redacted\""),
+            ("mac = \"00:1b:63:84:45:e6\"", "mac = \"redacted\""),
+            ("v6 = \"fe80::1\"", "v6 = \"redacted\""),
+            ("serial = \"0042\"", "serial = \"redacted\""),
+            ("out = '/home/a lab/x'", "out = 'redacted'"),
+            ("out = \"C:\\\\lab\\\\x\"", "out = \"redacted\""),
+            ("# see /home/me/notes here", "# see redacted here"),
+            ("size = 0.5\nname = \"a/b\"", "size = 0.5\nname = \"a/b\""),
+        ] {
+            let (found, words) = redacted(text, &ALL);
+            assert_eq!(found, expected);
+            assert_eq!(words, u64::from(text != expected), "{text}");
+        }
+    }
+
+    #[test]
+    fn only_what_is_asked_for_is_redacted() {
+        let text = "serial = \"7\"\nhost = \"pc\"\nat = \"/x/y\"\n";
+        assert_eq!(redacted(text, &[]), (text.to_owned(), 0));
+        let (found, words) = redacted(text, &[Redaction::Serials]);
+        assert_eq!(
+            (found.lines().next(), words),
+            (Some("serial = \"redacted\""), 1)
+        );
+        assert!(found.ends_with("host = \"pc\"\nat = \"/x/y\"\n"));
+    }
+}

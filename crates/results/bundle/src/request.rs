@@ -1,0 +1,80 @@
+//! Request of a bundle.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use crate::author::Author;
+use crate::redaction::Redaction;
+
+/// Request of a bundle.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct BundleRequest {
+    /// Folder of a run, or the JSON of `run`, `evaluate`, `score` or `merge`.
+    pub result: PathBuf,
+    /// Day on which it is made.
+    pub created: String,
+    /// Name in words; `None` for the sensors of the results.
+    pub name: Option<String>,
+    /// Authors; none for a draft.
+    pub authors: Vec<Author>,
+    /// SPDX identifier of the licence; `None` for a draft.
+    pub licence: Option<String>,
+    /// States of the results, for results of one study.
+    pub states: Vec<PathBuf>,
+    /// Two tables that were scored, for results of one study.
+    pub tables: Option<ScoredTables>,
+    /// Recordings whose headers are added; those of a run are found.
+    pub datasets: Vec<PathBuf>,
+    /// Texts that are added by their names: `scene.toml`, `rig.toml`, `map.toml`, `limits.toml`, `tasks.toml`.
+    pub texts: Vec<PathBuf>,
+    /// True if tables are left out, and only their digests are stated.
+    pub withholds_predictions: bool,
+    /// Words that are redacted in texts.
+    pub redactions: Vec<Redaction>,
+    /// Number of threads.
+    pub jobs: NonZeroUsize,
+}
+
+/// Two tables that were scored.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct ScoredTables {
+    /// The truth.
+    pub truth: PathBuf,
+    /// The predictions.
+    pub prediction: PathBuf,
+    /// Key of the rows that the caller chose.
+    pub key: Option<String>,
+}
+
+impl ScoredTables {
+    /// The table of the truth and that of the predictions, paired by a key that is found by its name unless it is given.
+    pub fn new(truth: &Path, prediction: &Path, key: Option<&str>) -> ScoredTables {
+        ScoredTables {
+            truth: truth.to_owned(),
+            prediction: prediction.to_owned(),
+            key: key.map(str::to_owned),
+        }
+    }
+}
+
+impl BundleRequest {
+    /// A draft of the results at `result`, made on the day `created`, on one thread.
+    pub fn new(result: &Path, created: &str) -> BundleRequest {
+        BundleRequest {
+            result: result.to_owned(),
+            created: created.to_owned(),
+            name: None,
+            authors: Vec::new(),
+            licence: None,
+            states: Vec::new(),
+            tables: None,
+            datasets: Vec::new(),
+            texts: Vec::new(),
+            withholds_predictions: false,
+            redactions: Vec::new(),
+            jobs: NonZeroUsize::MIN,
+        }
+    }
+}

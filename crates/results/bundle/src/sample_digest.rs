@@ -1,0 +1,136 @@
+//! Digest of the samples of a bundle: shows that two bundles were scored on the same samples.
+
+use std::num::NonZeroUsize;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+use taceva_evaluate::read_table;
+use taceva_files::seal::digest_of_bytes;
+use taceva_results::{EvaluationReport, Samples};
+
+use crate::error::BundleError;
+
+/// Schema of `samples.json`.
+pub(crate) const SAMPLES_SCHEMA: &str = "taceva.samples/1";
+
+/// Names of the column with the ids of samples.
+const IDS: [&str; 4] = [Samples::KEY, "id", "sample_id", "index"];
+/// Column with the digest of each frame.
+const FRAME: &str = "frame_sha256";
+/// Columns that are no labels.
+const BESIDE: [&str; 20] = [
+    "",
+    "recording",
+    "protocol",
+    "part",
+    "point_id",
+    "unit_id",
+    "scene",
+    "phase",
+    "kind",
+    Samples::GROUP,
+    Samples::FOLD,
+    "depth_step",
+    "repeat",
+    "t_s",
+    "spacing_mm",
+    "spacing_predicted_mm",
+    "zero_u_mm",
+    "intensity",
+    "distance",
+    FRAME,
+];
+
+/// Content of `samples.json`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct SampleDigest {
+    pub(crate) schema: String,
+    /// Digest of all studies.
+    pub(crate) digest: String,
+    pub(crate) studies: Vec<StudySamples>,
+}
+
+/// Samples of one study.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct StudySamples {
+    /// `samples` for a digest over id, frame and labels of each; `provenance` without a table.
+    pub(crate) by: String,
+    /// Number of samples; `None` without a table.
+    pub(crate) count: Option<u64>,
+    pub(crate) digest: String,
+}
+
+impl SampleDigest {
+    pub(crate) fn of(studies: Vec<StudySamples>) -> SampleDigest {
+        let digests: Vec<&str> = studies.iter().map(|study| study.digest.as_str()).collect();
+        SampleDigest {
+            schema: SAMPLES_SCHEMA.to_owned(),
+            digest: digest_of_bytes(digests.join("\n").as_bytes()),
+            studies,
+        }
+    }
+}
+
+impl StudySamples {
+    /// Samples in the table at `path`, whose labels are its columns of numbers.
+    ///
+    /// # Errors
+    /// [`BundleError::Evaluate`] if it is no table.
+    pub(crate) fn of_table(path: &Path, jobs: NonZeroUsize) -> Result<StudySamples, BundleError> {
+        let (table, _) = read_table(path, jobs)?;
+        let names = table.names();
+        let position = |name: &str| names.iter().position(|own| own == name);
+        let id = IDS.into_iter().find_map(position);
+        let frame = position(FRAME);
+        let is_label = |name: &str| {
+            !IDS.contains(&name) && !BESIDE.contains(&name) && !name.contains(Samples::PREDICTED)
+        };
+        let mut labels: Vec<(&str, usize)> = Vec::new();
+        for (column, name) in names.iter().enumerate() {
+            let is_number = |row| table.number(row, column).is_ok();
+            if is_label(name) && (0..table.rows()).all(is_number) {
+                labels.push((name.as_str(), column));
+            }
+        }
+        labels.sort_unstable();
+        let mut lines: Vec<String> = Vec::with_capacity(table.rows());
+        for row in 0..table.rows() {
+            let mut line = match id {
+                Some(column) => table.cell(row, column).to_owned(),
+                None => (row + 1).to_string(),
+            };
+            line.push('\0');
+            line.push_str(frame.map_or("", |column| table.cell(row, column)));
+            for (name, column) in &labels {
+                let number = table.number(row, *column).ok().flatten();
+                let bits = number.map(|number| format!("{:016x}", number.to_bits()));
+                line.push_str(&format!("\0{name}={}", bits.unwrap_or_default()));
+            }
+            lines.push(line);
+        }
+        lines.sort_unstable();
+        Ok(StudySamples {
+            by: "samples".to_owned(),
+            count: Some(lines.len() as u64),
+            digest: digest_of_bytes(lines.join("\n").as_bytes()),
+        })
+    }
+
+    /// Samples that the provenance of `report` names, where no table is at hand.
+    pub(crate) fn of_provenance(report: &EvaluationReport) -> StudySamples {
+        let own = &report.provenance;
+        let named = serde_json::json!([
+            own.dataset,
+            own.recordings,
+            own.tables,
+            own.part,
+            own.split,
+            own.seed
+        ]);
+        StudySamples {
+            by: "provenance".to_owned(),
+            count: None,
+            digest: digest_of_bytes(named.to_string().as_bytes()),
+        }
+    }
+}

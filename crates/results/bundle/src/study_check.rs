@@ -1,0 +1,219 @@
+//! Claims and other numbers of one study, compared with what was computed again.
+
+use taceva_results::{EvaluationReport, Score};
+
+use crate::claim::{Claim, Number, words};
+use crate::level::Level;
+use crate::recomputation::{Recomputation, Stop, TableScores};
+use crate::verification::{ClaimCheck, OtherCheck, Verdict};
+
+/// One study: its results as they stand, and as they were computed again.
+pub(crate) struct StudyCheck<'a> {
+    pub(crate) study: usize,
+    pub(crate) report: &'a EvaluationReport,
+    pub(crate) again: Recomputation,
+    /// Deepest level that is wanted.
+    pub(crate) most: Level,
+    /// Greatest difference of numbers that count as within.
+    pub(crate) tolerance: f64,
+}
+
+impl StudyCheck<'_> {
+    /// Verdict on a claim of this study.
+    pub(crate) fn claim(&self, claim: &Claim) -> ClaimCheck {
+        let mut check = ClaimCheck {
+            study: claim.study,
+            metric: claim.metric.clone(),
+            channel: claim.channel.clone(),
+            variant: claim.variant.clone(),
+            stated: claim.value,
+            recomputed: None,
+            level: Level::Form,
+            verdict: Verdict::Equal,
+            reason: None,
+            is_absent: false,
+        };
+        let named = claim.score_in(&self.report.scores);
+        let Some(named) = named.filter(|score| claim.is_of(score)) else {
+            let reason = "results.json has no such number".to_owned();
+            return check.ended(Verdict::Differs, reason);
+        };
+        let in_results = Number::of(named, claim.variant.as_deref());
+        let is_stated = in_results.is_some_and(|number| number.is_same(claim.number()));
+        if !is_stated {
+            let found =
+                in_results.map_or_else(|| "no number".to_owned(), |found| found.to_string());
+            check.verdict = Verdict::Differs;
+            check.reason = Some(format!("results.json has {found}"));
+        }
+        if self.most < Level::Scores {
+            return check;
+        }
+        let scores = match &self.again.states {
+            Ok(scores) => scores,
+            Err(stop) => return check.stopped(stop),
+        };
+        check = self.compared(check, claim, scores, Level::Scores);
+        let is_done = matches!(check.verdict, Verdict::Differs | Verdict::NotRecomputable);
+        if self.most < Level::Predictions || is_done {
+            return check;
+        }
+        match &self.again.tables {
+            Ok(tables) => self.by_tables(check, claim, tables),
+            Err(stop) => ClaimCheck {
+                is_absent: stop.is_absent,
+                reason: Some(format!("not compared with tables: {}", stop.reason)),
+                verdict: match stop.is_absent {
+                    true => check.verdict,
+                    false => Verdict::NotRecomputable,
+                },
+                ..check
+            },
+        }
+    }
+
+    /// The verdict on a claim after its comparison with the scores of tables.
+    fn by_tables(&self, check: ClaimCheck, claim: &Claim, tables: &TableScores) -> ClaimCheck {
+        let mut left_out = tables.left_out.iter();
+        if let Some(skip) = left_out.find(|skip| skip.what == claim.metric) {
+            return ClaimCheck {
+                is_absent: true,
+                reason: Some(format!("not compared with tables: {}", skip.reason)),
+                ..check
+            };
+        }
+        self.compared(check, claim, &tables.scores, Level::Predictions)
+    }
+
+    /// The verdict on a claim after its comparison with `scores`.
+    fn compared(
+        &self,
+        mut check: ClaimCheck,
+        claim: &Claim,
+        scores: &[Score],
+        level: Level,
+    ) -> ClaimCheck {
+        let from = match level {
+            Level::Predictions => "the tables",
+            _ => "the state",
+        };
+        let Some(score) = claim.score_in(scores) else {
+            let reason = format!("{} is not in {from}", claim.words());
+            return check.ended(Verdict::NotRecomputable, reason);
+        };
+        let own = claim.score_in(&self.report.scores).map(definition);
+        let other = definition(score);
+        if own.as_ref() != Some(&other) {
+            let own = own.unwrap_or_default();
+            let reason = format!("{own}, {from} has {other}");
+            return check.ended(Verdict::NotRecomputable, reason);
+        }
+        let Some(again) = Number::of(score, claim.variant.as_deref()) else {
+            let reason = format!("{} is undefined in {from}", claim.words());
+            return check.ended(Verdict::Differs, reason);
+        };
+        let stated = claim.number();
+        check.level = level;
+        check.recomputed = Some(again.value);
+        if stated.is_same(again) {
+            return check;
+        }
+        if stated.is_within(again, self.tolerance) {
+            check.verdict = match check.verdict {
+                Verdict::Differs => Verdict::Differs,
+                _ => Verdict::Within,
+            };
+            return check;
+        }
+        let reason = format!("printed {stated}, recomputed {again} from {from}");
+        check.ended(Verdict::Differs, reason)
+    }
+
+    /// Scores that differ beyond their claims, and parts of the results that no state gives.
+    pub(crate) fn others(&self, claims: &[ClaimCheck]) -> Vec<OtherCheck> {
+        let mut found = Vec::new();
+        let other = |part: String, verdict, reason: &str| OtherCheck {
+            study: self.study,
+            part,
+            verdict,
+            reason: reason.to_owned(),
+        };
+        let Ok(states) = &self.again.states else {
+            return found;
+        };
+        let (tables, left_out) = match &self.again.tables {
+            Ok(tables) => (tables.scores.as_slice(), tables.left_out.as_slice()),
+            Err(_) => (Default::default(), Default::default()),
+        };
+        for score in &self.report.scores {
+            let is_own = |claim: &&ClaimCheck| {
+                claim.study == self.study
+                    && claim.metric == score.metric
+                    && claim.channel == score.channel
+            };
+            // What a claim says is not said twice.
+            let is_said = |claim: &ClaimCheck| claim.verdict != Verdict::Equal;
+            if claims.iter().filter(is_own).any(is_said) {
+                continue;
+            }
+            let part = words(&score.metric, None, &score.channel);
+            let is_left_out = left_out.iter().any(|skip| skip.what == score.metric);
+            if !states.contains(score) {
+                let reason = "the state gives another score, in more than its number";
+                found.push(other(part, Verdict::Differs, reason));
+            } else if !tables.is_empty() && !is_left_out && !tables.contains(score) {
+                let reason = "the tables give another score, in more than its number";
+                found.push(other(part, Verdict::Differs, reason));
+            }
+        }
+        if self
+            .again
+            .tables
+            .as_ref()
+            .is_ok_and(|tables| tables.has_other_sums)
+        {
+            let reason = "the sums of the tables are not those of the state";
+            found.push(other("state".to_owned(), Verdict::Differs, reason));
+        }
+        let report = self.report;
+        for (part, is_there) in [
+            ("by_recording", !report.by_recording.is_empty()),
+            ("by_group", !report.by_group.is_empty()),
+            ("over_seeds", report.over_seeds.is_some()),
+        ] {
+            if is_there {
+                let reason = "no state holds these numbers";
+                found.push(other(part.to_owned(), Verdict::NotRecomputable, reason));
+            }
+        }
+        found
+    }
+}
+
+impl ClaimCheck {
+    fn ended(mut self, verdict: Verdict, reason: String) -> ClaimCheck {
+        // A claim that is not in the results differs, whatever else is found.
+        if self.verdict != Verdict::Differs || verdict == Verdict::Differs {
+            self.verdict = verdict;
+            self.reason = Some(reason);
+        }
+        self
+    }
+
+    fn stopped(mut self, stop: &Stop) -> ClaimCheck {
+        self.is_absent = stop.is_absent;
+        self.ended(Verdict::NotRecomputable, stop.reason.clone())
+    }
+}
+
+/// Definition of a score with its constants: `mae/1 with gate 0.02`.
+fn definition(score: &Score) -> String {
+    let constants = score.parameters.iter();
+    let constants: Vec<String> = constants
+        .map(|(name, value)| format!("{name} {value}"))
+        .collect();
+    match constants.is_empty() {
+        true => score.definition.clone(),
+        false => format!("{} with {}", score.definition, constants.join(", ")),
+    }
+}

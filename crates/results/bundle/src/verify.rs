@@ -1,0 +1,223 @@
+//! Verification of a bundle: files, form, scores and predictions, as deep as its files allow.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use taceva_core::counted;
+use taceva_results::EvaluationReport;
+
+use crate::error::{BundleError, Damage};
+use crate::form;
+use crate::layout::{MANIFEST, MOST_BYTES, MOST_TABLE, MOST_TEXT};
+use crate::level::Level;
+use crate::manifest::{Manifest, SealedManifest};
+use crate::recomputation::Recomputation;
+use crate::source::Source;
+use crate::study_check::StudyCheck;
+use crate::verification::{BundleFacts, ClaimCheck, OtherCheck, Verdict, Verification};
+
+/// Request of a verification.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct VerifyRequest {
+    /// The bundle: a folder, or a `.tar.gz`.
+    pub path: PathBuf,
+    /// Level to reach; `None` for the deepest that the files allow.
+    pub level: Option<Level>,
+    /// Greatest difference of numbers that count as `within`, in the unit of each.
+    pub tolerance: f64,
+    /// Most bytes of all files together.
+    pub most: u64,
+    /// Number of threads.
+    pub jobs: NonZeroUsize,
+}
+
+impl VerifyRequest {
+    /// Verification of the bundle at `path`, as deep as its files allow, with equal bits.
+    pub fn new(path: &Path) -> VerifyRequest {
+        VerifyRequest {
+            path: path.to_owned(),
+            level: None,
+            tolerance: 0.0,
+            most: MOST_BYTES,
+            jobs: NonZeroUsize::MIN,
+        }
+    }
+}
+
+/// Verifies a bundle. Nothing of it is executed.
+///
+/// # Errors
+/// [`BundleError::File`] if it cannot be read. A damaged bundle is no error: its damage is listed.
+pub fn verify(request: &VerifyRequest) -> Result<Verification, BundleError> {
+    let mut found = Verification::new(request.level);
+    let most = request.level.unwrap_or(Level::Predictions);
+    let source = match Source::open(&request.path, request.most) {
+        Ok(source) => source,
+        Err(BundleError::Damaged(damage)) => {
+            return Ok(found.damaged_at(Level::Files, vec![damage]));
+        }
+        Err(error) => return Err(error),
+    };
+    let read = source
+        .text(MANIFEST, MOST_TEXT)
+        .and_then(|text| Manifest::parse(&text));
+    let sealed = match read {
+        Ok(sealed) => sealed,
+        Err(damage) => return Ok(found.damaged_at(Level::Files, vec![damage])),
+    };
+    let manifest = &sealed.manifest;
+    found.bundle = Some(facts(&sealed));
+    found.remarks.extend(manifest.badge.clone());
+    let damage = form::files(&source, manifest)?;
+    if !damage.is_empty() {
+        return Ok(found.damaged_at(Level::Files, damage));
+    }
+    found.add_level(Level::Files, None);
+    if most < Level::Form {
+        return Ok(found);
+    }
+    let reports = match form::results(&source) {
+        Ok(reports) => reports,
+        Err(damage) => return Ok(found.damaged_at(Level::Form, vec![damage])),
+    };
+    let damage = match too_long(&source, manifest) {
+        Some(damage) => vec![damage],
+        None => form::form(&source, manifest, &reports, request.jobs)?,
+    };
+    if !damage.is_empty() {
+        return Ok(found.damaged_at(Level::Form, damage));
+    }
+    let checked = check(&source, manifest, &reports, request);
+    add_levels(&mut found, &checked, most);
+    found.claims = checked.claims;
+    found.others = checked.others;
+    Ok(found.summed())
+}
+
+/// Claims and other numbers, compared with what was computed again.
+pub(crate) struct Checked {
+    pub(crate) claims: Vec<ClaimCheck>,
+    pub(crate) others: Vec<OtherCheck>,
+    /// Reasons why a study has no scores of states.
+    states: Vec<String>,
+    /// Reasons why a study has no scores of tables.
+    tables: Vec<String>,
+}
+
+/// Compares the claims of `manifest` and all of `reports` with what the files in `source` give.
+pub(crate) fn check(
+    source: &Source,
+    manifest: &Manifest,
+    reports: &[EvaluationReport],
+    request: &VerifyRequest,
+) -> Checked {
+    let most = request.level.unwrap_or(Level::Predictions);
+    let mut checked = Checked {
+        claims: Vec::new(),
+        others: Vec::new(),
+        states: Vec::new(),
+        tables: Vec::new(),
+    };
+    for (study, (report, files)) in reports.iter().zip(&manifest.studies).enumerate() {
+        let again = match most < Level::Scores {
+            true => Recomputation::none(),
+            false => {
+                let with_tables = most >= Level::Predictions;
+                Recomputation::of(source, files, report, with_tables, request.jobs)
+            }
+        };
+        let named = |reason: &str| format!("study {study}: {reason}");
+        checked
+            .states
+            .extend(again.states.as_ref().err().map(|stop| named(&stop.reason)));
+        checked
+            .tables
+            .extend(again.tables.as_ref().err().map(|stop| named(&stop.reason)));
+        let own = StudyCheck {
+            study,
+            report,
+            again,
+            most,
+            tolerance: request.tolerance,
+        };
+        let claims = manifest.claims.iter().filter(|claim| claim.study == study);
+        let claims: Vec<ClaimCheck> = claims.map(|claim| own.claim(claim)).collect();
+        checked.others.extend(own.others(&claims));
+        checked.claims.extend(claims);
+    }
+    checked
+}
+
+fn add_levels(found: &mut Verification, checked: &Checked, most: Level) {
+    let absent =
+        |claim: &&ClaimCheck| claim.reason.as_deref() == Some("results.json has no such number");
+    let lacking = checked.claims.iter().filter(absent).count();
+    let reason =
+        (lacking > 0).then(|| format!("{} not in results.json", counted(lacking as u64, "claim")));
+    found.add_level(Level::Form, reason);
+    for (level, stops) in [
+        (Level::Scores, &checked.states),
+        (Level::Predictions, &checked.tables),
+    ] {
+        if level > most {
+            return;
+        }
+        let below = |claim: &&ClaimCheck| claim.level < level;
+        let differs =
+            |claim: &&ClaimCheck| claim.level == level && claim.verdict == Verdict::Differs;
+        let behind = checked.claims.iter().filter(below).count();
+        let other = checked.claims.iter().filter(differs).count();
+        let reason = if let Some(stop) = stops.first() {
+            Some(stop.clone())
+        } else if other > 0 {
+            Some(format!(
+                "{} with another number",
+                counted(other as u64, "claim")
+            ))
+        } else if behind > 0 {
+            Some(format!(
+                "{} not computed again",
+                counted(behind as u64, "claim")
+            ))
+        } else {
+            None
+        };
+        found.add_level(level, reason);
+    }
+}
+
+/// First file behind a study that is too long to read.
+fn too_long(source: &Source, manifest: &Manifest) -> Option<Damage> {
+    let names = manifest.studies.iter().flat_map(form::names);
+    names
+        .filter(|name| source.files().contains_key(*name))
+        .find_map(|name| source.size(name, MOST_TABLE).err())
+}
+
+fn facts(sealed: &SealedManifest) -> BundleFacts {
+    let manifest = &sealed.manifest;
+    BundleFacts {
+        name: manifest.name.clone(),
+        created: manifest.created.clone(),
+        taceva: manifest.taceva.clone(),
+        source: manifest.source.clone(),
+        badge: manifest.badge.clone(),
+        seal: sealed.digest.clone(),
+        samples_digest: manifest.samples_digest.clone(),
+        edits: sealed.edits.clone(),
+    }
+}
+
+/// Facts of the bundle at `path`, and its manifest. Its files are not read.
+///
+/// # Errors
+/// [`BundleError::Damaged`] if it is no bundle of this version; [`BundleError::File`] if it cannot be read.
+pub(crate) fn open_manifest(path: &Path) -> Result<(BundleFacts, Manifest), BundleError> {
+    let source = Source::open(path, MOST_BYTES)?;
+    let text = source
+        .text(MANIFEST, MOST_TEXT)
+        .map_err(BundleError::Damaged)?;
+    let sealed = Manifest::parse(&text).map_err(BundleError::Damaged)?;
+    Ok((facts(&sealed), sealed.manifest))
+}

@@ -1,0 +1,156 @@
+//! Arguments of `taceva bundle`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand, ValueEnum};
+use taceva_bundle::{Author, Level, MOST_BYTES, Redaction};
+
+use super::{ListFormat, Output};
+
+/// A bundle holds results, the states behind them, the tables behind these, and texts for readers; `taceva bundle verify` computes the numbers
+/// again. States come from `--state-out`, tables are those of `score`, or the samples beside a result (`--samples-out NAME.samples.csv`), which
+/// are found by their digest. A seal is a digest and no signature: it shows damage and careless edits, not fraud.
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub(crate) struct Bundle {
+    #[command(subcommand)]
+    pub(crate) subject: Option<BundleSubject>,
+    #[command(flatten)]
+    pub(crate) make: BundleMake,
+}
+
+/// Operation on bundles.
+#[derive(Debug, Subcommand)]
+pub(crate) enum BundleSubject {
+    /// Compute the numbers of a bundle again, as deep as its files allow; the exit code is 1 if a claim differs and 3 if the bundle is damaged
+    Verify(BundleVerify),
+    /// Print claims and definitions of two bundles that differ, and if they are of the same samples; neither is verified
+    Diff(BundleDiff),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BundleMake {
+    /// The folder of a run, or the JSON of evaluate, score or merge
+    #[arg(required = true, value_name = "RUN|RESULT.json")]
+    pub(crate) result: Option<PathBuf>,
+    /// The bundle to write: one file if the name ends in .tar.gz, else a folder
+    #[arg(long, required = true, value_name = "BUNDLE[.tar.gz]")]
+    pub(crate) out: Option<PathBuf>,
+    /// A state behind the result, as --state-out writes it; may be repeated
+    #[arg(long = "state", value_name = "STATE")]
+    pub(crate) states: Vec<PathBuf>,
+    /// The table of the truth that was scored
+    #[arg(long, value_name = "TABLE", requires = "prediction")]
+    pub(crate) truth: Option<PathBuf>,
+    /// The table of predictions that was scored
+    #[arg(long = "pred", value_name = "TABLE", requires = "truth")]
+    pub(crate) prediction: Option<PathBuf>,
+    /// The key that paired their rows, if one was given to score
+    #[arg(long, value_name = "NAME|order", requires = "truth")]
+    pub(crate) key: Option<String>,
+    /// A recording behind the result, whose dataset.toml is added; those of a run are found; may be repeated
+    #[arg(long = "dataset", value_name = "DATASET")]
+    pub(crate) datasets: Vec<PathBuf>,
+    /// A text to add: scene.toml, rig.toml, map.toml, limits.toml or tasks.toml; the scene of a run is found; may be repeated
+    #[arg(long = "text", value_name = "FILE")]
+    pub(crate) texts: Vec<PathBuf>,
+    /// Leave files out, and state their digests: the bundle is then verified as deep as the rest allows
+    #[arg(long, value_enum, value_name = "PART")]
+    pub(crate) without: Option<WithoutPart>,
+    /// Redact texts: addresses of machines, serial numbers, absolute paths, separated by commas. Sealed files stay as they are
+    #[arg(long, value_name = "hosts,serials,paths", value_delimiter = ',')]
+    pub(crate) redact: Vec<Redaction>,
+    /// The name of the bundle [default: the sensors of the results]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) name: Option<String>,
+    /// An author, with an ORCID if there is one; may be repeated
+    #[arg(long = "author", value_name = "NAME <ORCID>")]
+    pub(crate) authors: Vec<Author>,
+    /// The licence, as an SPDX identifier such as CC-BY-4.0
+    #[arg(long, value_name = "SPDX", value_parser = licence)]
+    pub(crate) licence: Option<String>,
+    /// Make a draft without author or licence
+    #[arg(long)]
+    pub(crate) draft: bool,
+    /// The day on which the bundle is made, such as 2026-11-28 [default: today]
+    #[arg(long, value_name = "DATE", value_parser = date)]
+    pub(crate) date: Option<String>,
+    /// Replace a bundle that exists already
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// Files that can be left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum WithoutPart {
+    /// Tables of truth, of predictions and of samples
+    Predictions,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BundleVerify {
+    /// The bundle: a folder, or a .tar.gz
+    pub(crate) bundle: PathBuf,
+    /// The level to reach; the exit code is 1 if a claim does not reach it [default: the deepest that the files allow]
+    #[arg(long, value_enum, value_name = "LEVEL")]
+    pub(crate) level: Option<LevelArg>,
+    /// The greatest difference of numbers that count as within, in the unit of each
+    #[arg(long, value_name = "NUMBER", default_value_t = 0.0, value_parser = tolerance)]
+    pub(crate) tolerance: f64,
+    /// The most bytes of all files together
+    #[arg(long, value_name = "BYTES", default_value_t = MOST_BYTES)]
+    pub(crate) most: u64,
+    #[command(flatten)]
+    pub(crate) output: Output<ListFormat>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BundleDiff {
+    /// One bundle
+    pub(crate) one: PathBuf,
+    /// The other bundle
+    pub(crate) other: PathBuf,
+    #[command(flatten)]
+    pub(crate) output: Output<ListFormat>,
+}
+
+/// Level of a verification.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum LevelArg {
+    /// Files are those of bundle.json, byte for byte
+    Files,
+    /// Schemas, seals and generated files are right, and claims stand in the results
+    Form,
+    /// States give the scores
+    Scores,
+    /// Tables give the states and the scores
+    Predictions,
+}
+
+impl From<LevelArg> for Level {
+    fn from(level: LevelArg) -> Level {
+        match level {
+            LevelArg::Files => Level::Files,
+            LevelArg::Form => Level::Form,
+            LevelArg::Scores => Level::Scores,
+            LevelArg::Predictions => Level::Predictions,
+        }
+    }
+}
+
+fn licence(text: &str) -> Result<String, String> {
+    match taceva_bundle::is_licence(text) {
+        true => Ok(text.to_owned()),
+        false => Err("expected an SPDX identifier, such as CC-BY-4.0 or MIT".to_owned()),
+    }
+}
+
+fn date(text: &str) -> Result<String, String> {
+    crate::date::read(text).ok_or_else(|| "expected a date, such as 2026-11-28".to_owned())
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| number.is_finite());
+    let number = number.filter(|number| *number >= 0.0);
+    number.ok_or_else(|| "expected a number from 0".to_owned())
+}

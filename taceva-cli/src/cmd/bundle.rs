@@ -1,0 +1,91 @@
+//! `taceva bundle`.
+
+use taceva_bundle::{BundleRequest, Outcome, ScoredTables, VerifyRequest, compare, make, verify};
+use taceva_core::{counted, shown};
+
+use super::{Context, Usage};
+use crate::args::{Bundle, BundleDiff, BundleMake, BundleSubject, BundleVerify, WithoutPart};
+use crate::{date, exit, output, report};
+
+pub(crate) fn run(args: &Bundle, context: &Context) -> anyhow::Result<u8> {
+    match &args.subject {
+        None => made(&args.make, context),
+        Some(BundleSubject::Verify(args)) => verified(args, context),
+        Some(BundleSubject::Diff(args)) => compared(args),
+    }
+}
+
+fn made(args: &BundleMake, context: &Context) -> anyhow::Result<u8> {
+    let (Some(result), Some(out)) = (&args.result, &args.out) else {
+        return Err(Usage::error("a result and --out BUNDLE are required"));
+    };
+    if !args.draft && (args.authors.is_empty() || args.licence.is_none()) {
+        return Err(Usage::error(
+            "a bundle states who made it and how it may be used: add --author \"NAME <ORCID>\" and --licence SPDX, or make a draft by --draft",
+        ));
+    }
+    output::check_free(out, args.force)?;
+    let day = args.date.clone().unwrap_or_else(date::today);
+    let mut request = BundleRequest::new(result, &day);
+    request.name.clone_from(&args.name);
+    request.authors.clone_from(&args.authors);
+    request.licence.clone_from(&args.licence);
+    request.states.clone_from(&args.states);
+    if let (Some(truth), Some(prediction)) = (&args.truth, &args.prediction) {
+        request.tables = Some(ScoredTables::new(truth, prediction, args.key.as_deref()));
+    }
+    request.datasets.clone_from(&args.datasets);
+    request.texts.clone_from(&args.texts);
+    request.withholds_predictions = args.without == Some(WithoutPart::Predictions);
+    request.redactions.clone_from(&args.redact);
+    request.jobs = context.jobs;
+    let made = make(&request, out)?;
+    for note in &made.notes {
+        context.say(format_args!("{}", shown(note)));
+    }
+    let manifest = &made.manifest;
+    output::write(None, |stream| {
+        writeln!(
+            stream,
+            "wrote    {}: {}, {}",
+            shown(out),
+            counted(manifest.files.len() as u64 + 1, "file"),
+            counted(manifest.claims.len() as u64, "claim")
+        )?;
+        report::bundle::levels(&manifest.claims, stream)
+    })?;
+    Ok(exit::DONE)
+}
+
+fn verified(args: &BundleVerify, context: &Context) -> anyhow::Result<u8> {
+    let to = &args.output;
+    if let Some(path) = to.path.as_deref() {
+        output::check_free(path, to.force)?;
+    }
+    let mut request = VerifyRequest::new(&args.bundle);
+    request.level = args.level.map(Into::into);
+    request.tolerance = args.tolerance;
+    request.most = args.most;
+    request.jobs = context.jobs;
+    let found = verify(&request)?;
+    output::write_as(to.format, to.path.as_deref(), |out| {
+        report::bundle::verification(&found, to.format, out)
+    })?;
+    Ok(match found.outcome() {
+        Outcome::Verified => exit::DONE,
+        Outcome::Damaged => exit::BAD_INPUT,
+        _ => exit::CHECK_FAILED,
+    })
+}
+
+fn compared(args: &BundleDiff) -> anyhow::Result<u8> {
+    let to = &args.output;
+    if let Some(path) = to.path.as_deref() {
+        output::check_free(path, to.force)?;
+    }
+    let found = compare(&args.one, &args.other)?;
+    output::write_as(to.format, to.path.as_deref(), |out| {
+        report::bundle::comparison(&found, to.format, out)
+    })?;
+    Ok(exit::DONE)
+}

@@ -1,0 +1,358 @@
+//! Bundles of results: made, verified, forged, compared.
+
+mod forgery;
+mod inputs;
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::support::Bench;
+use forgery::{accept, edit, manifest, relist};
+
+/// Words behind a result, without the place of the bundle.
+const BUNDLE: &str = "bundle result.json --state result.state --truth truth.csv --pred pred.csv --draft --date 2026-11-28 --out";
+
+/// Both tables of presses on a grid, with predictions that are off by a multiple of `error`.
+fn tables(bench: &Bench, prediction: &str, error: f64) {
+    let mut truth = "id,point_id,Px,Py,Pz,Fz\n".to_owned();
+    let mut predicted = "id,Px,Py,Pz,Fz\n".to_owned();
+    for row in 0..120_u32 {
+        let (x, y) = (f64::from(row % 6) - 2.5, f64::from(row / 6 % 5) - 2.0);
+        let depth = 0.2 + 0.1 * f64::from(row % 4);
+        let force = depth * (1.0 + 0.02 * x);
+        truth += &format!("{row},p{},{x},{y},{depth},{force}\n", row % 30);
+        let off = error * (f64::from(row * 7919 % 13) - 6.0);
+        predicted += &format!(
+            "{row},{},{},{},{}\n",
+            x + off,
+            y - off,
+            depth + off / 9.0,
+            force - off / 7.0
+        );
+    }
+    bench.write("truth.csv", &truth);
+    bench.write(prediction, &predicted);
+}
+
+/// A result of two tables, with its state.
+fn bench() -> Bench {
+    let bench = Bench::new();
+    tables(&bench, "pred.csv", 0.01);
+    score(&bench, "pred.csv", "result");
+    bench
+}
+
+fn score(bench: &Bench, prediction: &str, name: &str) {
+    bench.ok(&format!(
+        "score --truth truth.csv --pred {prediction} --format json --out {name}.json --state-out {name}.state -q"
+    ));
+}
+
+/// Verification of the bundle `words`, with the expected exit code.
+fn verified(bench: &Bench, words: &str, code: i32) -> Value {
+    let ran = bench.run(&format!("bundle verify {words} --format json -q"));
+    assert_eq!(ran.code, code, "{words}\n{}{}", ran.out, ran.err);
+    serde_json::from_str(&ran.out).expect("JSON")
+}
+
+/// Claims of a verification with this verdict.
+fn of_verdict<'a>(found: &'a Value, verdict: &str) -> Vec<&'a Value> {
+    let claims = found["claims"].as_array().expect("claims");
+    claims
+        .iter()
+        .filter(|claim| claim["verdict"] == verdict)
+        .collect()
+}
+
+#[test]
+fn every_claim_of_scored_tables_is_computed_again_from_folder_and_file() {
+    let bench = bench();
+    for place in ["b", "b.tar.gz"] {
+        let said = bench.ok(&format!("{BUNDLE} {place}"));
+        assert!(said.contains("level    predictions: "), "{said}");
+        let found = verified(&bench, place, 0);
+        assert_eq!(found["schema"], "taceva.verification/1");
+        let claims = found["claims"].as_array().expect("claims");
+        assert!(claims.len() > 20, "{} claims", claims.len());
+        assert_eq!(of_verdict(&found, "equal").len(), claims.len());
+        assert!(claims.iter().all(|claim| claim["level"] == "predictions"));
+        assert!(
+            claims
+                .iter()
+                .all(|claim| claim["printed"] == claim["recomputed"])
+        );
+        assert_eq!(
+            found["others"].as_array().map(Vec::len),
+            Some(0),
+            "{}",
+            found["others"]
+        );
+        for level in found["levels"].as_array().expect("levels") {
+            assert_eq!(level["reached"], true, "{level}");
+        }
+    }
+    let text = bench.ok("bundle verify b");
+    assert!(
+        text.contains("A seal is a digest and no signature"),
+        "{text}"
+    );
+}
+
+#[test]
+fn the_same_inputs_give_the_same_bytes_and_an_existing_bundle_stays() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} one.tar.gz"));
+    bench.ok(&format!("{BUNDLE} two.tar.gz"));
+    let read = |name: &str| fs::read(bench.path(name)).expect("written");
+    assert_eq!(read("one.tar.gz"), read("two.tar.gz"));
+    let before = read("one.tar.gz");
+    bench.refused(&format!("{BUNDLE} one.tar.gz"), 3, "--force replaces it");
+    assert_eq!(read("one.tar.gz"), before);
+    bench.write("mine/notes", "mine");
+    bench.refused(
+        &format!("{BUNDLE} mine --force"),
+        3,
+        "no bundle, which is not replaced",
+    );
+    assert_eq!(read("mine/notes"), b"mine");
+}
+
+#[test]
+fn a_bundle_without_author_or_licence_is_refused_unless_it_is_a_draft() {
+    let bench = bench();
+    let words = "bundle result.json --state result.state --out b";
+    bench.refused(words, 2, "or make a draft by --draft");
+    bench.refused(&format!("{words} --author Ada"), 2, "--licence SPDX");
+    bench.ok(&format!("{words} --author Ada --licence CC-BY-4.0 -q"));
+    assert!(manifest(&bench, "b")["draft"].is_null());
+    let text = fs::read_to_string(bench.path("b/CITATION.cff")).expect("written");
+    assert!(
+        text.contains("name: \"Ada\"") && text.contains("license: \"CC-BY-4.0\""),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_changed_a_missing_an_added_and_a_linked_file_are_damage() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} whole"));
+    for (name, damage, words) in [
+        ("changed", "tables/prediction.csv", "expected sha256:"),
+        ("lost", "states/0.json", "it is missing"),
+        ("added", "states/more.json", "bundle.json does not list it"),
+        ("sealless", "bundle.json", "was changed after it was sealed"),
+    ] {
+        bench.shell(&format!("cp -r whole {name}"));
+        let path = bench.path(name).join(damage);
+        match name {
+            "lost" => fs::remove_file(&path).expect("there"),
+            "added" => fs::write(&path, "{}").expect("room"),
+            "sealless" => edit(&path, |text| text.replacen("2026-11-28", "2026-11-29", 1)),
+            _ => edit(&path, |text| text.replacen('1', "2", 1)),
+        }
+        let found = verified(&bench, name, 3);
+        let first = &found["damage"][0];
+        assert_eq!(first["path"], damage, "{first}");
+        let problem = first["problem"].as_str().expect("words");
+        assert!(problem.contains(words), "{name}: {problem}");
+    }
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("/etc/passwd", bench.path("whole/link")).expect("room");
+        let found = verified(&bench, "whole", 3);
+        assert_eq!(
+            found["damage"][0]["problem"],
+            "a link, expected a regular file"
+        );
+    }
+    bench.shell("rm whole/link");
+    let found = verified(&bench, "whole --most 1000", 3);
+    let problem = found["damage"][0]["problem"].as_str().expect("words");
+    assert!(problem.contains("more than 1000 bytes"), "{problem}");
+    bench.write("text.tar.gz", "no archive");
+    let found = verified(&bench, "text.tar.gz", 3);
+    let problem = found["damage"][0]["problem"].as_str().expect("words");
+    assert!(problem.contains("no whole .tar.gz"), "{problem}");
+    bench.refused("bundle verify nowhere", 3, "nowhere");
+}
+
+#[test]
+fn a_claim_that_is_edited_in_the_manifest_differs_at_the_scores_with_both_numbers() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} b"));
+    let value = manifest(&bench, "b")["claims"][0]["value"]
+        .as_f64()
+        .expect("a number");
+    relist(&bench, "b", |manifest| {
+        manifest["claims"][0]["value"] = (value + 1.0).into()
+    });
+    let found = verified(&bench, "b", 1);
+    let differing = of_verdict(&found, "differs");
+    let [claim] = differing[..] else {
+        panic!("one claim differs: {}", found["summary"]);
+    };
+    assert_eq!(claim["level"], "scores");
+    assert_eq!(claim["printed"], value + 1.0);
+    assert_eq!(claim["recomputed"], value);
+    let found = verified(&bench, "b --tolerance 2", 1);
+    assert_eq!(
+        of_verdict(&found, "differs").len(),
+        1,
+        "a claim that the results lack"
+    );
+}
+
+#[test]
+fn results_and_state_that_are_changed_alike_differ_from_the_predictions() {
+    let bench = bench();
+    tables(&bench, "better.csv", 0.005);
+    score(&bench, "better.csv", "better");
+    bench.ok(
+        "bundle better.json --state better.state --truth truth.csv --pred better.csv --draft --date 2026-11-28 -q --out b",
+    );
+    // Scores of better predictions, beside the tables of the true ones.
+    let digest = |name: &str| {
+        let text = fs::read_to_string(bench.path(name)).expect("written");
+        let result: Value = serde_json::from_str(&text).expect("JSON");
+        let digest = result["provenance"]["tables"]["prediction"].as_str();
+        digest.expect("a digest").to_owned()
+    };
+    let (own, other) = (digest("result.json"), digest("better.json"));
+    for name in ["results.json", "states/0.json"] {
+        let path = bench.path("b").join(name);
+        edit(&path, |text| text.replace(&other, &own));
+        accept(&path);
+    }
+    fs::copy(
+        bench.path("pred.csv"),
+        bench.path("b/tables/prediction.csv"),
+    )
+    .expect("room");
+    relist(&bench, "b", |_| {});
+    let found = verified(&bench, "b", 1);
+    let differing = of_verdict(&found, "differs");
+    assert!(!differing.is_empty(), "{}", found["summary"]);
+    assert!(
+        differing
+            .iter()
+            .all(|claim| claim["level"] == "predictions")
+    );
+    // Without the tables nothing shows it.
+    let found = verified(&bench, "b --level scores", 0);
+    assert_eq!(found["summary"]["differs"], 0);
+}
+
+#[test]
+fn a_state_of_another_setting_makes_claims_not_recomputable() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} b"));
+    let path = bench.path("b/states/0.json");
+    edit(&path, |text| {
+        text.replacen("\"gate_n\":0.02", "\"gate_n\":0.05", 1)
+    });
+    accept(&path);
+    relist(&bench, "b", |_| {});
+    let found = verified(&bench, "b", 1);
+    assert!(
+        !of_verdict(&found, "not recomputable").is_empty(),
+        "{}",
+        found["summary"]
+    );
+}
+
+#[test]
+fn a_state_of_other_tables_is_refused_when_a_bundle_is_made() {
+    let bench = bench();
+    tables(&bench, "better.csv", 0.005);
+    score(&bench, "better.csv", "better");
+    let words = "bundle result.json --state better.state --draft --out b";
+    bench.refused(words, 3, "name the state and the tables of this result");
+    assert!(!bench.path("b").exists());
+    let words = "bundle result.json --draft --out b";
+    bench.refused(words, 3, "nothing to compute its numbers again from");
+}
+
+#[test]
+fn tables_that_are_withheld_leave_the_claims_at_the_scores() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} b --without predictions"));
+    let withheld = manifest(&bench, "b")["withheld"].clone();
+    assert_eq!(withheld.as_array().map(Vec::len), Some(2), "{withheld}");
+    assert!(!bench.path("b/tables").exists());
+    let found = verified(&bench, "b", 0);
+    let claims = found["claims"].as_array().expect("claims");
+    assert!(claims.iter().all(|claim| claim["level"] == "scores"));
+    verified(&bench, "b --level scores", 0);
+    verified(&bench, "b --level predictions", 1);
+}
+
+#[test]
+fn simulated_results_say_everywhere_that_nothing_was_measured() {
+    let bench = bench();
+    let path = bench.path("result.json");
+    edit(&path, |text| {
+        text.replacen("\"source\": \"unknown\"", "\"source\": \"simulated\"", 1)
+    });
+    accept(&path);
+    bench.ok(&format!("{BUNDLE} b"));
+    let badge = "Nothing here was measured: the samples are simulated.";
+    assert_eq!(manifest(&bench, "b")["badge"], badge);
+    let card = fs::read_to_string(bench.path("b/README.md")).expect("written");
+    assert!(card.contains(badge), "{card}");
+    assert!(bench.ok("bundle verify b").contains(badge));
+    relist(&bench, "b", |manifest| {
+        manifest["source"] = "recorded".into();
+        manifest["badge"] = Value::Null;
+    });
+    let found = verified(&bench, "b", 3);
+    assert_eq!(found["damage"][0]["path"], "bundle.json");
+}
+
+#[test]
+fn another_schema_and_deep_nesting_are_refused_with_their_reason() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} b"));
+    relist(&bench, "b", |manifest| {
+        manifest["schema"] = "taceva.bundle/2".into()
+    });
+    let found = verified(&bench, "b", 3);
+    let problem = found["damage"][0]["problem"].as_str().expect("words");
+    assert!(
+        problem.contains("`taceva.bundle/2`") && problem.contains("`taceva.bundle/1`"),
+        "{problem}"
+    );
+    for name in ["bundle.json", "states/0.json"] {
+        bench.ok(&format!("{BUNDLE} b --force"));
+        bench.write(&format!("b/{name}"), &"[".repeat(100_000));
+        if name != "bundle.json" {
+            relist(&bench, "b", |_| {});
+        }
+        let found = verified(&bench, "b", 3);
+        assert_eq!(found["damage"][0]["path"], name);
+    }
+}
+
+#[test]
+fn two_bundles_are_compared_by_claims_and_samples() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} one"));
+    tables(&bench, "better.csv", 0.005);
+    score(&bench, "better.csv", "better");
+    bench.ok("bundle better.json --state better.state --truth truth.csv --pred better.csv --draft --date 2026-11-28 -q --out two");
+    let found = bench.json("bundle diff one two");
+    assert_eq!(found["has_same_samples"], true);
+    assert!(
+        found["claims"]
+            .as_array()
+            .is_some_and(|claims| !claims.is_empty())
+    );
+    assert_eq!(found["definitions"].as_array().map(Vec::len), Some(0));
+    let same = bench.json("bundle diff one one");
+    assert_eq!(same["claims"].as_array().map(Vec::len), Some(0));
+    let said = bench.ok("bundle diff one two");
+    assert!(
+        said.contains("samples  the same") && said.contains("neither bundle was verified"),
+        "{said}"
+    );
+}

@@ -1,0 +1,78 @@
+//! Bundles of evaluations and of runs, and texts beside them.
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::forgery::manifest;
+use super::{BUNDLE, bench, of_verdict, verified};
+use crate::support::Bench;
+
+/// A run of two phases.
+const SCENE: &str = r#"scene_version = 1
+name = "small"
+seed = 7
+robot = { driver = "sim/robot" }
+force = { driver = "sim/force-transducer" }
+model = { name = "ridge", set = { size = "8x8" } }
+sensor = { driver = "sim/gelsight" }
+metrics = { want = ["mae", "noise_equivalent_force"] }
+protocol = { calibration = { points = 12, indentations = 2 }, idle = { frames = 12 } }
+"#;
+
+#[test]
+fn an_evaluation_is_verified_by_its_samples_as_far_as_they_hold_what_metrics_read() {
+    let bench = Bench::new();
+    bench.record("data", 20);
+    bench.ok("evaluate data --model ridge --split random --no-cache --format json --out r.json --state-out r.state --samples-out r.samples.csv -q");
+    bench.ok("bundle r.json --state r.state --dataset data --draft --out b.tar.gz -q");
+    let found = verified(&bench, "b.tar.gz", 0);
+    assert_eq!(found["summary"]["differs"], 0, "{}", found["others"]);
+    let claims = found["claims"].as_array().expect("claims");
+    let errors: Vec<&Value> = claims
+        .iter()
+        .filter(|claim| claim["metric"] == "mae")
+        .collect();
+    assert!(!errors.is_empty());
+    assert!(errors.iter().all(|claim| claim["level"] == "predictions"));
+}
+
+#[test]
+fn a_run_is_verified_to_the_scores_by_the_states_of_its_phases() {
+    let bench = Bench::new();
+    bench.write("small.toml", SCENE);
+    bench.ok("run small.toml --out run -q");
+    bench.ok("bundle run --draft --out b.tar.gz -q");
+    let found = verified(&bench, "b.tar.gz", 0);
+    let claims = found["claims"].as_array().expect("claims");
+    assert_eq!(
+        of_verdict(&found, "equal").len(),
+        claims.len(),
+        "{}",
+        found["levels"]
+    );
+    assert!(claims.iter().all(|claim| claim["level"] == "scores"));
+}
+
+#[test]
+fn texts_are_redacted_and_counted() {
+    let bench = bench();
+    bench.write(
+        "rig.toml",
+        "address = \"10.0.0.7\"\nmap = \"/home/lab/map.toml\"\nserial = \"X81\"\n",
+    );
+    bench.ok(&format!("{BUNDLE} b --text rig.toml --redact hosts,paths"));
+    let text = fs::read_to_string(bench.path("b/rig.toml")).expect("written");
+    assert_eq!(
+        text,
+        "address = \"redacted\"\nmap = \"redacted\"\nserial = \"X81\"\n"
+    );
+    assert_eq!(manifest(&bench, "b")["redacted"]["rig.toml"], 2);
+    verified(&bench, "b", 0);
+    bench.write("notes.toml", "");
+    bench.refused(
+        &format!("{BUNDLE} c --text notes.toml"),
+        3,
+        "expected a file called scene.toml",
+    );
+}
