@@ -17,7 +17,7 @@ const SOME: usize = 8;
 const MOST: usize = 24;
 
 /// Commands, each in a folder `work` in which only they create names. Inputs are in `given` beside it.
-const COMMANDS: [(&str, &str); 28] = [
+const COMMANDS: [(&str, &str); 29] = [
     (
         "import",
         "import ../given/lab --map ../given/map.toml --out set",
