@@ -95,6 +95,13 @@ fn a_budget_that_cannot_be_made_is_one_line_with_the_reason() {
 }
 
 #[test]
+fn a_name_with_markup_is_text_of_the_budget() {
+    let section = section(&[recorded("<script>alert(1)</script>")]);
+    assert!(section.contains("&lt;script&gt;alert(1)"), "{section}");
+    assert!(!section.contains("<script"), "{section}");
+}
+
+#[test]
 fn without_fz_the_first_force_is_the_measurand_else_the_first_channel() {
     let of = |channels: [&str; 2]| {
         let [one, other] = channels;
