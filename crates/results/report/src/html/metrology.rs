@@ -81,7 +81,8 @@ fn budget(study: &Study) -> Result<Budget, String> {
     let evidence = evidence(study, samples, name, components);
     let text = BudgetText::parse(&channel.sources(at, evidence.certificate().is_some()));
     let budgets = text.and_then(|text| text.budgets(&evidence, None::<MonteCarlo>));
-    let budgets = budgets.map_err(|error| format!("{}: {error}", shown(name)))?;
+    // The text has no lines that a reader could find.
+    let budgets = budgets.map_err(|error| format!("{}: {}", shown(name), error.problem))?;
     let first = budgets.into_iter().next();
     first.ok_or_else(|| "its labels have no median".to_owned())
 }

@@ -95,6 +95,22 @@ fn a_budget_that_cannot_be_made_is_one_line_with_the_reason() {
 }
 
 #[test]
+fn a_certificate_of_another_instrument_is_a_reason_without_a_line() {
+    let mut study = recorded("one");
+    let mut traced = certified();
+    traced.serial = Some("43".to_owned());
+    study.references = vec![traced];
+    let section = section(&[study]);
+    let reason = "no uncertainty budget (Fz: ";
+    assert!(section.contains(reason), "{section}");
+    assert!(
+        section.contains("the instrument has serial `43`"),
+        "{section}"
+    );
+    assert!(!section.contains("line "), "{section}");
+}
+
+#[test]
 fn a_name_with_markup_is_text_of_the_budget() {
     let section = section(&[recorded("<script>alert(1)</script>")]);
     assert!(section.contains("&lt;script&gt;alert(1)"), "{section}");
