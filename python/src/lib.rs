@@ -13,6 +13,7 @@ mod evaluate;
 mod given;
 mod inventory;
 mod metrics;
+mod metrology;
 mod plugin;
 mod record;
 mod results;
@@ -40,6 +41,8 @@ mod _taceva {
     use super::inventory::{found_plugins, metric_titles, model_names};
     #[pymodule_export]
     use super::metrics::{Sums, channel_order, unit_of};
+    #[pymodule_export]
+    use super::metrology::metrology;
     #[pymodule_export]
     use super::plugin::{Deadline, Interrupted, Training};
     #[pymodule_export]

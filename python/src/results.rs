@@ -242,7 +242,8 @@ fn studies(texts: &[String]) -> PyResult<Vec<Study>> {
     Ok(all)
 }
 
-fn rendered(table: &Table, form: &str) -> PyResult<String> {
+/// Table in `form`: `text`, `csv`, `md`, `tex` or `html`.
+pub(crate) fn rendered(table: &Table, form: &str) -> PyResult<String> {
     Ok(match form {
         "text" => table.text(),
         "csv" => table.csv(),

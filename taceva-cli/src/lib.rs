@@ -12,6 +12,7 @@ mod date;
 mod disk_space;
 mod exit;
 mod invocation;
+mod metrology;
 mod output;
 mod process_limits;
 mod progress;
@@ -38,6 +39,8 @@ use taceva_sweep::SweepError;
 use args::{Cli, Command};
 use cmd::Context;
 use invocation::Invocation;
+
+pub use metrology::{Metrology, metrology};
 
 /// Serves as the child process of another `taceva` and exits, if this process was started for that; else returns. A `main` that does not
 /// begin with it has no child processes. Plugins in libraries are then rejected unless an interpreter was named for them
@@ -140,6 +143,16 @@ fn patience(command: &Command) -> Option<Duration> {
 
 /// Prints an error and its causes in one line.
 fn complain(error: &Error) {
+    stderr::say(format_args!("{}", one_line(error)));
+}
+
+/// An error and its causes in one line, with advice for a folder that is no dataset.
+///
+/// ```
+/// let refused = taceva_cli::metrology(["taceva", "budget", "nowhere.toml"]).expect_err("no such file");
+/// assert!(taceva_cli::one_line(&refused).starts_with("cannot read nowhere.toml: "));
+/// ```
+pub fn one_line(error: &Error) -> String {
     let mut text = String::new();
     for cause in error.chain().map(ToString::to_string) {
         // Skips a cause that the error already contains.
@@ -152,7 +165,7 @@ fn complain(error: &Error) {
         text.push_str("; ");
         text.push_str(&advice);
     }
-    stderr::say(format_args!("{text}"));
+    text
 }
 
 /// The folder that was named as a dataset but is none.

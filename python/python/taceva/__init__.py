@@ -18,6 +18,7 @@ from taceva._figure import Figure
 from taceva._function_score import score_function
 from taceva._inventory import FoundPlugin, metrics, models, plugins
 from taceva._metrics import SIX, TactileMetrics, score, score_tables
+from taceva._metrology import Budget, CalibrationCurve, GaugeStudy, budget, curve, gauge
 from taceva._onnx import OnnxModel, onnx
 from taceva._record import from_arrays, import_recording
 from taceva._result import Interval, Result, Score, load
@@ -28,11 +29,14 @@ __version__: str = _version()
 
 __all__ = [
     "SIX",
+    "Budget",
+    "CalibrationCurve",
     "Comparison",
     "Dataset",
     "DatasetError",
     "Figure",
     "FoundPlugin",
+    "GaugeStudy",
     "Interval",
     "ModelError",
     "OnnxModel",
@@ -41,9 +45,12 @@ __all__ = [
     "Samples",
     "Score",
     "TactileMetrics",
+    "budget",
     "compare",
+    "curve",
     "evaluate",
     "from_arrays",
+    "gauge",
     "import_recording",
     "load",
     "metrics",

@@ -29,6 +29,16 @@ pub(crate) fn run(args: &Budget) -> anyhow::Result<u8> {
         })?;
         return Ok(exit::DONE);
     }
+    let report = report(args)?;
+    write(&report, args)?;
+    Ok(match report.is_passed() {
+        true => exit::DONE,
+        false => exit::CHECK_FAILED,
+    })
+}
+
+/// Budgets of the sources.
+pub(crate) fn report(args: &Budget) -> anyhow::Result<BudgetReport> {
     let Some(path) = &args.sources else {
         return Err(Usage::error("expected BUDGET.toml"));
     };
@@ -53,17 +63,12 @@ pub(crate) fn run(args: &Budget) -> anyhow::Result<u8> {
         draws.with_seed(args.seed)
     });
     let budgets = budget.budgets(&measured.evidence, draws);
-    let report = BudgetReport {
+    Ok(BudgetReport {
         budgets: budgets.with_context(place)?,
         sensor: measured.sensor,
         origins: measured.origins,
         digest: taceva_files::seal::digest_of_bytes(text.as_bytes()),
         most: most.map(|most| most.value),
-    };
-    write(&report, args)?;
-    Ok(match report.is_passed() {
-        true => exit::DONE,
-        false => exit::CHECK_FAILED,
     })
 }
 

@@ -3,13 +3,14 @@
 mod proving;
 
 use std::collections::HashMap;
+use std::num::NonZeroUsize;
 
 use anyhow::anyhow;
 use taceva_core::{Unit, shown};
 use taceva_evaluate::read_table;
 use taceva_import::{CsvTable, ImportError};
 use taceva_metrology::curve::{CurveFit, CurveRow, CurveUndefined, Indication};
-use taceva_report::{CalibrationCurve, CurveAxis, CurveRequest};
+use taceva_report::{CalibrationCurve, CurveAxis, CurveFigure, CurveRequest, Table};
 use taceva_results::Samples;
 
 use super::quantity::{Quantity, unit_of_six};
@@ -28,7 +29,39 @@ pub(crate) fn run(args: &Curve, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.output.path {
         output::check_free(path, args.output.force)?;
     }
-    let (table, digest) = read_table(&args.table, context.jobs)?;
+    let found = fitted(args, context.jobs)?;
+    let written = match args.output.format {
+        Format::Csv => found.numbers(),
+        _ => found.table(),
+    };
+    results::write(&written, &args.output, || found.json())?;
+    Ok(exit::DONE)
+}
+
+/// Curve with the figures of the arguments.
+pub(crate) struct Fitted {
+    curve: CalibrationCurve,
+    request: CurveRequest,
+    figures: Vec<CurveFigure>,
+}
+
+impl Fitted {
+    pub(crate) fn table(&self) -> Table {
+        self.curve.table(&self.figures, &self.request)
+    }
+
+    pub(crate) fn numbers(&self) -> Table {
+        self.curve.numbers(&self.figures)
+    }
+
+    pub(crate) fn json(&self) -> String {
+        self.curve.json(&self.figures, &self.request)
+    }
+}
+
+/// Curve of the table.
+pub(crate) fn fitted(args: &Curve, jobs: NonZeroUsize) -> anyhow::Result<Fitted> {
+    let (table, digest) = read_table(&args.table, jobs)?;
     let [x, y] = [axis(&table, &args.x)?, axis(&table, &args.y)?];
     let read = readings(&table, [&x, &y], args)?;
     let fit = CurveFit::of(&read.rows, usize::from(args.order));
@@ -56,13 +89,11 @@ pub(crate) fn run(args: &Curve, context: &Context) -> anyhow::Result<u8> {
         digest: digest.to_string(),
     };
     let figures = curve.figures(&request);
-    let figures = figures.map_err(|error| refused(error, &table, args))?;
-    let written = match args.output.format {
-        Format::Csv => curve.numbers(&figures),
-        _ => curve.table(&figures, &request),
-    };
-    results::write(&written, &args.output, || curve.json(&figures, &request))?;
-    Ok(exit::DONE)
+    Ok(Fitted {
+        figures: figures.map_err(|error| refused(error, &table, args))?,
+        curve,
+        request,
+    })
 }
 
 /// Column of an axis, and the unit of its channel.

@@ -3,6 +3,8 @@
 mod factor;
 mod response;
 
+use std::num::NonZeroUsize;
+
 use anyhow::anyhow;
 use taceva_core::shown;
 use taceva_evaluate::read_table;
@@ -21,10 +23,24 @@ pub(crate) fn run(args: &Gauge, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.output.path {
         output::check_free(path, args.output.force)?;
     }
+    let studies = studies(args, context.jobs)?;
+    let written = match args.output.format {
+        Format::Csv => studies.numbers(),
+        _ => studies.table(),
+    };
+    results::write(&written, &args.output, || {
+        let first = studies.channels.first();
+        first.map_or_else(String::new, |of| studies.json(of))
+    })?;
+    Ok(exit::DONE)
+}
+
+/// Studies of the channels of the table.
+pub(crate) fn studies(args: &Gauge, jobs: NonZeroUsize) -> anyhow::Result<GaugeStudies> {
     let tolerance = args.tolerance.as_deref();
     let tolerance = tolerance.map(|written| Quantity::read("--tolerance", written));
     let tolerance = tolerance.transpose()?;
-    let (table, digest) = read_table(&args.table, context.jobs)?;
+    let (table, digest) = read_table(&args.table, jobs)?;
     let readings = Readings {
         factors: Factors::of(&table, args)?,
         table: &table,
@@ -39,7 +55,7 @@ pub(crate) fn run(args: &Gauge, context: &Context) -> anyhow::Result<u8> {
     }
     let settings = settings(args, tolerance.as_ref());
     let channels = responses.iter().map(|of| readings.study(of, &settings));
-    let studies = GaugeStudies {
+    Ok(GaugeStudies {
         columns: GaugeColumns {
             part: args.part.clone(),
             by: args.by.clone(),
@@ -48,16 +64,7 @@ pub(crate) fn run(args: &Gauge, context: &Context) -> anyhow::Result<u8> {
         channels: channels.collect::<anyhow::Result<_>>()?,
         sources: origin::of(&table)?,
         digest: digest.to_string(),
-    };
-    let written = match args.output.format {
-        Format::Csv => studies.numbers(),
-        _ => studies.table(),
-    };
-    results::write(&written, &args.output, || {
-        let first = studies.channels.first();
-        first.map_or_else(String::new, |of| studies.json(of))
-    })?;
-    Ok(exit::DONE)
+    })
 }
 
 fn settings(args: &Gauge, tolerance: Option<&Quantity>) -> GaugeSettings {

@@ -2,8 +2,11 @@
 
 mod contributions;
 mod numbers;
+mod residuals;
 mod template;
 
+pub(crate) use contributions::draw as draw_contributions;
+pub use residuals::residual_components;
 pub use template::BudgetTemplate;
 
 use maud::html;

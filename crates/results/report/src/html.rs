@@ -8,6 +8,7 @@ mod glance;
 mod groups;
 mod left_out;
 mod methods;
+mod metrology;
 mod picks;
 mod pictures;
 mod place;
@@ -79,6 +80,9 @@ pub fn report(report: &ReportPage<'_>) -> String {
     }
     let themes = themes::section(&table, &figures);
     document.section("themes", "Scores and figures", themes);
+    if let Some(section) = metrology::section(studies) {
+        document.section("metrology", "Metrology", section);
+    }
     if let Some((count, section)) = published::section(studies) {
         let title = "Scores beside published ones of the same sensor";
         let section = fold("published-all", title, &counted(count, "number"), &section);

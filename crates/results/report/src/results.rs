@@ -15,7 +15,7 @@ pub(crate) use standing::by_published_r2;
 pub use statement::Statement;
 pub(crate) use statement::UNSTATED;
 
-use taceva_core::Unit;
+use taceva_core::{Traceability, Unit};
 use taceva_metrics::{Standing, TrainingSpread, catalogue};
 use taceva_results::{
     DominantSample, EvaluationReport, Interval, OverSeeds, Provenance, ResultsError, Samples,
@@ -50,6 +50,8 @@ pub struct Study {
     pub provenance: Vec<(String, String)>,
     /// Provenance entries that the methods paragraph uses individually.
     pub made: Made,
+    /// Instruments that measured the labels, with their certificates.
+    pub references: Vec<Traceability>,
     /// Accepted manual edits of the result and of its inputs: file, date, reason and digests.
     pub edits: Vec<String>,
     /// Notes for readers.
@@ -125,6 +127,7 @@ impl From<EvaluationReport> for Study {
             skipped: report.skipped,
             provenance,
             made,
+            references: report.provenance.traceability,
             edits: report.provenance.edits,
             notes: report.provenance.notes,
             over_seeds: report.over_seeds,

@@ -4,8 +4,9 @@ use std::path::Path;
 
 use taceva_core::{Date, shown};
 use taceva_metrology::budget::{
-    BudgetError, BudgetText, Certificate, Components, Evidence, Figure, Freedom, Missing, Residuals,
+    BudgetError, BudgetText, Certificate, Components, Evidence, Figure, Freedom, Missing,
 };
+use taceva_report::residual_components;
 use taceva_results::{EvaluationReport, Score};
 
 use crate::cmd::quantity::unit_of_six;
@@ -213,21 +214,7 @@ impl Found {
                 "{message}; `--samples-out` of evaluate writes them"
             ));
         };
-        let pairs = samples.channel(&channel.name);
-        let Some(pairs) = pairs.filter(|of| of.is_predicted()) else {
-            return Err("the samples have no prediction of it".to_owned());
-        };
-        if !samples.has(column) {
-            return Err(format!("the samples have no column `{column}`"));
-        }
-        let mut residuals = Residuals::default();
-        for row in samples.of_protocol(part) {
-            let word = samples.word(column, row);
-            if let (Some([truth, prediction]), Some(word)) = (pairs.pair(row), word) {
-                residuals.add(word, truth, prediction);
-            }
-        }
-        residuals.components().map_err(|error| error.to_string())
+        residual_components(samples, &channel.name, part, column)
     }
 
     /// Score of the channel, by the variant that decides verdicts.

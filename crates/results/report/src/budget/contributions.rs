@@ -12,7 +12,7 @@ const HALF: f64 = 0.3;
 
 /// Figure number `number` of a page; `None` without an uncertainty.
 #[expect(clippy::cast_precision_loss, reason = "a handful of sources")]
-pub(super) fn draw(budget: &Budget, number: usize) -> Option<Figure> {
+pub(crate) fn draw(budget: &Budget, number: usize) -> Option<Figure> {
     if budget.sources.is_empty() || budget.u <= 0.0 {
         return None;
     }

@@ -94,6 +94,7 @@ impl Sensor {
             skipped: Vec::new(),
             provenance: sources.collect(),
             made: Made::default(),
+            references: Vec::new(),
             edits: Vec::new(),
             notes: vec!["published numbers, not measured with this program".to_owned()],
             over_seeds: None,

@@ -1,6 +1,7 @@
 //! Tests of reports of synthetic results: nothing is missing, no text acts as markup, and size and time stay within their limits.
 
 mod methods;
+mod metrology;
 
 use std::time::{Duration, Instant};
 

@@ -2,7 +2,7 @@
 
 use taceva_needs::skip;
 use taceva_report::{
-    Acceptance, CompareRequest, LimitsFile, Need, accept, catalogue, choose, compare,
+    Acceptance, CompareRequest, LimitsFile, Need, Study, accept, catalogue, choose, compare,
 };
 
 use super::{axe, open_page, page_of, print, two};
@@ -57,8 +57,13 @@ fn no_page_keeps_anybody_out() {
     let studies = two();
     let needs = Need::parse("accurate shear, ambient light").expect("needs");
     let site = taceva_report::site(&catalogue::all(), &studies);
+    let measured = two().map(|study| Study {
+        source: "recorded".to_owned(),
+        ..study
+    });
     let mut pages = vec![
         ("report", page_of(&studies)),
+        ("report of measured sensors", page_of(&measured)),
         (
             "comparison",
             compare(&studies, &CompareRequest::default()).page(&studies),

@@ -1,0 +1,42 @@
+//! Components of the residuals of a result's samples.
+
+use taceva_metrology::budget::{Components, Residuals};
+use taceva_results::Samples;
+
+/// Components of the residuals of `channel` in one part of the protocol, by the words of `column`.
+///
+/// ```
+/// use taceva_results::Samples;
+/// let table = "sample,point_id,Fz,Fz_predicted\n1,a,0.51,0.50\n2,a,0.53,0.50\n3,b,0.46,0.50\n4,b,0.48,0.50\n";
+/// let samples = Samples::read(table)?;
+/// let found = taceva_report::residual_components(&samples, "Fz", "calibration", "point_id")?;
+/// assert!(found.between.u > found.within.u);
+/// let absent = taceva_report::residual_components(&samples, "Fz", "calibration", "scene");
+/// assert_eq!(absent.unwrap_err(), "the samples have no column `scene`");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// A sentence about the absent column or prediction, or about too few rows.
+pub fn residual_components(
+    samples: &Samples,
+    channel: &str,
+    part: &str,
+    column: &str,
+) -> Result<Components, String> {
+    let pairs = samples.channel(channel);
+    let Some(pairs) = pairs.filter(|of| of.is_predicted()) else {
+        return Err("the samples have no prediction of it".to_owned());
+    };
+    if !samples.has(column) {
+        return Err(format!("the samples have no column `{column}`"));
+    }
+    let mut residuals = Residuals::default();
+    for row in samples.of_protocol(part) {
+        let word = samples.word(column, row);
+        if let (Some([truth, prediction]), Some(word)) = (pairs.pair(row), word) {
+            residuals.add(word, truth, prediction);
+        }
+    }
+    residuals.components().map_err(|error| error.to_string())
+}

@@ -1,0 +1,183 @@
+//! Uncertainty of a reading of each measured sensor, by the residuals of its samples.
+
+use maud::{Markup, html};
+use taceva_core::{Unit, shown};
+use taceva_metrology::budget::{
+    Budget, BudgetText, Certificate, Components, Evidence, Figure, MonteCarlo,
+};
+use taceva_results::Samples;
+
+use super::drawn;
+use crate::budget::{draw_contributions, residual_components};
+use crate::names::names;
+use crate::results::Study;
+
+/// Part of the protocol whose residuals count, and the column of places.
+const PLACES: [&str; 2] = ["calibration", "point_id"];
+/// Part of the protocol with several lights, and the column of lights.
+const LIGHTS: [&str; 2] = ["light-sweep", "scene"];
+/// Sources by figure, each with its name and a further key.
+const SOURCES: [(&str, &str, &str); 3] = [
+    ("error.between", "between places", ""),
+    ("error.within", "within places", "readings = 1\n"),
+    ("bias", "bias", ""),
+];
+/// Command that writes a file of sources.
+const TEMPLATE: &str = "taceva budget --template RESULT.json > budget.toml";
+
+/// Budget of each sensor, or the reason that there is none; `None` if all samples are simulated, synthetic or published.
+pub(super) fn section(studies: &[Study]) -> Option<Markup> {
+    let named = (1_usize..).zip(studies.iter().zip(names(studies)));
+    let measured = named.filter(|(_, (study, _))| is_measured(study));
+    let entries: Vec<Markup> = measured
+        .map(|(number, (study, name))| entry(study, &name, number))
+        .collect();
+    let body = html! {
+        p { "Expanded uncertainty of one reading, by the residuals of the samples of this result." } "\n"
+        @for entry in &entries { (entry) }
+        p.note { "A file of these sources, to which others can be added: " code { (TEMPLATE) } "." } "\n"
+    };
+    (!entries.is_empty()).then_some(body)
+}
+
+fn is_measured(study: &Study) -> bool {
+    !study.is_simulated() && study.source != "published"
+}
+
+fn entry(study: &Study, name: &str, number: usize) -> Markup {
+    let budget = match budget(study) {
+        Ok(budget) => budget,
+        Err(reason) => {
+            return html! { p { strong { (name) } ": no uncertainty budget (" (reason) ")." } "\n" };
+        }
+    };
+    let figure = draw_contributions(&budget, number).map(|mut figure| {
+        figure.title = format!("{name}: {}", figure.title);
+        figure
+    });
+    html! {
+        p { strong { (name) } ": " (budget.statement()) "." } "\n"
+        @for warning in &budget.warnings { p.note { "Warning: " (warning) "." } "\n" }
+        @if let Some(figure) = &figure { (drawn(figure)) }
+        @if !budget.missing.is_empty() {
+            p { "Effects that this budget of " (name) " does not cover:" } "\n"
+            ul { @for of in &budget.missing { li { (of.source) ": " (of.reason) } "\n" } }
+        }
+    }
+}
+
+/// Budget of the usual channel at the median of its labels; the reason if there is none.
+fn budget(study: &Study) -> Result<Budget, String> {
+    let Some(samples) = &study.samples else {
+        let remedy = "`--samples-out` of evaluate writes them beside the result";
+        return Err(format!("its samples are not known; {remedy}"));
+    };
+    let channel = Measurand::of(study, samples)?;
+    let name = channel.name.as_str();
+    let [part, column] = PLACES;
+    let components = residual_components(samples, name, part, column);
+    let components = components.map_err(|reason| format!("{}: {reason}", shown(name)))?;
+    let at = middle(samples, name, part);
+    let evidence = evidence(study, samples, name, components);
+    let text = BudgetText::parse(&channel.sources(at, evidence.certificate().is_some()));
+    let budgets = text.and_then(|text| text.budgets(&evidence, None::<MonteCarlo>));
+    // The text has no lines that a reader could find.
+    let budgets = budgets.map_err(|error| format!("{}: {}", shown(name), error.problem))?;
+    let first = budgets.into_iter().next();
+    first.ok_or_else(|| "its labels have no median".to_owned())
+}
+
+/// Channel of a budget.
+struct Measurand {
+    name: String,
+    unit: Unit,
+}
+
+impl Measurand {
+    /// Fz, else the first force, else the first predicted channel.
+    fn of(study: &Study, samples: &Samples) -> Result<Measurand, String> {
+        let channels = samples.channels().into_iter();
+        let predicted = channels.filter(|channel| channel.is_predicted());
+        let mut all: Vec<Measurand> = predicted
+            .filter_map(|channel| {
+                let mut scores = study.scores.iter();
+                let score = scores.find(|of| of.metric == "mae" && of.channel == channel.name)?;
+                Some(Measurand {
+                    name: channel.name.to_owned(),
+                    unit: score.unit,
+                })
+            })
+            .collect();
+        let force = || all.iter().position(|of| of.unit == Unit::Newton);
+        let normal = all.iter().position(|of| of.name == "Fz").or_else(force);
+        match all.is_empty() {
+            true => Err("its samples have no predicted channel with an MAE".to_owned()),
+            false => Ok(all.swap_remove(normal.unwrap_or_default())),
+        }
+    }
+
+    /// Text of the budget, as `taceva budget` reads it.
+    fn sources(&self, at: f64, is_certified: bool) -> String {
+        let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
+        let symbol = self.unit.symbol();
+        let value = match self.unit {
+            Unit::One => format!("{at:?}"),
+            _ => quoted(&format!("{at} {symbol}")),
+        };
+        let mut text = format!(
+            "budget_version = 1\nmeasurand = {}\nunit = {}\nat = [{value}]\n",
+            quoted(&self.name),
+            quoted(symbol)
+        );
+        let certificate = is_certified.then_some(("certificate", "reference", ""));
+        for (figure, name, keys) in SOURCES.into_iter().chain(certificate) {
+            text += &format!(
+                "[[source]]\nname = {}\nfrom = {}\n{keys}",
+                quoted(name),
+                quoted(figure)
+            );
+        }
+        text
+    }
+}
+
+/// Median of the labels of a part of the protocol, to two digits.
+fn middle(samples: &Samples, channel: &str, part: &str) -> f64 {
+    let labels = samples.channel(channel);
+    let rows = samples.of_protocol(part).into_iter();
+    let mut truths: Vec<f64> = rows
+        .filter_map(|row| Some(labels.as_ref()?.pair(row)?[0]))
+        .collect();
+    truths.sort_unstable_by(f64::total_cmp);
+    let median = truths.get(truths.len() / 2).copied().unwrap_or_default();
+    format!("{median:.1e}").parse().unwrap_or(median)
+}
+
+/// Figures of the residuals and the certificate, and further measured figures, which the budget names as effects without a source.
+fn evidence(
+    study: &Study,
+    samples: &Samples,
+    channel: &str,
+    mut components: Components,
+) -> Evidence {
+    let mae = study.score("mae", channel);
+    let note = mae.and_then(|score| score.deciding().standing.reason());
+    components.within.note = note.map(str::to_owned);
+    let mut evidence = components.feed(Evidence::default());
+    let drift = study.score("drift", channel);
+    if let Some(slope) = drift.and_then(|score| score.deciding().value.number()) {
+        evidence = evidence.with("drift", Figure::of_drift(slope));
+    }
+    let [part, column] = LIGHTS;
+    if samples.has("protocol")
+        && let Ok(of_lights) = residual_components(samples, channel, part, column)
+    {
+        evidence = evidence.with("r_light", of_lights.between);
+    }
+    let day = study.stated("recorded_on").and_then(|day| day.parse().ok());
+    let mut certificates = Certificate::of_references(&study.references, channel, day);
+    match (certificates.next(), certificates.next()) {
+        (Some(only), None) => evidence.with_certificate(only),
+        _ => evidence,
+    }
+}
