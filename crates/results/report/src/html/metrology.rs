@@ -25,11 +25,11 @@ const SOURCES: [(&str, &str, &str); 3] = [
 /// Command that writes a file of sources.
 const TEMPLATE: &str = "taceva budget --template RESULT.json > budget.toml";
 
-/// Budget of each sensor, or the reason that there is none; `None` if all samples are simulated, synthetic or published.
+/// Budget of each sensor, or the reason that there is none; `None` if all samples are synthetic or published.
 pub(super) fn section(studies: &[Study]) -> Option<Markup> {
     let named = (1_usize..).zip(studies.iter().zip(names(studies)));
-    let measured = named.filter(|(_, (study, _))| is_measured(study));
-    let entries: Vec<Markup> = measured
+    let shown = named.filter(|(_, (study, _))| has_rows(study));
+    let entries: Vec<Markup> = shown
         .map(|(number, (study, name))| entry(study, &name, number))
         .collect();
     let body = html! {
@@ -40,8 +40,9 @@ pub(super) fn section(studies: &[Study]) -> Option<Markup> {
     (!entries.is_empty()).then_some(body)
 }
 
-fn is_measured(study: &Study) -> bool {
-    !study.is_simulated() && study.source != "published"
+/// True if the samples of a study are measured or simulated presses.
+fn has_rows(study: &Study) -> bool {
+    !["synthetic", "published"].contains(&study.source.as_str())
 }
 
 fn entry(study: &Study, name: &str, number: usize) -> Markup {
@@ -56,7 +57,11 @@ fn entry(study: &Study, name: &str, number: usize) -> Markup {
         figure
     });
     html! {
-        p { strong { (name) } ": " (budget.statement()) "." } "\n"
+        p {
+            strong { (name) }
+            @if study.is_simulated() { " (simulated)" }
+            ": " (budget.statement()) "."
+        } "\n"
         @for warning in &budget.warnings { p.note { "Warning: " (warning) "." } "\n" }
         @if let Some(figure) = &figure { (drawn(figure)) }
         @if !budget.missing.is_empty() {

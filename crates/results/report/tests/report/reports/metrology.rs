@@ -66,8 +66,8 @@ fn a_certificate_of_the_recording_is_a_source() {
 }
 
 #[test]
-fn simulated_synthetic_and_published_numbers_have_no_budget() {
-    for source in ["simulated", "synthetic", "published"] {
+fn synthetic_and_published_numbers_have_no_budget_and_simulated_ones_say_so() {
+    for source in ["synthetic", "published"] {
         let mut study = recorded("one");
         study.source = source.to_owned();
         assert_eq!(section(&[study]), "", "{source}");
@@ -77,6 +77,13 @@ fn simulated_synthetic_and_published_numbers_have_no_budget() {
     let section = section(&[drawn, recorded("real")]);
     assert!(section.contains("<strong>real</strong>: Fz = "));
     assert!(!section.contains("<strong>drawn</strong>"), "{section}");
+    let mut simulated = recorded("bench");
+    simulated.source = "simulated".to_owned();
+    let section = self::section(&[simulated]);
+    assert!(
+        section.contains("<strong>bench</strong> (simulated): Fz = "),
+        "{section}"
+    );
 }
 
 #[test]
