@@ -114,11 +114,17 @@ impl Traceability {
         (read != certificate.serial).then_some((certificate, read))
     }
 
-    /// The certificate, and its last day, if it had expired on `day`.
-    pub fn expired_on(&self, day: Date) -> Option<(&Certificate, Date)> {
-        let certificate = self.certificate.as_ref()?;
-        let until = certificate.valid_until?;
-        (day > until).then_some((certificate, until))
+    /// The certificate, and its last day, if it had expired on `day`, the last one of the labels. A certificate that one of `all` had
+    /// replaced by then holds for earlier labels, so it counts as valid.
+    pub fn expired_on(&self, day: Date, all: &[Traceability]) -> Option<(&Certificate, Date)> {
+        let last_day = |of: &Traceability| of.certificate.as_ref()?.valid_until;
+        let until = last_day(self).filter(|until| *until < day)?;
+        let is_replaced = all.iter().any(|other| {
+            let is_certified = other.instrument == self.instrument && other.certificate.is_some();
+            is_certified && last_day(other).is_none_or(|until| until >= day)
+        });
+        let certificate = self.certificate.as_ref().filter(|_| !is_replaced)?;
+        Some((certificate, until))
     }
 }
 

@@ -34,7 +34,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let day = evidence.header.last_day(evidence.table.t_s());
     for traced in instruments {
         if let Some(day) = day
-            && let Some((certificate, until)) = traced.expired_on(day)
+            && let Some((certificate, until)) = traced.expired_on(day, instruments)
         {
             let message = format!(
                 "the certificate {} of the {} was valid until {until}, the recording is of {day}",
