@@ -44,6 +44,8 @@ pub(super) struct Measured {
     pub(super) origins: Vec<String>,
     pub(super) sensor: Option<String>,
     pub(super) absent: Vec<Missing>,
+    /// Day on which certificates must be valid, if it is known.
+    pub(super) recorded_on: Option<Date>,
 }
 
 impl Measured {
@@ -61,6 +63,7 @@ impl Measured {
         let mut measured = Measured {
             sensor: Some(subject.sensor.clone()),
             origins: vec![subject.source.clone()],
+            recorded_on: date.or(found.report.provenance.recorded_on),
             ..Measured::default()
         };
         measured.add_residuals(found, channel);
@@ -70,7 +73,7 @@ impl Measured {
                 Err(reason) => measured.lacks(figure, &reason),
             }
         }
-        measured.add_certificate(found, channel, date);
+        measured.add_certificate(found, channel);
         measured
     }
 
@@ -99,9 +102,9 @@ impl Measured {
     }
 
     /// Takes the certificate of the reference, if the result has one for the channel.
-    fn add_certificate(&mut self, found: &Found, channel: &Channel, date: Option<Date>) {
+    fn add_certificate(&mut self, found: &Found, channel: &Channel) {
         let stated = &found.report.provenance.traceability;
-        let mut all = Certificate::of_references(stated, &channel.name, date);
+        let mut all = Certificate::of_references(stated, &channel.name, self.recorded_on);
         match (all.next(), all.next()) {
             (Some(only), None) => self.take(|evidence| evidence.with_certificate(only)),
             (Some(_), Some(_)) => {

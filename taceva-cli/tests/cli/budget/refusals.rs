@@ -197,6 +197,19 @@ fn a_result_gives_the_certificate_of_its_recording_and_none_if_there_are_two() {
 }
 
 #[test]
+fn the_day_of_a_result_is_that_on_which_a_certificate_must_be_valid() {
+    let bench = certified("");
+    let result = r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "drawn", "source": "recorded"}, "metrics": {}, "provenance": {"recorded_on": "2027-06-01"}}"#;
+    let sealed = taceva_files::seal::json::seal(result).expect("JSON");
+    bench.write("r.json", &sealed);
+    let words = "budget budget.toml --results r.json --certificate cert.toml --mc 0";
+    let late = bench.ok(words);
+    assert!(late.contains("the recording is of 2027-06-01"), "{late}");
+    let stated = bench.ok(&format!("{words} --date 2027-01-02"));
+    assert!(!stated.contains("was valid until"), "{stated}");
+}
+
+#[test]
 fn a_certificate_that_does_not_hold_is_refused_and_an_expired_one_is_named_in_every_format() {
     let bench = certified("[force.certificate]\n");
     let words = "budget budget.toml --certificate cert.toml --mc 0";
