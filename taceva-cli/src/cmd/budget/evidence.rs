@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use taceva_core::{Date, shown};
+use taceva_core::{Date, Instrument, shown};
 use taceva_metrology::budget::{
     BudgetError, BudgetText, Certificate, Components, Evidence, Figure, Freedom, Missing, Residuals,
 };
@@ -104,8 +104,17 @@ impl Measured {
     /// Takes the certificate of the reference, if the result has one for the channel.
     fn add_certificate(&mut self, found: &Found, channel: &Channel) {
         let stated = &found.report.provenance.traceability;
+        let is_without = stated.iter().any(|of| {
+            let is_reference = of.instrument != Instrument::Sensor;
+            let measures = of.instrument.unit_of(&channel.name).is_some();
+            is_reference && measures && of.certificate.is_none()
+        });
         let mut all = Certificate::of_references(stated, &channel.name, self.recorded_on);
         match (all.next(), all.next()) {
+            (Some(_), None) if is_without => {
+                let reason = "some of the recordings have none; add --certificate CERTIFICATE.toml";
+                self.lacks("certificate", reason);
+            }
             (Some(only), None) => self.take(|evidence| evidence.with_certificate(only)),
             (Some(_), Some(_)) => {
                 let reason = "the recordings have several; add --certificate CERTIFICATE.toml";

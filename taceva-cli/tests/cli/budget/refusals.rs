@@ -169,7 +169,7 @@ fn a_certificate_gives_the_uncertainty_of_the_reference_and_its_number() {
 }
 
 #[test]
-fn a_result_gives_the_certificate_of_its_recording_and_none_if_there_are_two() {
+fn a_result_gives_the_certificate_of_its_recordings_unless_it_has_two_or_holds_for_some_alone() {
     let bench = certified("");
     let stated = |number: &str| {
         format!(
@@ -192,6 +192,13 @@ fn a_result_gives_the_certificate_of_its_recording_and_none_if_there_are_two() {
         "budget budget.toml --results r.json",
         3,
         "line 6, `from`: `certificate` is not measured here: the recordings have several",
+    );
+    let in_part = [stated("D-K-1").as_str(), r#"{"instrument": "force"}"#].join(", ");
+    bench.write("r.json", &result(&in_part));
+    bench.refused(
+        "budget budget.toml --results r.json",
+        3,
+        "line 6, `from`: `certificate` is not measured here: some of the recordings have none",
     );
     bench.ok("budget budget.toml --results r.json --certificate cert.toml --mc 0");
 }
