@@ -1,7 +1,9 @@
 //! Certificates of recordings, reduced to one channel.
 
 use taceva_core::{Instrument, Traceability};
-use taceva_metrology::budget::{Certificate, Coverage, Freedom};
+use taceva_metrology::budget::{Certificate, Coverage, Evidence, Freedom};
+
+use super::refusal;
 
 #[test]
 fn a_certificate_of_a_recording_is_reduced_to_one_channel() {
@@ -46,5 +48,18 @@ fn a_file_with_two_certificates_of_a_channel_gives_none_of_them() {
     assert_eq!(
         message.to_string(),
         "`certificate`: two certificates of a reference state Fz, D-K-1 and D-K-2; name a file with one of them"
+    );
+}
+
+#[test]
+fn a_certificate_that_depends_on_the_reading_needs_it_beside_an_expression() {
+    let text = "budget_version = 1\nmeasurand = \"Fz\"\nexpression = \"2 * cell\"\n[[source]]\nname = \"cell\"\nfrom = \"certificate\"\n";
+    let mut certificate = Certificate::new("D-K-1", "L", "42", Coverage::Factor(2.0));
+    certificate.relative = 0.001;
+    let evidence = Evidence::default().with_certificate(certificate);
+    let message = refusal(text, &evidence);
+    assert!(
+        message.starts_with("line 6, `from`: the certificate depends on the reading"),
+        "{message}"
     );
 }
