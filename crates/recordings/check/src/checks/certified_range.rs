@@ -40,10 +40,7 @@ fn outside(
         (range[0].unit == channel.unit()).then_some((*certificate, range))
     });
     let (certificate, [least, most]) = stated?;
-    let column = evidence.table.truth(position);
-    let labels: Vec<(usize, f64)> = (0..column.len())
-        .filter_map(|row| Some((row, column.get(row)?)))
-        .collect();
+    let labels = evidence.labelled(position);
     let is_covered = |value: f64| {
         let mut certificates = certificates.iter();
         certificates.any(|certificate| certificate.covers(channel.name(), value))
