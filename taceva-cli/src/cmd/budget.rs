@@ -128,6 +128,7 @@ fn certify(measured: &mut Measured, args: &Budget, channel: &Channel) -> anyhow:
     let certificate = Certificate::read(&read(path)?, &channel.name, day);
     let certificate = certificate.with_context(|| shown(path).to_string())?;
     measured.take(|evidence| evidence.with_certificate(certificate));
+    measured.absent.retain(|of| of.source != "certificate");
     Ok(())
 }
 

@@ -134,7 +134,7 @@ fn sources_without_an_uncertainty_have_none_and_divide_nothing() {
     assert_eq!(budget["U"], 0.0);
 }
 
-const CERTIFICATE: &str = r#"number = "D-K-1"
+pub(super) const CERTIFICATE: &str = r#"number = "D-K-1"
 laboratory = "a laboratory"
 issued = 2026-05-12
 valid_until = 2027-05-12
