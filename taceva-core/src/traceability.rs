@@ -74,6 +74,39 @@ impl Traceability {
         })
     }
 
+    /// Instruments of labels of two origins, each once. If the labels of one origin alone have a certificate of an instrument, an entry
+    /// without one stands for the others.
+    ///
+    /// ```
+    /// use taceva_core::{Certificate, Coverage, Instrument, Traceability};
+    /// let issued = "2026-05-12".parse()?;
+    /// let mut certificate = Certificate::new("D-K-1", "a laboratory", issued, "42", Coverage::Factor(2.0));
+    /// certificate.expanded.insert("Fz".to_owned(), "3 mN".parse()?);
+    /// let certified = [Traceability::new(Instrument::Force).with_certificate(certificate)?];
+    /// assert_eq!(Traceability::joined(&certified, &certified), certified);
+    /// assert!(Traceability::joined(&certified, &[])[1].certificate.is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn joined(own: &[Traceability], other: &[Traceability]) -> Vec<Traceability> {
+        let mut all = own.to_vec();
+        for traced in other {
+            if !all.contains(traced) {
+                all.push(traced.clone());
+            }
+        }
+        for instrument in Instrument::ALL {
+            let of = |traced: &Traceability, is_certified: bool| {
+                traced.instrument == instrument && traced.certificate.is_some() == is_certified
+            };
+            let [one, two] =
+                [own, other].map(|origin| origin.iter().any(|traced| of(traced, true)));
+            if one != two && !all.iter().any(|traced| of(traced, false)) {
+                all.push(Traceability::new(instrument));
+            }
+        }
+        all
+    }
+
     /// The certificate, and the serial number of the instrument, if these contradict each other.
     pub fn other_serial(&self) -> Option<(&Certificate, &str)> {
         let certificate = self.certificate.as_ref()?;
@@ -81,11 +114,17 @@ impl Traceability {
         (read != certificate.serial).then_some((certificate, read))
     }
 
-    /// The certificate, and its last day, if it had expired on `day`.
-    pub fn expired_on(&self, day: Date) -> Option<(&Certificate, Date)> {
-        let certificate = self.certificate.as_ref()?;
-        let until = certificate.valid_until?;
-        (day > until).then_some((certificate, until))
+    /// The certificate, and its last day, if it had expired on `day`, the last one of the labels. A certificate that one of `all` had
+    /// replaced by then holds for earlier labels, so it counts as valid.
+    pub fn expired_on(&self, day: Date, all: &[Traceability]) -> Option<(&Certificate, Date)> {
+        let last_day = |of: &Traceability| of.certificate.as_ref()?.valid_until;
+        let until = last_day(self).filter(|until| *until < day)?;
+        let is_replaced = all.iter().any(|other| {
+            let is_certified = other.instrument == self.instrument && other.certificate.is_some();
+            is_certified && last_day(other).is_none_or(|until| until >= day)
+        });
+        let certificate = self.certificate.as_ref().filter(|_| !is_replaced)?;
+        Some((certificate, until))
     }
 }
 

@@ -45,7 +45,7 @@ pub(crate) struct Budget {
     /// The certificate of the reference, in place of that of the result: a table `[force.certificate]` or `[robot.certificate]`, as in a rig file
     #[arg(long, value_name = "CERTIFICATE.toml")]
     pub(crate) certificate: Option<PathBuf>,
-    /// The day of the recording, on which the certificate must be valid
+    /// The day on which the certificate must be valid [default: that of the recording, if the result states it]
     #[arg(long, value_name = "YYYY-MM-DD")]
     pub(crate) date: Option<Date>,
     /// The values of the measurand with their unit, separated by commas, such as 0.5N; JSON holds one [default: those of the file]

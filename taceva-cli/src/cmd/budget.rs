@@ -129,9 +129,11 @@ fn certify(measured: &mut Measured, args: &Budget, channel: &Channel) -> anyhow:
     let Some(path) = &args.certificate else {
         return Ok(());
     };
-    let certificate = Certificate::read(&read(path)?, &channel.name, args.date);
+    let day = args.date.or(measured.recorded_on);
+    let certificate = Certificate::read(&read(path)?, &channel.name, day);
     let certificate = certificate.with_context(|| shown(path).to_string())?;
     measured.take(|evidence| evidence.with_certificate(certificate));
+    measured.absent.retain(|of| of.source != "certificate");
     Ok(())
 }
 

@@ -254,6 +254,12 @@ fn repeats_drift_and_lights_of_a_result_are_sources() {
         template.contains("# error.within: 0 rows of 0 points"),
         "{template}"
     );
+    bench.write("cert.toml", refusals::CERTIFICATE);
+    let template = bench.ok("budget --template r.json --certificate cert.toml");
+    assert!(
+        template.contains("\nfrom = \"certificate\"\n") && !template.contains("# certificate: "),
+        "{template}"
+    );
 }
 
 #[test]

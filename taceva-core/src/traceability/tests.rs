@@ -171,6 +171,27 @@ fn another_serial_number_and_an_expired_day_are_found() {
             .is_some_and(|(_, read)| read == "M3813B-0043")
     );
     let day = |text: &str| text.parse().expect("a day");
-    assert!(traced.expired_on(day("2027-05-12")).is_none());
-    assert!(traced.expired_on(day("2027-05-13")).is_some());
+    assert!(traced.expired_on(day("2027-05-12"), &[]).is_none());
+    assert!(traced.expired_on(day("2027-05-13"), &[]).is_some());
+}
+
+#[test]
+fn a_certificate_that_a_later_one_of_its_instrument_replaced_has_not_expired() {
+    let traced = |instrument: Instrument, until: &str| {
+        let mut traced = Traceability::new(instrument);
+        let mut certificate = certificate();
+        certificate.valid_until = Some(until.parse().expect("a day"));
+        traced.certificate = Some(certificate);
+        traced
+    };
+    let old = traced(Instrument::Force, "2027-05-12");
+    let new = traced(Instrument::Force, "2028-05-12");
+    let sensor = traced(Instrument::Sensor, "2028-05-12");
+    let none = Traceability::new(Instrument::Force);
+    let all = [old.clone(), new.clone()];
+    let day = |text: &str| text.parse().expect("a day");
+    assert!(old.expired_on(day("2027-06-01"), &all).is_none());
+    assert!(new.expired_on(day("2028-06-01"), &all).is_some());
+    let others = [old.clone(), sensor, none];
+    assert!(old.expired_on(day("2027-06-01"), &others).is_some());
 }

@@ -113,6 +113,25 @@ fn joined_recordings_name_the_certificates_of_both_once() {
 }
 
 #[test]
+fn a_certificate_of_one_of_joined_recordings_does_not_cover_the_labels_of_the_other() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let certified = record(&folder.path().join("one"), "D-K-1", 0.5);
+    let path = folder.path().join("two");
+    let facts = RecordingFacts::new(Source::Recorded, Clock::Unknown, SensorFacts::new("gel"));
+    let channels = Channels::new([Channel::FZ]).expect("one");
+    let mut recorder =
+        Recorder::create(&path, &RecordingSpec::new(facts, channels)).expect("created");
+    recorder.append(&sample("1", 0.6)).expect("recorded");
+    recorder.close().expect("closed");
+    let plain = Dataset::open(&path).expect("opens");
+    let joined = Dataset::joined(vec![plain, certified]).expect("alike");
+    let of_force = joined.header().traceability.iter();
+    let of_force = of_force.filter(|of| of.instrument == Instrument::Force);
+    let stated: Vec<bool> = of_force.map(|of| of.certificate.is_some()).collect();
+    assert_eq!(stated, [true, false]);
+}
+
+#[test]
 fn a_header_whose_certificate_is_of_another_instrument_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("set");

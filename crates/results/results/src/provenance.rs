@@ -86,24 +86,6 @@ impl Provenance {
         counts
     }
 
-    /// Adds the instruments of a recording. Different certificates of one instrument both stay.
-    ///
-    /// ```
-    /// use taceva_core::{Instrument, Traceability};
-    /// let mut provenance = taceva_results::Provenance::default();
-    /// let (force, robot) = (Instrument::Force, Instrument::Robot);
-    /// provenance.add_traceability(&[Traceability::new(force), Traceability::new(robot)]);
-    /// provenance.add_traceability(&[Traceability::new(force)]);
-    /// assert_eq!(provenance.traceability.len(), 2);
-    /// ```
-    pub fn add_traceability(&mut self, of: &[Traceability]) {
-        for traced in of {
-            if !self.traceability.contains(traced) {
-                self.traceability.push(traced.clone());
-            }
-        }
-    }
-
     /// Provenance of a combined result: common values, and the inputs of both.
     #[must_use]
     pub fn joined(mut self, other: &Provenance) -> Provenance {
@@ -140,7 +122,7 @@ impl Provenance {
         let presses = other.presses.iter();
         self.presses
             .extend(presses.map(|(digest, counts)| (digest.clone(), counts.clone())));
-        self.add_traceability(&other.traceability);
+        self.traceability = Traceability::joined(&self.traceability, &other.traceability);
         self.recorded_on = self.recorded_on.max(other.recorded_on);
         // No table of samples is written for several states.
         self.samples_table = None;
@@ -222,6 +204,8 @@ mod tests {
             .map(|of| Some(of.certificate.as_ref()?.number.as_str()))
             .collect();
         assert_eq!(numbers, [Some("D-K-1"), Some("D-K-2")]);
+        let in_part = of("D-K-1").joined(&Provenance::default());
+        assert!(in_part.traceability[1].certificate.is_none());
     }
 
     #[test]

@@ -171,9 +171,10 @@ pub fn capture(
     }
     let channels = channels(live);
     let source = source(live);
+    let settings = live.settings();
     let facts = RecordingFacts::new(source, Clock::Monotonic, request.sensor.clone())
-        .with_settings(live.settings())
-        .with_traceability(kept(live.traceability(), source))
+        .with_traceability(kept(live.traceability(), source, &settings))
+        .with_settings(settings)
         .with_recorded_on(day_of(source));
     let mut recorder =
         Recorder::create(&request.path, &RecordingSpec::new(facts, channels.clone()))?;

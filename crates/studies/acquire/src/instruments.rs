@@ -1,5 +1,6 @@
 //! Instruments of a recording, with the certificates of the rig file.
 
+use std::collections::BTreeMap;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use taceva_core::{Certificate, Date, Instrument, Traceability};
@@ -25,10 +26,22 @@ pub(crate) fn of_rig(rig: &RigFile) -> Vec<Traceability> {
     [force, robot, sensor].into_iter().flatten().collect()
 }
 
-/// Instruments that a recording of `source` keeps: labels that nothing measured need no certificate.
-pub(crate) fn kept(instruments: Vec<Traceability>, source: Source) -> Vec<Traceability> {
+/// Instruments that a recording of `source` keeps, with the serial numbers that their drivers read, among `settings` of the recording.
+/// Labels that nothing measured need no certificate.
+pub(crate) fn kept(
+    instruments: Vec<Traceability>,
+    source: Source,
+    settings: &BTreeMap<String, String>,
+) -> Vec<Traceability> {
     let mut kept = instruments;
     kept.retain(|of| source == Source::Recorded || of.certificate.is_some());
+    for of in &mut kept {
+        let read = match of.instrument {
+            Instrument::Sensor => settings.get("serial"),
+            other => settings.get(&format!("{other}_serial")),
+        };
+        of.serial = read.cloned().or(of.serial.take());
+    }
     kept
 }
 
@@ -38,7 +51,7 @@ pub(crate) fn day_of(source: Source) -> Option<Date> {
     (source == Source::Recorded).then(|| Date::of_unix_s(since.as_secs()))
 }
 
-/// The instrument of the device `driver`, a selector. Its serial number is the one that chose it; other drivers read none.
+/// The instrument of the device `driver`, a selector. Its serial number is the argument that chose it, if it has one.
 pub(crate) fn traced(
     instrument: Instrument,
     driver: &str,
@@ -91,10 +104,26 @@ driver = "lab/camera"
         assert!(force.other_serial().is_some_and(|(_, read)| read == "B2"));
         assert_eq!(robot.driver.as_deref(), Some("lab/arm"));
         assert_eq!((&robot.serial, &robot.certificate), (&None, &None));
-        assert_eq!(kept(instruments.clone(), Source::Recorded), instruments);
-        let drawn = kept(instruments.clone(), Source::Simulated);
+        let none = BTreeMap::new();
+        let recorded = kept(instruments.clone(), Source::Recorded, &none);
+        assert_eq!(recorded, instruments);
+        let drawn = kept(instruments.clone(), Source::Simulated, &none);
         assert_eq!(drawn, std::slice::from_ref(force));
         assert_eq!(day_of(Source::Simulated), None);
         assert!(day_of(Source::Recorded).is_some());
+    }
+
+    #[test]
+    fn a_serial_number_that_a_driver_reads_is_compared_with_the_certificate() {
+        let rig = RigFile::parse("lab.toml", &RIG.replace(";serial=B2", "")).expect("a rig");
+        let read = |name: &str| BTreeMap::from([(name.to_owned(), "B4".to_owned())]);
+        let with = |name: &str| kept(of_rig(&rig), Source::Recorded, &read(name));
+        let of_force = with("force_serial");
+        let other = of_force[0].other_serial();
+        assert!(other.is_some_and(|(_, read)| read == "B4"));
+        assert_eq!(of_force[1].serial, None);
+        let of_robot = with("robot_serial");
+        assert_eq!(of_robot[0].serial, None);
+        assert_eq!(of_robot[1].serial.as_deref(), Some("B4"));
     }
 }

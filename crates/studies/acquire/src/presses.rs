@@ -242,7 +242,7 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> Recor
     facts.settings = open.settings();
     let rig = study.study.rig.as_deref();
     let instruments = rig.map(instruments::of_rig).unwrap_or_default();
-    facts.traceability = instruments::kept(instruments, source);
+    facts.traceability = instruments::kept(instruments, source, &facts.settings);
     facts.recorded_on = instruments::day_of(source);
     RecordingSpec::new(facts, plan.truth_channels())
 }

@@ -21,6 +21,7 @@ pub fn of(dataset: &Dataset) -> Provenance {
         dataset: Some(dataset.digest().to_string()),
         recordings: recordings::provenance(dataset),
         view: dataset.view(),
+        traceability: dataset.header().traceability.clone(),
         ..Provenance::default()
     };
     match dataset.recordings() {
@@ -39,7 +40,6 @@ fn add_recording(provenance: &mut Provenance, dataset: &Dataset, folder: &str) {
         let digest = dataset.digest().to_string();
         provenance.presses.insert(digest, header.presses.clone());
     }
-    provenance.add_traceability(&header.traceability);
     if !header.traceability.is_empty() {
         let day = header.last_day(dataset.table().t_s());
         provenance.recorded_on = provenance.recorded_on.max(day);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use taceva_core::{Date, shown};
+use taceva_core::{Date, Instrument, shown};
 use taceva_metrology::budget::{
     BudgetError, BudgetText, Certificate, Components, Evidence, Figure, Freedom, Missing,
 };
@@ -45,6 +45,8 @@ pub(super) struct Measured {
     pub(super) origins: Vec<String>,
     pub(super) sensor: Option<String>,
     pub(super) absent: Vec<Missing>,
+    /// Day on which certificates must be valid, if it is known.
+    pub(super) recorded_on: Option<Date>,
 }
 
 impl Measured {
@@ -62,6 +64,7 @@ impl Measured {
         let mut measured = Measured {
             sensor: Some(subject.sensor.clone()),
             origins: vec![subject.source.clone()],
+            recorded_on: date.or(found.report.provenance.recorded_on),
             ..Measured::default()
         };
         measured.add_residuals(found, channel);
@@ -71,7 +74,7 @@ impl Measured {
                 Err(reason) => measured.lacks(figure, &reason),
             }
         }
-        measured.add_certificate(found, channel, date);
+        measured.add_certificate(found, channel);
         measured
     }
 
@@ -100,10 +103,19 @@ impl Measured {
     }
 
     /// Takes the certificate of the reference, if the result has one for the channel.
-    fn add_certificate(&mut self, found: &Found, channel: &Channel, date: Option<Date>) {
+    fn add_certificate(&mut self, found: &Found, channel: &Channel) {
         let stated = &found.report.provenance.traceability;
-        let mut all = Certificate::of_references(stated, &channel.name, date);
+        let is_without = stated.iter().any(|of| {
+            let is_reference = of.instrument != Instrument::Sensor;
+            let measures = of.instrument.unit_of(&channel.name).is_some();
+            is_reference && measures && of.certificate.is_none()
+        });
+        let mut all = Certificate::of_references(stated, &channel.name, self.recorded_on);
         match (all.next(), all.next()) {
+            (Some(_), None) if is_without => {
+                let reason = "some of the recordings have none; add --certificate CERTIFICATE.toml";
+                self.lacks("certificate", reason);
+            }
             (Some(only), None) => self.take(|evidence| evidence.with_certificate(only)),
             (Some(_), Some(_)) => {
                 let reason = "the recordings have several; add --certificate CERTIFICATE.toml";

@@ -134,7 +134,7 @@ fn sources_without_an_uncertainty_have_none_and_divide_nothing() {
     assert_eq!(budget["U"], 0.0);
 }
 
-const CERTIFICATE: &str = r#"number = "D-K-1"
+pub(super) const CERTIFICATE: &str = r#"number = "D-K-1"
 laboratory = "a laboratory"
 issued = 2026-05-12
 valid_until = 2027-05-12
@@ -169,7 +169,7 @@ fn a_certificate_gives_the_uncertainty_of_the_reference_and_its_number() {
 }
 
 #[test]
-fn a_result_gives_the_certificate_of_its_recording_and_none_if_there_are_two() {
+fn a_result_gives_the_certificate_of_its_recordings_unless_it_has_two_or_holds_for_some_alone() {
     let bench = certified("");
     let stated = |number: &str| {
         format!(
@@ -193,7 +193,27 @@ fn a_result_gives_the_certificate_of_its_recording_and_none_if_there_are_two() {
         3,
         "line 6, `from`: `certificate` is not measured here: the recordings have several",
     );
+    let in_part = [stated("D-K-1").as_str(), r#"{"instrument": "force"}"#].join(", ");
+    bench.write("r.json", &result(&in_part));
+    bench.refused(
+        "budget budget.toml --results r.json",
+        3,
+        "line 6, `from`: `certificate` is not measured here: some of the recordings have none",
+    );
     bench.ok("budget budget.toml --results r.json --certificate cert.toml --mc 0");
+}
+
+#[test]
+fn the_day_of_a_result_is_that_on_which_a_certificate_must_be_valid() {
+    let bench = certified("");
+    let result = r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "drawn", "source": "recorded"}, "metrics": {}, "provenance": {"recorded_on": "2027-06-01"}}"#;
+    let sealed = taceva_files::seal::json::seal(result).expect("JSON");
+    bench.write("r.json", &sealed);
+    let words = "budget budget.toml --results r.json --certificate cert.toml --mc 0";
+    let late = bench.ok(words);
+    assert!(late.contains("the recording is of 2027-06-01"), "{late}");
+    let stated = bench.ok(&format!("{words} --date 2027-01-02"));
+    assert!(!stated.contains("was valid until"), "{stated}");
 }
 
 #[test]

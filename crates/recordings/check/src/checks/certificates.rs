@@ -1,6 +1,6 @@
 //! TAC028: instruments of the labels without certificate, with an expired one, or with that of another serial number.
 
-use taceva_core::shown;
+use taceva_core::{Instrument, Traceability, shown};
 use taceva_dataset::Source;
 
 use crate::evidence::Evidence;
@@ -34,7 +34,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let day = evidence.header.last_day(evidence.table.t_s());
     for traced in instruments {
         if let Some(day) = day
-            && let Some((certificate, until)) = traced.expired_on(day)
+            && let Some((certificate, until)) = traced.expired_on(day, instruments)
         {
             let message = format!(
                 "the certificate {} of the {} was valid until {until}, the recording is of {day}",
@@ -44,7 +44,9 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             found.push(Found::overall(Severity::Warning, message));
         }
     }
-    let without = instruments.iter().filter(|of| of.certificate.is_none());
+    let makes_labels = |of: &&Traceability| of.instrument != Instrument::Sensor;
+    let without = instruments.iter().filter(makes_labels);
+    let without = without.filter(|of| of.certificate.is_none());
     let mut without: Vec<&str> = without.map(|of| of.instrument.noun()).collect();
     without.sort_unstable();
     without.dedup();

@@ -17,7 +17,8 @@ pub(super) static CHECK: Check = Check {
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let mut found = Vec::new();
-    for instrument in Instrument::ALL {
+    // The sensor measures no label.
+    for instrument in [Instrument::Force, Instrument::Robot] {
         let of = evidence.header.traceability.iter();
         let of = of.filter(|of| of.instrument == instrument);
         let certificates: Vec<&Certificate> = of.filter_map(|of| of.certificate.as_ref()).collect();
@@ -40,10 +41,7 @@ fn outside(
         (range[0].unit == channel.unit()).then_some((*certificate, range))
     });
     let (certificate, [least, most]) = stated?;
-    let column = evidence.table.truth(position);
-    let labels: Vec<(usize, f64)> = (0..column.len())
-        .filter_map(|row| Some((row, column.get(row)?)))
-        .collect();
+    let labels = evidence.labelled(position);
     let is_covered = |value: f64| {
         let mut certificates = certificates.iter();
         certificates.any(|certificate| certificate.covers(channel.name(), value))

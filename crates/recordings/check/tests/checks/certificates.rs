@@ -93,3 +93,10 @@ fn labels_outside_the_certificates_range_are_counted_by_channel() {
     assert_eq!(codes(&report), [("TAC029", Severity::Note)]);
     says_nothing(&checked(&[0.5], VALID_S, CERTIFICATE), "TAC029");
 }
+
+#[test]
+fn a_certificate_of_the_sensor_bounds_no_labels() {
+    let of_sensor = CERTIFICATE.replace("[force.", "[sensor.");
+    let report = checked(&[0.0, 60.0], VALID_S, &of_sensor);
+    assert!(codes(&report).is_empty(), "{:#?}", report.findings);
+}

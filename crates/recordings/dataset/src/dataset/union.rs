@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 use std::path::Path;
 
-use taceva_core::{Channels, Clock, counted};
+use taceva_core::{Channels, Clock, Traceability, counted};
 
 use super::Dataset;
 use crate::digest::{Digest, PartsDigest};
@@ -311,11 +311,7 @@ fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
         header
             .settings
             .retain(|name, value| other.settings.get(name) == Some(value));
-        for traced in &other.traceability {
-            if !header.traceability.contains(traced) {
-                header.traceability.push(traced.clone());
-            }
-        }
+        header.traceability = Traceability::joined(&header.traceability, &other.traceability);
         for (outcome, count) in &other.presses {
             *header.presses.entry(*outcome).or_default() += count;
         }

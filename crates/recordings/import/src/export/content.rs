@@ -39,6 +39,10 @@ impl Exported<'_> {
                 has_several(&header.traceability),
                 "instruments with several certificates",
             ),
+            (
+                has_device_of_sensor(&header.traceability),
+                "driver and serial number beside the certificate of the sensor",
+            ),
             (!header.presses.is_empty(), "counts of presses by outcome"),
             (header.stream.is_some(), "losses of the stream"),
             (
@@ -122,4 +126,12 @@ fn has_several(of: &[Traceability]) -> bool {
         of.count() > 1
     };
     Instrument::ALL.into_iter().any(is_several)
+}
+
+/// True if the instrument of the sensor names a driver or a serial number, which `[sensor]` of a map cannot hold.
+fn has_device_of_sensor(of: &[Traceability]) -> bool {
+    of.iter().any(|of| {
+        let is_device = of.driver.is_some() || of.serial.is_some();
+        of.instrument == Instrument::Sensor && is_device
+    })
 }

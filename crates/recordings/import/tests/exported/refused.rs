@@ -5,8 +5,8 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use taceva_core::{
-    Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Progress, Readings, Sample,
-    SignalInfo, Signals, SilentProgress, Unit,
+    Channel, Channels, Clock, Frame, FrameInfo, Instrument, PixelFormat, Progress, Readings,
+    Sample, SignalInfo, Signals, SilentProgress, Traceability, Unit,
 };
 use taceva_dataset::{
     Dataset, DatasetError, Recorder, RecordingFacts, RecordingSpec, SensorFacts, SignalsSpec,
@@ -184,6 +184,33 @@ fn a_picture_without_contact_alone_is_named_as_left_out() {
         let map = fs::read_to_string(out.join("map.toml")).expect("a map");
         assert!(!map.contains("[frame]"), "{map}");
     }
+}
+
+#[test]
+fn several_entries_of_an_instrument_and_the_driver_of_a_sensor_are_named_as_left_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("traced");
+    let of = |instrument, driver: &str| Traceability::new(instrument).with_driver(driver, None);
+    let force = ["lab/one", "lab/other"].map(|driver| of(Instrument::Force, driver));
+    let sensor = of(Instrument::Sensor, "lab/camera");
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("gel"))
+        .with_traceability(force.into_iter().chain([sensor]).collect());
+    let channels = Channels::new([Channel::FZ]).expect("distinct");
+    let spec = RecordingSpec::new(facts, channels);
+    let mut recorder = Recorder::create(&path, &spec).expect("new");
+    recorder.append(&sample("a")).expect("recorded");
+    recorder.close().expect("closed");
+    let dataset = Dataset::open(&path).expect("a dataset");
+    let (out, report) = exported(&dataset, ExportForm::Csv);
+    assert_eq!(
+        report.left_out,
+        [
+            "instruments with several certificates",
+            "driver and serial number beside the certificate of the sensor"
+        ]
+    );
+    let map = fs::read_to_string(out.join("map.toml")).expect("a map");
+    assert!(!map.contains("lab/"), "{map}");
 }
 
 #[test]

@@ -48,7 +48,7 @@ impl Certificate {
     /// ```
     ///
     /// # Errors
-    /// [`BudgetError`] with the line of bad TOML or of a certificate that contradicts itself, or if none states this channel.
+    /// [`BudgetError`] with the line of bad TOML or of a certificate that contradicts itself, or if none or several state this channel.
     pub fn read(
         text: &str,
         channel: &str,
@@ -69,13 +69,19 @@ impl Certificate {
                 parsed(text)?,
             )?);
         }
-        let found = Certificate::of_references(&all, channel, recorded_on).next();
-        found.ok_or_else(|| {
-            refused(format!(
-                "no certificate of a reference with `U` or `U_relative` of {}",
-                shown(channel)
-            ))
-        })
+        let mut found = Certificate::of_references(&all, channel, recorded_on);
+        let channel = shown(channel);
+        match (found.next(), found.next()) {
+            (Some(only), None) => Ok(only),
+            (Some(one), Some(other)) => Err(refused(format!(
+                "two certificates of a reference state {channel}, {} and {}; name a file with one of them",
+                shown(&one.number),
+                shown(&other.number)
+            ))),
+            (None, _) => Err(refused(format!(
+                "no certificate of a reference with `U` or `U_relative` of {channel}"
+            ))),
+        }
     }
 
     /// Certificates of `channel` among those of the instruments that labels come from.

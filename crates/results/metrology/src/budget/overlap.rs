@@ -41,10 +41,7 @@ pub(super) fn check(inputs: &[Input]) -> Result<(), BudgetError> {
             let other = first.line;
             return error(BudgetProblem::Twice { name: from, other });
         }
-        let holder = inputs.iter().find(|outer| {
-            let held = INSIDE.iter().find(|(name, _)| *name == of(outer));
-            held.is_some_and(|(_, inner)| inner.contains(&from.as_str()))
-        });
+        let holder = inputs.iter().find(|outer| holds(&of(outer), &from));
         if let Some(outer) = holder {
             let (inner, line) = (from, outer.line);
             let outer = of(outer);
@@ -52,6 +49,33 @@ pub(super) fn check(inputs: &[Input]) -> Result<(), BudgetError> {
         }
     }
     Ok(())
+}
+
+/// True if the figure `outer` holds the figure `inner`.
+fn holds(outer: &str, inner: &str) -> bool {
+    if let (Some((file, sum)), Some((other, part))) =
+        (outer.rsplit_once('#'), inner.rsplit_once('#'))
+    {
+        return file == other && holds_component(sum, part);
+    }
+    let plain = match inner.rsplit_once('#') {
+        Some((_, "repeatability")) => "repeatability",
+        _ => inner,
+    };
+    let inside = INSIDE.iter().find(|(name, _)| *name == outer);
+    let is_inside = inside.is_some_and(|(_, figures)| figures.contains(&plain));
+    is_inside || (plain == outer && inner != outer)
+}
+
+/// True if the component `sum` of a gauge study holds its component `part`. Other names are those of the operators.
+fn holds_component(sum: &str, part: &str) -> bool {
+    const SUMS: [&str; 5] = ["reproducibility", "repeatability", "gauge", "part", "total"];
+    match sum {
+        "total" => part != sum,
+        "gauge" => part != sum && !["part", "total"].contains(&part),
+        "reproducibility" => !SUMS.contains(&part),
+        _ => false,
+    }
 }
 
 /// Effects that no source names by `from` or `covers`.

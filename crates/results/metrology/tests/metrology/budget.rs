@@ -5,6 +5,7 @@ mod certificates;
 mod coverage;
 mod draws;
 mod examples;
+mod overlaps;
 mod residuals;
 
 use taceva_metrology::budget::{Budget, BudgetText, Evidence, MonteCarlo};

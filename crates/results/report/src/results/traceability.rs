@@ -23,7 +23,7 @@ pub(super) fn traceability_line(provenance: &Provenance) -> String {
     let stated = stated.filter(|of| of.certificate.is_some());
     let stated = stated.map(|of| {
         let day = provenance.recorded_on;
-        match day.filter(|day| of.expired_on(*day).is_some()) {
+        match day.filter(|day| of.expired_on(*day, &provenance.traceability).is_some()) {
             Some(day) => format!("{of}, expired on the day of the recording, {day}"),
             None => of.to_string(),
         }

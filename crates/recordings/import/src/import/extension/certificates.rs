@@ -1,7 +1,7 @@
 //! Certificates of a dataset and of the rows that are added to it.
 
 use taceva_core::{Instrument, Traceability, shown};
-use taceva_dataset::{Dataset, Header, RecordingFacts};
+use taceva_dataset::{Dataset, RecordingFacts};
 
 use super::Addition;
 use crate::error::ImportError;
@@ -32,30 +32,6 @@ pub(super) fn check_certificates(
         ));
     }
     Ok(())
-}
-
-/// Instruments of the dataset, and further ones of the added rows. If only one of both has a certificate of an instrument, an entry without
-/// one stands for the other.
-pub(super) fn all_instruments(header: &Header, facts: &RecordingFacts) -> Vec<Traceability> {
-    let mut all = header.traceability.clone();
-    for traced in &facts.traceability {
-        if !all.contains(traced) {
-            all.push(traced.clone());
-        }
-    }
-    for instrument in Instrument::ALL {
-        let numbers = [
-            numbers(&header.traceability, instrument),
-            numbers(&facts.traceability, instrument),
-        ];
-        let is_none = |numbers: &Vec<Option<&str>>| numbers.iter().all(Option::is_none);
-        let is_stated = |of: &Traceability| of.instrument == instrument && of.certificate.is_none();
-        if numbers.iter().any(is_none) && !numbers.iter().all(is_none) && !all.iter().any(is_stated)
-        {
-            all.push(Traceability::new(instrument));
-        }
-    }
-    all
 }
 
 /// Numbers of the certificates of `instrument`; `None` for labels without one.

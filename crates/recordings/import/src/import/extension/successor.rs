@@ -3,14 +3,13 @@
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 
-use taceva_core::Progress;
+use taceva_core::{Progress, Traceability};
 use taceva_dataset::internal::{
     Beside, SignalsWriter, layout, staging::StagedFolder, write_table_and_header,
 };
 use taceva_dataset::{Dataset, DatasetError, Extension, Header, SignalsInfo, SourcesInfo, Table};
 
 use super::Addition;
-use super::certificates::all_instruments;
 use crate::error::ImportError;
 use crate::import::copy::CopiedFrames;
 use crate::import::plan::ImportPlan;
@@ -130,7 +129,7 @@ pub(super) fn write_header(
         added.from.clone(),
     ));
     let mut facts = header.recording_facts();
-    facts.traceability = all_instruments(header, &plan.facts);
+    facts.traceability = Traceability::joined(&header.traceability, &plan.facts.traceability);
     Ok(write_table_and_header(
         &staged.path().join(layout::SAMPLES),
         &staged.path().join(layout::HEADER),

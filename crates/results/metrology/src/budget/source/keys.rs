@@ -17,6 +17,12 @@ const LASTING: [&str; 7] = [
     "certificate",
 ];
 
+/// True for these figures, and for components of a gauge study other than its repeatability.
+fn is_lasting(figure: &str) -> bool {
+    let component = figure.rsplit_once('#').map(|(_, name)| name);
+    LASTING.contains(&figure) || component.is_some_and(|name| name != "repeatability")
+}
+
 impl Reader<'_> {
     /// Each source has one origin, and no key of another one.
     pub(super) fn check_keys(&self, of: &WrittenSource) -> Result<(), BudgetError> {
@@ -39,7 +45,7 @@ impl Reader<'_> {
             ));
         }
         let lasting = of.from.as_ref().map(|from| from.get_ref().as_str());
-        let lasting = lasting.filter(|from| LASTING.contains(from) && of.readings.is_some());
+        let lasting = lasting.filter(|from| is_lasting(from) && of.readings.is_some());
         if let Some(from) = lasting {
             return error(format!(
                 "`{from}` is the same in every reading of a place, so it has no `readings`"

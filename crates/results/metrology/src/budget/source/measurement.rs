@@ -91,6 +91,11 @@ impl Reader<'_> {
                 shown(serial)
             ))));
         }
+        let is_of_reading = certificate.range.is_some() || certificate.relative > 0.0;
+        if self.text.at.is_empty() && is_of_reading {
+            let problem = "the certificate depends on the reading, so the key `at` is needed, such as `at = [\"1 N\"]`";
+            return Err(error(BudgetProblem::Keys(problem.to_owned())));
+        }
         let (at, unit) = (self.at, &self.text.unit);
         let outside = |[low, high]: &[f64; 2]| !(*low <= at && at <= *high);
         if let Some([low, high]) = certificate.range.filter(outside) {

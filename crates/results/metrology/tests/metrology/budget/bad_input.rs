@@ -1,7 +1,8 @@
 //! Bad input of a budget file: each is refused with its line, key and expectation.
 
-use taceva_metrology::budget::{BudgetText, Certificate, Coverage, Evidence, Figure, Freedom};
+use taceva_metrology::budget::{BudgetText, Certificate, Coverage, Evidence};
 
+use super::overlaps::figures;
 use super::{budgets, refusal};
 
 /// Refusal of a budget of one source.
@@ -218,35 +219,6 @@ fn an_expired_certificate_is_warned_of_in_every_output() {
     assert!(budget.to_string().contains(said));
     assert!(serde_json::to_string(&budget).expect("JSON").contains(said));
     assert_eq!(budget.traceability.expect("a certificate").number, "D-K-1");
-}
-
-/// Refusal of two sources of these figures.
-fn figures(one: &str, other: &str) -> String {
-    let text = format!(
-        "budget_version = 1\nmeasurand = \"Fz\"\nat = [\"1 N\"]\n[[source]]\nname = \"a\"\nfrom = \"{one}\"\n[[source]]\nname = \"b\"\nfrom = \"{other}\"\n"
-    );
-    let known = ["error", "error.within", "error.between", "repeatability"];
-    let with = |evidence: Evidence, name: &&str| {
-        evidence.with(name, Figure::new(0.01, Freedom::Finite(9.0)))
-    };
-    refusal(&text, &known.iter().fold(Evidence::default(), with))
-}
-
-#[test]
-fn a_figure_inside_another_one_is_refused_with_both_lines() {
-    assert_eq!(
-        figures("error", "repeatability"),
-        "line 8, `from`: `repeatability` is inside `error` (line 5); remove one of them"
-    );
-    assert_eq!(
-        figures("repeatability", "error.within"),
-        "line 5, `from`: `repeatability` is inside `error.within` (line 8); remove one of them"
-    );
-    assert!(figures("error.between", "error").contains("`error.between` is inside `error`"));
-    assert!(
-        figures("error.within", "error.within")
-            .contains("`error.within` is used twice, here and in line 5")
-    );
 }
 
 #[test]

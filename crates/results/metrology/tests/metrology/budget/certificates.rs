@@ -1,7 +1,9 @@
 //! Certificates of recordings, reduced to one channel.
 
 use taceva_core::{Instrument, Traceability};
-use taceva_metrology::budget::{Certificate, Coverage, Freedom};
+use taceva_metrology::budget::{Certificate, Coverage, Evidence, Freedom};
+
+use super::refusal;
 
 #[test]
 fn a_certificate_of_a_recording_is_reduced_to_one_channel() {
@@ -29,4 +31,35 @@ fn a_certificate_of_a_recording_is_reduced_to_one_channel() {
     let freedom = Freedom::Finite(9.0);
     assert_eq!(reduced.coverage, Coverage::Probability { p: 0.95, freedom });
     assert_eq!(Certificate::of(&traced, "Tz", None), None);
+}
+
+#[test]
+fn a_file_with_two_certificates_of_a_channel_gives_none_of_them() {
+    let table = |number: &str| {
+        format!(
+            "[[traceability]]\ninstrument = \"force\"\n[traceability.certificate]\nnumber = \"{number}\"\nlaboratory = \"L\"\n\
+             issued = 2026-05-12\nserial = \"42\"\nk = 2.0\nU = {{ Fz = \"3.0 mN\" }}\n"
+        )
+    };
+    let one = Certificate::read(&table("D-K-1"), "Fz", None).expect("one");
+    assert_eq!(one.number, "D-K-1");
+    let both = [table("D-K-1"), table("D-K-2")].concat();
+    let message = Certificate::read(&both, "Fz", None).expect_err("two");
+    assert_eq!(
+        message.to_string(),
+        "`certificate`: two certificates of a reference state Fz, D-K-1 and D-K-2; name a file with one of them"
+    );
+}
+
+#[test]
+fn a_certificate_that_depends_on_the_reading_needs_it_beside_an_expression() {
+    let text = "budget_version = 1\nmeasurand = \"Fz\"\nexpression = \"2 * cell\"\n[[source]]\nname = \"cell\"\nfrom = \"certificate\"\n";
+    let mut certificate = Certificate::new("D-K-1", "L", "42", Coverage::Factor(2.0));
+    certificate.relative = 0.001;
+    let evidence = Evidence::default().with_certificate(certificate);
+    let message = refusal(text, &evidence);
+    assert!(
+        message.starts_with("line 6, `from`: the certificate depends on the reading"),
+        "{message}"
+    );
 }

@@ -185,6 +185,19 @@ fn the_mean_of_readings_lowers_no_difference_between_places() {
         refused.contains("`error.between` is the same in every reading of a place"),
         "{refused}"
     );
+    let units = text.replace("error.between", "g.json#unit");
+    let refused = super::refusal(&units, &evidence);
+    assert!(
+        refused.contains("`g.json#unit` is the same in every reading of a place"),
+        "{refused}"
+    );
+    let repeats = text.replace("error.between", "g.json#repeatability");
+    let evidence = evidence.with(
+        "g.json#repeatability",
+        Figure::new(0.02, Freedom::Finite(9.0)),
+    );
+    let budgets = BudgetText::parse(&repeats).and_then(|text| text.budgets(&evidence, None));
+    assert!((budgets.expect("a budget")[0].u - 0.01).abs() < 1e-15);
 }
 
 #[test]

@@ -1,0 +1,69 @@
+//! Figures that hold others, which no budget counts twice.
+
+use taceva_metrology::budget::{Budget, BudgetError, BudgetText, Evidence, Figure, Freedom};
+
+/// Refusal of two sources of these figures.
+pub(super) fn figures(one: &str, other: &str) -> String {
+    let found = of_figures(one, other);
+    found.expect_err("refused").to_string()
+}
+
+fn of_figures(one: &str, other: &str) -> Result<Vec<Budget>, BudgetError> {
+    let text = format!(
+        "budget_version = 1\nmeasurand = \"Fz\"\nat = [\"1 N\"]\n[[source]]\nname = \"a\"\nfrom = \"{one}\"\n[[source]]\nname = \"b\"\nfrom = \"{other}\"\n"
+    );
+    let known = [
+        "error",
+        "error.within",
+        "error.between",
+        "repeatability",
+        "g.json#repeatability",
+        "g.json#reproducibility",
+        "g.json#unit",
+        "other.json#unit",
+    ];
+    let with = |evidence: Evidence, name: &&str| {
+        evidence.with(name, Figure::new(0.01, Freedom::Finite(9.0)))
+    };
+    let evidence = known.iter().fold(Evidence::default(), with);
+    BudgetText::parse(&text)?.budgets(&evidence, None)
+}
+
+#[test]
+fn components_of_a_gauge_study_that_differ_and_those_of_two_studies_stand_beside_each_other() {
+    for (one, other) in [
+        ("g.json#repeatability", "g.json#reproducibility"),
+        ("g.json#repeatability", "g.json#unit"),
+        ("g.json#reproducibility", "other.json#unit"),
+        ("error.within", "g.json#unit"),
+    ] {
+        assert!(of_figures(one, other).is_ok(), "{one}, {other}");
+    }
+}
+
+#[test]
+fn a_figure_inside_another_one_is_refused_with_both_lines() {
+    assert_eq!(
+        figures("error", "repeatability"),
+        "line 8, `from`: `repeatability` is inside `error` (line 5); remove one of them"
+    );
+    assert_eq!(
+        figures("repeatability", "error.within"),
+        "line 5, `from`: `repeatability` is inside `error.within` (line 8); remove one of them"
+    );
+    assert!(figures("error.between", "error").contains("`error.between` is inside `error`"));
+    let unit = figures("g.json#reproducibility", "g.json#unit");
+    assert!(
+        unit.contains("`g.json#unit` is inside `g.json#reproducibility` (line 5)"),
+        "{unit}"
+    );
+    for outer in ["error", "error.within", "repeatability"] {
+        let repeats = figures(outer, "g.json#repeatability");
+        let said = format!("`g.json#repeatability` is inside `{outer}`");
+        assert!(repeats.contains(&said), "{repeats}");
+    }
+    assert!(
+        figures("error.within", "error.within")
+            .contains("`error.within` is used twice, here and in line 5")
+    );
+}
