@@ -204,9 +204,14 @@ impl Recorder {
             ));
         }
         let taxels = recorder.signals.as_ref().map(SignalsWriter::spec);
+        if let Some(problem) = recorder.facts.other_setting(&spec.facts) {
+            return Err(DatasetError::request(path, problem));
+        }
         // It may go on another day.
         let facts = spec.facts.clone();
-        let facts = facts.with_recorded_on(recorder.facts.recorded_on);
+        let facts = facts
+            .with_recorded_on(recorder.facts.recorded_on)
+            .with_settings(recorder.facts.settings.clone());
         if recorder.facts != facts
             || recorder.table.channels() != &spec.channels
             || taxels != spec.signals.as_ref()
