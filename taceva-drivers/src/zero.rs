@@ -12,8 +12,8 @@ pub(crate) struct HostZero {
     /// Driver for errors.
     driver: DriverKey,
     zero: Wrench,
-    /// Measuring range, N; `None` if unknown.
-    force_max_n: Option<f64>,
+    /// Measuring range of each force, N; `None` if unknown.
+    ranges_n: Option<[f64; 3]>,
 }
 
 /// Operation name of a reading, for errors.
@@ -26,12 +26,17 @@ const MEAN_OVER: Duration = Duration::from_millis(250);
 const ZERO_MAX: f64 = 0.5;
 
 impl HostZero {
-    /// Creates a zero offset of 0.
+    /// Creates a zero offset of 0, for forces with one range.
     pub(crate) fn new(driver: DriverKey, force_max_n: Option<f64>) -> HostZero {
+        HostZero::of_axes(driver, force_max_n.map(|most| [most; 3]))
+    }
+
+    /// Creates a zero offset of 0, for forces with a range each.
+    pub(crate) fn of_axes(driver: DriverKey, ranges_n: Option<[f64; 3]>) -> HostZero {
         HostZero {
             driver,
             zero: Wrench::default(),
-            force_max_n,
+            ranges_n,
         }
     }
 
@@ -40,11 +45,12 @@ impl HostZero {
     /// # Errors
     /// `OutOfRange`, with the force and the range.
     pub(crate) fn check(&self, wrench: &Wrench) -> Result<(), DriverError> {
-        let Some(most) = self.force_max_n else {
+        let Some(ranges_n) = self.ranges_n else {
             return Ok(());
         };
-        match wrench.force.iter().find(|force| force.0.abs() >= most) {
-            Some(beyond) => {
+        let mut forces = wrench.force.iter().zip(ranges_n);
+        match forces.find(|(force, most)| force.0.abs() >= *most) {
+            Some((beyond, most)) => {
                 let why = format!(
                     "a force of {beyond}, expected less than {most} N: beyond its range, forces are clipped"
                 );
@@ -98,8 +104,12 @@ impl HostZero {
             count += 1.0;
         }
         let mean = times(&total, 1.0 / count);
-        if let Some(most) = self.force_max_n.map(|most| ZERO_MAX * most)
-            && let Some(beyond) = mean.force.iter().find(|force| force.0.abs() > most)
+        let most = self
+            .ranges_n
+            .map(|ranges| ranges.map(|range| ZERO_MAX * range));
+        if let Some(most) = most
+            && let Some((beyond, most)) =
+                std::iter::zip(&mean.force, most).find(|(force, most)| force.0.abs() > *most)
         {
             let why =
                 format!("a load of {beyond}, expected at most {most} N: half the measuring range");
@@ -175,5 +185,18 @@ mod tests {
             assert!(zero.check(&load(beyond)).is_err());
         }
         assert!(HostZero::new(KEY, None).check(&load(1e9)).is_ok());
+    }
+
+    #[test]
+    fn each_force_has_its_own_range() {
+        let mut zero = HostZero::of_axes(KEY, Some([12.0, 12.0, 17.0]));
+        assert!(zero.check(&load(16.9)).is_ok());
+        assert!(zero.check(&load(17.0)).is_err());
+        let mut sideways = Wrench::default();
+        sideways.force[0] = Newton(12.0);
+        assert!(zero.check(&sideways).is_err());
+        let patience = Deadline::after(Duration::from_secs(20));
+        taken(&mut zero, 8.4, patience).expect("less than half of the third range");
+        taken(&mut zero, 8.6, patience).expect_err("more than half");
     }
 }

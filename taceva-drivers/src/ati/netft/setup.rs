@@ -20,8 +20,8 @@ pub(super) struct Setup {
     /// Rate of records that was set, and rate of the measurement, Hz.
     rate_hz: Option<f64>,
     internal_hz: Option<f64>,
-    /// Smallest measuring range of a force, N.
-    range_n: Option<f64>,
+    /// Measuring ranges of the forces, N.
+    ranges_n: Option<[f64; 3]>,
     /// True if the box subtracts a bias.
     is_biased: Option<bool>,
 }
@@ -56,7 +56,7 @@ impl Setup {
     /// Reads the settings from `page`. Its force unit is `force_unit_n`.
     pub(super) fn read(page: &Page, force_unit_n: f64) -> Result<Setup, PageError> {
         let range = page.six("cfgmr")?;
-        let least = range.map(|[x, y, z, ..]| x.min(y).min(z) * force_unit_n);
+        let ranges_n = range.map(|[x, y, z, ..]| [x, y, z].map(|range| range * force_unit_n));
         let bias = page.six("setbias")?;
         Ok(Setup {
             product: page.entry("prodname"),
@@ -66,14 +66,23 @@ impl Setup {
             filter: page.number("setuserfilter")?,
             rate_hz: page.number("comrdtrate")?,
             internal_hz: page.number("runrate")?,
-            range_n: least.filter(|range_n| *range_n > 0.0),
+            ranges_n: ranges_n.filter(|ranges_n| least(*ranges_n) > 0.0),
             is_biased: bias.map(|bias| bias.into_iter().any(is_set)),
         })
     }
 
     /// Smallest measuring range of a force, N.
-    pub(super) fn range_n(&self) -> Option<f64> {
-        self.range_n
+    fn range_n(&self) -> Option<f64> {
+        self.ranges_n.map(least)
+    }
+
+    /// Measuring range of each force, N. In a tool frame it is the smallest of all.
+    pub(super) fn ranges_n(&self) -> Option<[f64; 3]> {
+        let ranges_n = self.ranges_n?;
+        Some(match self.is_turned() {
+            true => [least(ranges_n); 3],
+            false => ranges_n,
+        })
     }
 
     /// Fails if the settings contradict the selector.
@@ -96,12 +105,12 @@ impl Setup {
             ));
         }
         if let Some(stated_n) = expected.force_max_n
-            && let Some(range_n) = self.range_n
+            && let Some(range_n) = self.range_n()
             && stated_n > range_n
             && !is_near(stated_n, range_n)
         {
             return Err(format!(
-                "the smallest range of the forces is {range_n} N (`cfgmr` in {PAGE}), expected at least {stated_n} N by the selector: write `force_max_n={range_n}`, or select the calibration of that range on its Configurations page"
+                "the smallest range of the forces is {range_n} N (`cfgmr` in {PAGE}), expected at least {stated_n} N by the selector: write `force_max_n={range_n}`, omit it to use the range of each force, or select the calibration of that range on its Configurations page"
             ));
         }
         Ok(())
@@ -149,7 +158,7 @@ impl Setup {
             ("frame", Some(frame)),
             ("filter", number(self.filter)),
             ("rate_hz", number(self.rate_hz)),
-            ("range_N", number(self.range_n)),
+            ("range_N", number(self.range_n())),
             ("bias", bias),
         ];
         let known = known.into_iter().filter_map(|(key, value)| {
@@ -181,6 +190,10 @@ impl Setup {
         }
         warnings
     }
+}
+
+fn least([x, y, z]: [f64; 3]) -> f64 {
+    x.min(y).min(z)
 }
 
 fn is_set(number: f64) -> bool {
@@ -227,7 +240,7 @@ mod tests {
         let setup = setup(PLAIN);
         assert_eq!(setup.check(&expected()), Ok(()));
         assert_eq!(setup.warnings(), Vec::<String>::new());
-        assert_eq!(setup.range_n(), Some(65.0));
+        assert_eq!(setup.ranges_n(), Some([65.0, 65.0, 200.0]));
         let kept: Vec<String> = setup
             .settings()
             .into_iter()
@@ -263,6 +276,7 @@ mod tests {
             ..expected()
         };
         assert_eq!(turned.check(&wanted), Ok(()));
+        assert_eq!(turned.ranges_n(), Some([65.0; 3]));
         let frame = turned.settings().remove("frame");
         assert_eq!(frame.as_deref(), Some("tool 0;0;0;90;0;45 (mm, degrees)"));
         let moved = setup(&PLAIN.replace("<cfgtfx>0;", "<cfgtfx>12.5;"));
