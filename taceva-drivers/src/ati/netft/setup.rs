@@ -24,6 +24,8 @@ pub(super) struct Setup {
     ranges_n: Option<[f64; 3]>,
     /// True if the box subtracts a bias.
     is_biased: Option<bool>,
+    /// Entries that are stated but cannot be read.
+    unread: Vec<String>,
 }
 
 /// Frame of readings.
@@ -53,21 +55,27 @@ const CUTOFFS_HZ: [f64; 12] = [
 const EQUAL: f64 = 0.01;
 
 impl Setup {
-    /// Reads the settings from `page`. Its force unit is `force_unit_n`.
+    /// Reads the settings from `page`. Its force unit is `force_unit_n`. An unreadable entry counts as absent.
+    ///
+    /// # Errors
+    /// [`PageError::Entry`] for an unreadable tool frame, which decides the axes.
     pub(super) fn read(page: &Page, force_unit_n: f64) -> Result<Setup, PageError> {
-        let range = page.six("cfgmr")?;
+        let tool = page.six("cfgtfx")?;
+        let mut unread = Vec::new();
+        let range = or_unread(page.six("cfgmr"), &mut unread);
         let ranges_n = range.map(|[x, y, z, ..]| [x, y, z].map(|range| range * force_unit_n));
-        let bias = page.six("setbias")?;
+        let bias = or_unread(page.six("setbias"), &mut unread);
         Ok(Setup {
             product: page.entry("prodname"),
             serial: page.entry("cfgcalsn"),
-            tool: page.six("cfgtfx")?,
+            tool,
             tool_units: ["scfgtdu", "scfgtau"].map(|key| page.entry(key)),
-            filter: page.number("setuserfilter")?,
-            rate_hz: page.number("comrdtrate")?,
-            internal_hz: page.number("runrate")?,
+            filter: or_unread(page.number("setuserfilter"), &mut unread),
+            rate_hz: or_unread(page.number("comrdtrate"), &mut unread),
+            internal_hz: or_unread(page.number("runrate"), &mut unread),
             ranges_n: ranges_n.filter(|ranges_n| least(*ranges_n) > 0.0),
             is_biased: bias.map(|bias| bias.into_iter().any(is_set)),
+            unread,
         })
     }
 
@@ -170,7 +178,10 @@ impl Setup {
 
     /// Remarks on settings that shift readings and are not undone.
     pub(super) fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
+        let unread = self.unread.iter();
+        let mut warnings: Vec<String> = unread
+            .map(|problem| format!("{problem}; it is neither checked nor recorded: compare the settings on the pages of the box"))
+            .collect();
         if self.tool.is_none() {
             warnings.push(format!(
                 "{PAGE} has no `cfgtfx`, so a turned tool frame would not be noticed: compare the axes with a weight"
@@ -190,6 +201,14 @@ impl Setup {
         }
         warnings
     }
+}
+
+/// Value of an entry; `unread` gets the error of one that cannot be read.
+fn or_unread<T>(found: Result<Option<T>, PageError>, unread: &mut Vec<String>) -> Option<T> {
+    found.unwrap_or_else(|error| {
+        unread.push(error.to_string());
+        None
+    })
 }
 
 fn least([x, y, z]: [f64; 3]) -> f64 {
@@ -338,6 +357,27 @@ mod tests {
                 Some(filter)
             );
         }
+    }
+
+    #[test]
+    fn an_entry_in_another_form_is_a_warning_and_a_tool_frame_in_one_is_refused() {
+        let other = setup(
+            &PLAIN
+                .replace("<setuserfilter>0", "<setuserfilter>aus")
+                .replace("65;65;200;5;5;5", "65;65;200"),
+        );
+        assert_eq!(other.check(&expected()), Ok(()));
+        assert_eq!(other.ranges_n(), None);
+        assert_eq!(other.settings().get("filter"), None);
+        let warnings = other.warnings();
+        assert_eq!(warnings.len(), 2, "{warnings:?}");
+        for (warning, words) in warnings.iter().zip(["`cfgmr`", "is `aus`"]) {
+            assert!(warning.contains(words), "{warning}");
+        }
+        let page = PLAIN.replace("<cfgtfx>0;0;0;0;0;0", "<cfgtfx>0;0;0;90 deg;0;45");
+        let page = Page::whole(page).expect("a whole page");
+        let error = Setup::read(&page, 1.0).expect_err("a frame").to_string();
+        assert!(error.contains("`cfgtfx`"), "{error}");
     }
 
     #[test]
