@@ -84,6 +84,16 @@ impl RecordingFacts {
         }
     }
 
+    /// The same facts with the day, the settings and the instruments of `before`, a begun recording that may go on.
+    pub(crate) fn resuming(self, before: &RecordingFacts) -> RecordingFacts {
+        RecordingFacts {
+            recorded_on: before.recorded_on,
+            settings: before.settings.clone(),
+            traceability: before.traceability.clone(),
+            ..self
+        }
+    }
+
     /// First setting that has another value in `now`, in words. A setting that only `now` has is none: earlier builds stored fewer.
     pub(crate) fn other_setting(&self, now: &RecordingFacts) -> Option<String> {
         self.settings.iter().find_map(|(name, before)| {
