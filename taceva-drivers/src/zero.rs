@@ -85,7 +85,7 @@ impl HostZero {
     /// Sets the zero offset to the mean over 0.25 s. `next` returns the readings.
     ///
     /// # Errors
-    /// Errors of `next`; `Timeout` if the deadline is too near; `OutOfRange` for a load above half the range.
+    /// Errors of `next`; `Timeout` if the deadline is too near; `OutOfRange` for a load above half of a stated range.
     pub(crate) fn take(
         &mut self,
         deadline: Deadline,
