@@ -12,8 +12,10 @@ pub(crate) struct HostZero {
     /// Driver for errors.
     driver: DriverKey,
     zero: Wrench,
-    /// Measuring range, N; `None` if unknown.
-    force_max_n: Option<f64>,
+    /// Measuring range of each force, N; `None` if unknown.
+    ranges_n: Option<[f64; 3]>,
+    /// Greatest zero of a force, N; `None` for any within the range.
+    zero_max_n: Option<f64>,
 }
 
 /// Operation name of a reading, for errors.
@@ -22,16 +24,25 @@ pub(crate) const READ: &str = "read the force";
 pub(crate) const ZERO: &str = "zero the force";
 /// Averaging time of a zero.
 const MEAN_OVER: Duration = Duration::from_millis(250);
-/// Maximum zero as a share of the range, so that the rest suffices for measurements.
+/// Maximum zero as a share of a stated range, so that the rest suffices for measurements.
 const ZERO_MAX: f64 = 0.5;
 
 impl HostZero {
-    /// Creates a zero offset of 0.
+    /// Creates a zero offset of 0, for forces with one range.
     pub(crate) fn new(driver: DriverKey, force_max_n: Option<f64>) -> HostZero {
+        HostZero {
+            zero_max_n: force_max_n.map(|most| ZERO_MAX * most),
+            ..HostZero::of_axes(driver, force_max_n.map(|most| [most; 3]))
+        }
+    }
+
+    /// Creates a zero offset of 0, for forces with a range each, which the device states itself. Any zero within them is accepted.
+    pub(crate) fn of_axes(driver: DriverKey, ranges_n: Option<[f64; 3]>) -> HostZero {
         HostZero {
             driver,
             zero: Wrench::default(),
-            force_max_n,
+            ranges_n,
+            zero_max_n: None,
         }
     }
 
@@ -40,11 +51,12 @@ impl HostZero {
     /// # Errors
     /// `OutOfRange`, with the force and the range.
     pub(crate) fn check(&self, wrench: &Wrench) -> Result<(), DriverError> {
-        let Some(most) = self.force_max_n else {
+        let Some(ranges_n) = self.ranges_n else {
             return Ok(());
         };
-        match wrench.force.iter().find(|force| force.0.abs() >= most) {
-            Some(beyond) => {
+        let mut forces = wrench.force.iter().zip(ranges_n);
+        match forces.find(|(force, most)| force.0.abs() >= *most) {
+            Some((beyond, most)) => {
                 let why = format!(
                     "a force of {beyond}, expected less than {most} N: beyond its range, forces are clipped"
                 );
@@ -73,7 +85,7 @@ impl HostZero {
     /// Sets the zero offset to the mean over 0.25 s. `next` returns the readings.
     ///
     /// # Errors
-    /// Errors of `next`; `Timeout` if the deadline is too near; `OutOfRange` for a load above half the range.
+    /// Errors of `next`; `Timeout` if the deadline is too near; `OutOfRange` for a load above half of a stated range.
     pub(crate) fn take(
         &mut self,
         deadline: Deadline,
@@ -98,7 +110,7 @@ impl HostZero {
             count += 1.0;
         }
         let mean = times(&total, 1.0 / count);
-        if let Some(most) = self.force_max_n.map(|most| ZERO_MAX * most)
+        if let Some(most) = self.zero_max_n
             && let Some(beyond) = mean.force.iter().find(|force| force.0.abs() > most)
         {
             let why =
@@ -175,5 +187,18 @@ mod tests {
             assert!(zero.check(&load(beyond)).is_err());
         }
         assert!(HostZero::new(KEY, None).check(&load(1e9)).is_ok());
+    }
+
+    #[test]
+    fn each_force_has_its_own_range() {
+        let mut zero = HostZero::of_axes(KEY, Some([12.0, 12.0, 17.0]));
+        assert!(zero.check(&load(16.9)).is_ok());
+        assert!(zero.check(&load(17.0)).is_err());
+        let mut sideways = Wrench::default();
+        sideways.force[0] = Newton(12.0);
+        assert!(zero.check(&sideways).is_err());
+        let patience = Deadline::after(Duration::from_secs(20));
+        taken(&mut zero, 11.0, patience).expect("a great load within the range");
+        assert!((fz_left(&zero, 16.0) - 5.0).abs() < 1e-9);
     }
 }

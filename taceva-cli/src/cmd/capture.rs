@@ -260,5 +260,10 @@ fn summarise(
         context.say(format_args!(
             "next: taceva check {path}, then taceva evaluate {path} --model ridge"
         ));
+    } else {
+        // A transducer that repeats one number from its first reading is not refused at rest.
+        stderr::say(format_args!(
+            "warning: Fz never exceeded 0.1 N, so no contact was recorded; if the gel was pressed, check the transducer, its cable and its amplifier"
+        ));
     }
 }

@@ -115,7 +115,7 @@ pub struct Header {
     pub sensor: SensorFacts,
     /// The sensing area, if known.
     pub footprint: Option<Footprint>,
-    /// Camera settings that were set and read back, by name: `exposure_ms` is `15.7`; empty if unknown.
+    /// Settings of camera, transducer (`force_…`) and robot (`robot_…`), read back, by name: `exposure_ms` is `15.7`; empty if unknown.
     pub settings: BTreeMap<String, String>,
     /// Instruments of the labels with their certificates; empty if none is stated.
     pub traceability: Vec<Traceability>,

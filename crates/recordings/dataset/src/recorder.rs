@@ -197,17 +197,19 @@ impl Recorder {
             Err(DatasetError::NoDataset { .. }) => return Recorder::create(path, spec),
             resumed => resumed?,
         };
-        if recorder.facts.traceability != spec.facts.traceability {
+        let before = &recorder.facts;
+        // Earlier builds stored no instruments.
+        if !before.traceability.is_empty() && before.traceability != spec.facts.traceability {
             return Err(DatasetError::request(
                 path,
                 "the existing recording has another certificate, serial number or driver of an instrument; record into a new folder",
             ));
         }
         let taxels = recorder.signals.as_ref().map(SignalsWriter::spec);
-        // It may go on another day.
-        let facts = spec.facts.clone();
-        let facts = facts.with_recorded_on(recorder.facts.recorded_on);
-        if recorder.facts != facts
+        if let Some(problem) = before.other_setting(&spec.facts) {
+            return Err(DatasetError::request(path, problem));
+        }
+        if *before != spec.facts.clone().resuming(before)
             || recorder.table.channels() != &spec.channels
             || taxels != spec.signals.as_ref()
             || recorder.reduced != spec.reduced

@@ -83,6 +83,19 @@ fn an_interrupted_recording_goes_on_with_its_certificate_and_with_no_other() {
 }
 
 #[test]
+fn a_recording_of_a_build_that_kept_no_instruments_goes_on() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    let mut before = spec("D-K-1");
+    before.facts.traceability.clear();
+    drop(Recorder::create(&path, &before).expect("created"));
+    let mut recorder = Recorder::open(&path, &spec("D-K-1")).expect("goes on");
+    recorder.append(&sample("1", 0.5)).expect("recorded");
+    let header = recorder.close().expect("closed");
+    assert!(header.traceability.is_empty());
+}
+
+#[test]
 fn a_recording_that_goes_on_the_next_day_keeps_the_day_on_which_it_began() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("set");

@@ -215,6 +215,7 @@ fn what_a_transducer_says_of_itself_is_recorded_and_what_delays_it_is_a_warning(
     assert_eq!(ran.code, 0, "{}", ran.err);
     let warnings = ran.err.matches("warning: low pass 8 of the box").count();
     assert_eq!(warnings, 1, "{}", ran.err);
+    assert!(ran.err.contains("Fz never exceeded 0.1 N"), "{}", ran.err);
     let dataset = Dataset::open(&bench.path("out")).expect("whole");
     let settings = &dataset.header().settings;
     let serial = emulated.bench.serial();

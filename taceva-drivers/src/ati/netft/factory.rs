@@ -20,7 +20,7 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 /// - Forces and torques are in the transducer's own axes, in N and N·mm. The value of a count is read at open from the page
 ///   `/netftapi2.xml` of the box.
 /// - A box with a tool frame is refused unless `frame=tool` asks for readings in that frame. So is a box whose rate differs from a stated
-///   `rate`, or whose range is below a stated `force_max_n`. Without `force_max_n` the range of the page applies.
+///   `rate`, or whose range is below a stated `force_max_n`. Without `force_max_n` the range of each force on the page applies.
 /// - Frame, low pass, rate, range, bias and serial number are settings that a recording keeps. The delay of a low pass is a warning.
 /// - A reading is the newest record received. Datagrams of other senders are ignored. Torn, duplicate and overtaken records are dropped.
 /// - A saturated gage is `OutOfRange`; every other status but a latched threshold is `DeviceFault`, with its bits by name. A latched

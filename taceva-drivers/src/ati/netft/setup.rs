@@ -20,10 +20,12 @@ pub(super) struct Setup {
     /// Rate of records that was set, and rate of the measurement, Hz.
     rate_hz: Option<f64>,
     internal_hz: Option<f64>,
-    /// Smallest measuring range of a force, N.
-    range_n: Option<f64>,
+    /// Measuring ranges of the forces, N.
+    ranges_n: Option<[f64; 3]>,
     /// True if the box subtracts a bias.
     is_biased: Option<bool>,
+    /// Entries that are stated but cannot be read.
+    unread: Vec<String>,
 }
 
 /// Frame of readings.
@@ -53,27 +55,42 @@ const CUTOFFS_HZ: [f64; 12] = [
 const EQUAL: f64 = 0.01;
 
 impl Setup {
-    /// Reads the settings from `page`. Its force unit is `force_unit_n`.
+    /// Reads the settings from `page`. Its force unit is `force_unit_n`. An unreadable entry counts as absent.
+    ///
+    /// # Errors
+    /// [`PageError::Entry`] for an unreadable tool frame, which decides the axes.
     pub(super) fn read(page: &Page, force_unit_n: f64) -> Result<Setup, PageError> {
-        let range = page.six("cfgmr")?;
-        let least = range.map(|[x, y, z, ..]| x.min(y).min(z) * force_unit_n);
-        let bias = page.six("setbias")?;
+        let tool = page.six("cfgtfx")?;
+        let mut unread = Vec::new();
+        let range = or_unread(page.six("cfgmr"), &mut unread);
+        let ranges_n = range.map(|[x, y, z, ..]| [x, y, z].map(|range| range * force_unit_n));
+        let bias = or_unread(page.six("setbias"), &mut unread);
         Ok(Setup {
             product: page.entry("prodname"),
             serial: page.entry("cfgcalsn"),
-            tool: page.six("cfgtfx")?,
+            tool,
             tool_units: ["scfgtdu", "scfgtau"].map(|key| page.entry(key)),
-            filter: page.number("setuserfilter")?,
-            rate_hz: page.number("comrdtrate")?,
-            internal_hz: page.number("runrate")?,
-            range_n: least.filter(|range_n| *range_n > 0.0),
+            filter: or_unread(page.number("setuserfilter"), &mut unread),
+            rate_hz: or_unread(page.number("comrdtrate"), &mut unread),
+            internal_hz: or_unread(page.number("runrate"), &mut unread),
+            ranges_n: ranges_n.filter(|ranges_n| least(*ranges_n) > 0.0),
             is_biased: bias.map(|bias| bias.into_iter().any(is_set)),
+            unread,
         })
     }
 
     /// Smallest measuring range of a force, N.
-    pub(super) fn range_n(&self) -> Option<f64> {
-        self.range_n
+    fn range_n(&self) -> Option<f64> {
+        self.ranges_n.map(least)
+    }
+
+    /// Measuring range of each force, N. In a tool frame it is the smallest of all.
+    pub(super) fn ranges_n(&self) -> Option<[f64; 3]> {
+        let ranges_n = self.ranges_n?;
+        Some(match self.is_turned() {
+            true => [least(ranges_n); 3],
+            false => ranges_n,
+        })
     }
 
     /// Fails if the settings contradict the selector.
@@ -96,12 +113,12 @@ impl Setup {
             ));
         }
         if let Some(stated_n) = expected.force_max_n
-            && let Some(range_n) = self.range_n
+            && let Some(range_n) = self.range_n()
             && stated_n > range_n
             && !is_near(stated_n, range_n)
         {
             return Err(format!(
-                "the smallest range of the forces is {range_n} N (`cfgmr` in {PAGE}), expected at least {stated_n} N by the selector: write `force_max_n={range_n}`, or select the calibration of that range on its Configurations page"
+                "the smallest range of the forces is {range_n} N (`cfgmr` in {PAGE}), expected at least {stated_n} N by the selector: write `force_max_n={range_n}`, omit it to use the range of each force, or select the calibration of that range on its Configurations page"
             ));
         }
         Ok(())
@@ -149,7 +166,7 @@ impl Setup {
             ("frame", Some(frame)),
             ("filter", number(self.filter)),
             ("rate_hz", number(self.rate_hz)),
-            ("range_N", number(self.range_n)),
+            ("range_N", number(self.range_n())),
             ("bias", bias),
         ];
         let known = known.into_iter().filter_map(|(key, value)| {
@@ -161,7 +178,10 @@ impl Setup {
 
     /// Remarks on settings that shift readings and are not undone.
     pub(super) fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
+        let unread = self.unread.iter();
+        let mut warnings: Vec<String> = unread
+            .map(|problem| format!("{problem}; it is neither checked nor recorded: compare the settings on the pages of the box"))
+            .collect();
         if self.tool.is_none() {
             warnings.push(format!(
                 "{PAGE} has no `cfgtfx`, so a turned tool frame would not be noticed: compare the axes with a weight"
@@ -181,6 +201,18 @@ impl Setup {
         }
         warnings
     }
+}
+
+/// Value of an entry; `unread` gets the error of one that cannot be read.
+fn or_unread<T>(found: Result<Option<T>, PageError>, unread: &mut Vec<String>) -> Option<T> {
+    found.unwrap_or_else(|error| {
+        unread.push(error.to_string());
+        None
+    })
+}
+
+fn least([x, y, z]: [f64; 3]) -> f64 {
+    x.min(y).min(z)
 }
 
 fn is_set(number: f64) -> bool {
@@ -227,7 +259,7 @@ mod tests {
         let setup = setup(PLAIN);
         assert_eq!(setup.check(&expected()), Ok(()));
         assert_eq!(setup.warnings(), Vec::<String>::new());
-        assert_eq!(setup.range_n(), Some(65.0));
+        assert_eq!(setup.ranges_n(), Some([65.0, 65.0, 200.0]));
         let kept: Vec<String> = setup
             .settings()
             .into_iter()
@@ -263,6 +295,7 @@ mod tests {
             ..expected()
         };
         assert_eq!(turned.check(&wanted), Ok(()));
+        assert_eq!(turned.ranges_n(), Some([65.0; 3]));
         let frame = turned.settings().remove("frame");
         assert_eq!(frame.as_deref(), Some("tool 0;0;0;90;0;45 (mm, degrees)"));
         let moved = setup(&PLAIN.replace("<cfgtfx>0;", "<cfgtfx>12.5;"));
@@ -324,6 +357,27 @@ mod tests {
                 Some(filter)
             );
         }
+    }
+
+    #[test]
+    fn an_entry_in_another_form_is_a_warning_and_a_tool_frame_in_one_is_refused() {
+        let other = setup(
+            &PLAIN
+                .replace("<setuserfilter>0", "<setuserfilter>aus")
+                .replace("65;65;200;5;5;5", "65;65;200"),
+        );
+        assert_eq!(other.check(&expected()), Ok(()));
+        assert_eq!(other.ranges_n(), None);
+        assert_eq!(other.settings().get("filter"), None);
+        let warnings = other.warnings();
+        assert_eq!(warnings.len(), 2, "{warnings:?}");
+        for (warning, words) in warnings.iter().zip(["`cfgmr`", "is `aus`"]) {
+            assert!(warning.contains(words), "{warning}");
+        }
+        let page = PLAIN.replace("<cfgtfx>0;0;0;0;0;0", "<cfgtfx>0;0;0;90 deg;0;45");
+        let page = Page::whole(page).expect("a whole page");
+        let error = Setup::read(&page, 1.0).expect_err("a frame").to_string();
+        assert!(error.contains("`cfgtfx`"), "{error}");
     }
 
     #[test]

@@ -66,12 +66,15 @@ impl Transducer {
         setup
             .check(&options.expected)
             .map_err(|why| failed(ErrorKind::InvalidArgument, doing, why))?;
-        let force_max_n = options.expected.force_max_n.or(setup.range_n());
+        let zero = match options.expected.force_max_n {
+            Some(most) => HostZero::new(KEY, Some(most)),
+            None => HostZero::of_axes(KEY, setup.ranges_n()),
+        };
         let records = Arc::new(Mailbox::default());
         let stream = RecordStream::open(&options.host, options.port, &records)
             .map_err(|error| failed(error.kind(), doing, error))?;
         Ok(Transducer {
-            zero: HostZero::new(KEY, force_max_n),
+            zero,
             options,
             calibration,
             setup,

@@ -79,15 +79,21 @@ impl Leds {
         if !self.are_there {
             return Ok(());
         }
-        let control = camera.control(ControlId::ZOOM).map_err(refused(SET))?;
-        let value = match (control, wanted) {
-            (None, None) => return Ok(()),
-            (None, Some(_)) => {
+        let Some(wanted) = wanted else {
+            // The light stays unchanged, so a control that cannot be read is no failure.
+            if let Ok(Some(_)) = camera.control(ControlId::ZOOM)
+                && let Ok(value) = camera.value(ControlId::ZOOM)
+            {
+                found.insert(LED.to_owned(), words(value));
+            }
+            return Ok(());
+        };
+        let value = match camera.control(ControlId::ZOOM).map_err(refused(SET))? {
+            None => {
                 let why = "the camera has no zoom control, by which a DIGIT sets its LEDs: expected a DIGIT; omit `led` for another camera";
                 return Err(failed(ErrorKind::Unsupported, SET, why));
             }
-            (Some(_), None) => camera.value(ControlId::ZOOM).map_err(refused(SET))?,
-            (Some(_), Some(wanted)) => {
+            Some(_) => {
                 let value = camera.set(ControlId::ZOOM, wanted).map_err(refused(SET))?;
                 held(wanted, value)?
             }

@@ -6,6 +6,7 @@ use std::time::Duration;
 use taceva_core::{Clock, Date, Traceability};
 
 use super::{Footprint, Header, SensorFacts, Source};
+use crate::text::shown;
 
 /// Facts of a recording that are known before its first sample.
 ///
@@ -30,7 +31,7 @@ pub struct RecordingFacts {
     pub sensor: SensorFacts,
     /// The sensing area, if known.
     pub footprint: Option<Footprint>,
-    /// Camera settings that were set and read back, by name: `exposure_ms` is `15.7`; empty if unknown.
+    /// Settings of camera, transducer (`force_…`) and robot (`robot_…`), read back, by name: `exposure_ms` is `15.7`; empty if unknown.
     pub settings: BTreeMap<String, String>,
     /// Instruments of the labels with their certificates; empty if none is stated.
     pub traceability: Vec<Traceability>,
@@ -50,7 +51,7 @@ impl RecordingFacts {
         }
     }
 
-    /// The same facts with camera settings that were set and read back.
+    /// The same facts with settings of devices that were read back.
     #[must_use]
     pub fn with_settings(self, settings: BTreeMap<String, String>) -> RecordingFacts {
         RecordingFacts { settings, ..self }
@@ -81,6 +82,29 @@ impl RecordingFacts {
             footprint: Some(footprint),
             ..self
         }
+    }
+
+    /// The same facts with the day, the settings and the instruments of `before`, a begun recording that may go on.
+    pub(crate) fn resuming(self, before: &RecordingFacts) -> RecordingFacts {
+        RecordingFacts {
+            recorded_on: before.recorded_on,
+            settings: before.settings.clone(),
+            traceability: before.traceability.clone(),
+            ..self
+        }
+    }
+
+    /// First setting that has another value in `now`, in words. A setting that only `now` has is none: earlier builds stored fewer.
+    pub(crate) fn other_setting(&self, now: &RecordingFacts) -> Option<String> {
+        self.settings.iter().find_map(|(name, before)| {
+            let found = match now.settings.get(name) {
+                Some(found) if found == before => return None,
+                Some(found) => format!("`{}`", shown(found)),
+                None => "not stated by the device".to_owned(),
+            };
+            let (name, before) = (shown(name), shown(before));
+            Some(format!("the setting `{name}` is {found}, expected `{before}` as in the existing recording: restore it, or record into a new folder"))
+        })
     }
 }
 

@@ -110,7 +110,9 @@ fn what_was_set_of_the_camera_is_kept_and_a_recording_goes_on_with_the_same_alon
     recorder.append(&sample(1)).expect("recorded");
     drop(recorder);
     let other = Recorder::open(&path, &with("20.0")).map(drop);
-    assert!(other.is_err(), "pictures of two exposures are no recording");
+    let other = other.expect_err("pictures of two exposures are no recording");
+    let words = "the setting `exposure_ms` is `20.0`, expected `15.7`";
+    assert!(other.to_string().contains(words), "{other}");
     let mut recorder = Recorder::open(&path, &with("15.7")).expect("resumed");
     recorder.append(&sample(2)).expect("recorded");
     recorder.close().expect("closed");
@@ -119,4 +121,25 @@ fn what_was_set_of_the_camera_is_kept_and_a_recording_goes_on_with_the_same_alon
         header.settings.get("exposure_ms").map(String::as_str),
         Some("15.7")
     );
+}
+
+#[test]
+fn a_recording_of_a_build_that_kept_fewer_settings_goes_on_and_one_whose_setting_is_gone_does_not()
+{
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    let with = |names: &[&str]| {
+        let mut spec = spec();
+        let settings = names
+            .iter()
+            .map(|name| ((*name).to_owned(), "5".to_owned()));
+        spec.facts = spec.facts.with_settings(settings.collect());
+        spec
+    };
+    drop(Recorder::create(&path, &with(&["gain"])).expect("created"));
+    drop(Recorder::open(&path, &with(&["force_serial", "gain"])).expect("resumed"));
+    let gone = Recorder::open(&path, &with(&["force_serial"])).map(drop);
+    let gone = gone.expect_err("the gain is unknown").to_string();
+    let words = "the setting `gain` is not stated by the device, expected `5`";
+    assert!(gone.contains(words), "{gone}");
 }
