@@ -224,6 +224,11 @@ impl Measurement {
         self.scale.distance(self.value, value)
     }
 
+    /// True for a value that has a place on the scale of the distribution.
+    pub(super) fn holds(&self, value: f64) -> bool {
+        self.scale.holds(value)
+    }
+
     /// `limit` moved by `by` on the scale of the distribution.
     pub(super) fn moved(&self, limit: f64, by: f64) -> f64 {
         self.scale.moved(limit, by)

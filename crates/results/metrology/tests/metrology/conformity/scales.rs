@@ -100,6 +100,24 @@ fn no_error_is_accepted_by_a_limit_of_zero() {
     }
 }
 
+#[test]
+fn a_limit_at_the_end_of_a_range_leaves_the_other_one_to_the_probability() {
+    let rule = DecisionRule::Probability { p_conformity: 0.95 };
+    let share = measured(0.8, [0.5, 16.0 / 17.0], Scale::Wilson);
+    let alone = Limits::at_least(0.6).expect("finite");
+    let alone = decided(&share, &alone, &rule).acceptance.expect("room");
+    let alone = alone.least().expect("a lower limit");
+    assert!(alone > 0.8, "{alone}");
+    for most in [1.0, 2.0] {
+        let limits = Limits::between(0.6, most).expect("in order");
+        let decision = decided(&share, &limits, &rule);
+        assert_eq!(decision.word, Word::ConditionalPass);
+        let inner = decision.acceptance.expect("room");
+        close(inner.least().expect("a lower limit"), alone, 1e-12, "least");
+        assert_eq!(inner.most(), Some(most));
+    }
+}
+
 /// Measurements of five units, by the logarithms of their ratios to 0.08.
 fn units(steps: [f64; 5], standard: f64) -> Vec<Measurement> {
     let unit = |step: f64| {
