@@ -50,6 +50,19 @@ fn a_guard_of_the_whole_uncertainty_leads_from_the_end_of_an_interval_to_its_val
 }
 
 #[test]
+fn a_guard_of_nothing_accepts_a_value_at_its_limit() {
+    let rule = DecisionRule::Guarded {
+        r: 0.0,
+        coverage: 0.95,
+    };
+    // 1 − (1 − 0.1) is less than 0.1 in binary64.
+    let share = measured(0.1, [-0.08, 0.25], Scale::Logarithm);
+    let decision = decided(&share, &at_most(0.1), &rule);
+    let inner = decision.acceptance.and_then(|limits| limits.most());
+    assert_eq!((decision.word, inner), (Word::Pass, Some(0.1)));
+}
+
+#[test]
 fn an_expanded_uncertainty_is_its_factor_times_the_standard_uncertainty() {
     for (value, ends, scale) in INTERVALS {
         let decision = decided(&measured(value, ends, scale), &at_most(2.0), &GUARDED);
