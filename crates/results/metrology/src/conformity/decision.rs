@@ -137,10 +137,10 @@ pub fn decide(
             let guard = r * measured.expanded(coverage).unwrap_or(f64::INFINITY);
             let inner = moved(measured, limits, guard);
             let outer = moved(measured, limits, -guard);
-            let is_in = |limits: &Option<Limits>| {
-                limits.is_some_and(|limits| limits.contain(measured.value()))
-            };
-            (inner, word(is_in(&inner), is_within, !is_in(&outer)))
+            let is_accepted = inner.is_some_and(|inner| inner.contain(measured.value()));
+            // Limits beyond binary64 refuse no value.
+            let is_refused = outer.is_some_and(|outer| !outer.contain(measured.value()));
+            (inner, word(is_accepted, is_within, is_refused))
         }
         (DecisionRule::Probability { p_conformity }, Some(p)) => {
             let least = *p_conformity;

@@ -99,6 +99,17 @@ fn a_value_outside_its_interval_is_no_measurement() {
 }
 
 #[test]
+fn a_guard_beyond_all_numbers_refuses_no_value() {
+    let rule = DecisionRule::Guarded {
+        r: 1e4,
+        coverage: 0.95,
+    };
+    let error = measured(0.08, [0.064, 0.1], Scale::Logarithm);
+    let decision = decided(&error, &at_most(0.05), &rule);
+    assert_eq!(decision.word, Word::ConditionalFail);
+}
+
+#[test]
 fn no_error_is_accepted_by_a_limit_of_zero() {
     let error = measured(0.08, [0.064, 0.1], Scale::Logarithm);
     for rule in [GUARDED, DecisionRule::Probability { p_conformity: 0.95 }] {
