@@ -99,6 +99,15 @@ fn a_value_outside_its_interval_is_no_measurement() {
 }
 
 #[test]
+fn a_limit_below_all_errors_is_certain_for_infinite_degrees_of_freedom_too() {
+    let error = Measurement::new(0.08, 0.008, f64::INFINITY).expect("valid");
+    let error = error.logarithmic().expect("above 0");
+    let least = Limits::at_least(0.0).expect("finite");
+    assert_eq!(error.conformance_probability(&at_most(0.0)), Some(0.0));
+    assert_eq!(error.conformance_probability(&least), Some(1.0));
+}
+
+#[test]
 fn a_guard_beyond_all_numbers_refuses_no_value() {
     let rule = DecisionRule::Guarded {
         r: 1e4,
