@@ -205,7 +205,8 @@ impl Measurement {
             [None, Some(below)] if below > 0.5 => {
                 Some(student_t::above(t(limits.least()?), of.freedom))
             }
-            _ => Some(1.0 - beyond.into_iter().flatten().sum::<f64>()),
+            // Two tails about limits that hardly differ may sum to more than 1 by rounding.
+            _ => Some((1.0 - beyond.into_iter().flatten().sum::<f64>()).max(0.0)),
         }
     }
 

@@ -108,6 +108,17 @@ fn a_limit_below_all_errors_is_certain_for_infinite_degrees_of_freedom_too() {
 }
 
 #[test]
+fn no_probability_is_below_zero() {
+    let measured = Measurement::new(0.0, 1.0, 9.0).expect("valid");
+    for step in 1..400_u32 {
+        let least = f64::from(step) / 100.0;
+        let limits = Limits::between(least, least * (1.0 + f64::EPSILON)).expect("in order");
+        let p = measured.conformance_probability(&limits).expect("p");
+        assert!((0.0..1e-14).contains(&p), "{least}: {p}");
+    }
+}
+
+#[test]
 fn a_guard_beyond_all_numbers_refuses_no_value() {
     let rule = DecisionRule::Guarded {
         r: 1e4,
