@@ -61,12 +61,12 @@ impl Acceptance<'_> {
         for finding in self.findings {
             table.push(self.row(finding));
         }
+        if let Some(line) = self.study.traceability() {
+            table.note(line.to_owned());
+        }
         let notes = self.edits_note().into_iter().chain(self.rule_notes());
         for note in notes.chain(process::notes(self.findings)) {
             table.note(note);
-        }
-        if let Some(line) = self.study.traceability() {
-            table.note(line.to_owned());
         }
         let trainings = self.findings.iter().map(|finding| finding.trainings);
         if let Some(trainings) = trainings.max().filter(|trainings| *trainings > 0) {

@@ -129,9 +129,15 @@ fn a_sheet_of_measured_labels_begins_with_their_certificate_or_says_that_there_i
             r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "drawn", "source": "recorded"}},
                 "metrics": {{"mae": {{"Fz": {{"value": 0.5, "unit": "N", "n": 80}}}}}}, "provenance": {{{provenance}}}}}"#
         );
-        let study = crate::results::unsealed(&text).expect("a result").remove(0);
-        let findings = held(&study, &[KEPT]);
+        let studies = crate::results::unsealed(&text);
+        let mut study = studies.expect("a result").remove(0);
+        // Rules and edits have notes too.
+        study
+            .edits
+            .push("results, 2026-11-20: better so".to_owned());
+        let findings = held_below("limits_version = 2", &study, &[KEPT]);
         let table = sheet(&study, &findings).table();
+        assert!(table.notes.len() > 3, "{:?}", table.notes);
         table.notes[0].plain().to_owned()
     };
     assert_eq!(
