@@ -6,7 +6,7 @@ use taceva_metrics::elementary::{exponential, logarithm};
 /// Scale on which a measured value has Student's distribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum OpenScale {
-    /// That of the value.
+    /// Scale of the value itself.
     Own,
     /// Logarithm of the value, as for errors.
     Logarithm,
