@@ -7,6 +7,9 @@ use super::tails::{Tails, positive_quantile};
 /// Probabilities within and beyond ±t.
 fn central(t: f64, freedom: f64) -> Tails {
     let square = t * t;
+    if square.is_infinite() {
+        return Tails::of_below(1.0);
+    }
     if freedom.is_infinite() {
         return super::gamma::gamma_tails(0.5, square / 2.0);
     }

@@ -125,9 +125,10 @@ fn the_deviation_of_clusters_is_the_sum_of_both_components_of_variance() {
         .iter()
         .map(|place| count(place.len()) * (of(place) - mean).powi(2));
     let between = between.sum::<f64>() / (k - 1.0);
-    let within = places
-        .iter()
-        .flat_map(|place| place.iter().map(|error| (error - of(place)).powi(2)));
+    let within = places.iter().flat_map(|place| {
+        let own = of(place);
+        place.iter().map(move |error| (error - own).powi(2))
+    });
     let within = within.sum::<f64>() / (n - k);
     let squares = places.iter().map(|place| count(place.len()).powi(2));
     let size = (n - squares.sum::<f64>() / n) / (k - 1.0);

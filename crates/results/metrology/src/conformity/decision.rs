@@ -137,10 +137,10 @@ pub fn decide(
             let guard = r * measured.expanded(coverage).unwrap_or(f64::INFINITY);
             let inner = moved(measured, limits, guard);
             let outer = moved(measured, limits, -guard);
-            let is_in = |limits: &Option<Limits>| {
-                limits.is_some_and(|limits| limits.contain(measured.value()))
-            };
-            (inner, word(is_in(&inner), is_within, !is_in(&outer)))
+            let is_accepted = inner.is_some_and(|inner| inner.contain(measured.value()));
+            // Limits beyond binary64 refuse no value.
+            let is_refused = outer.is_some_and(|outer| !outer.contain(measured.value()));
+            (inner, word(is_accepted, is_within, is_refused))
         }
         (DecisionRule::Probability { p_conformity }, Some(p)) => {
             let least = *p_conformity;
@@ -187,7 +187,11 @@ fn acceptance_of(measured: &Measurement, limits: &Limits, least: f64) -> Option<
     }
     let is_enough = |guard: f64| {
         let inner = moved(measured, limits, guard)?;
-        let end = inner.most().or(inner.least())?;
+        // A limit that has no place on the scale is not moved. Both ends of two that have one are equally probable.
+        let is_moved = |limit: Option<f64>| limit.is_some_and(|limit| measured.holds(limit));
+        let low = inner.least().filter(|_| is_moved(limits.least()));
+        let high = inner.most().filter(|_| is_moved(limits.most()));
+        let end = low.or(high).unwrap_or(measured.value());
         let p = measured.at(end).conformance_probability(limits)?;
         Some(p >= least)
     };

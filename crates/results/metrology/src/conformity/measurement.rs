@@ -205,7 +205,8 @@ impl Measurement {
             [None, Some(below)] if below > 0.5 => {
                 Some(student_t::above(t(limits.least()?), of.freedom))
             }
-            _ => Some(1.0 - beyond.into_iter().flatten().sum::<f64>()),
+            // Two tails about limits that hardly differ may sum to more than 1 by rounding.
+            _ => Some((1.0 - beyond.into_iter().flatten().sum::<f64>()).max(0.0)),
         }
     }
 
@@ -222,6 +223,11 @@ impl Measurement {
     /// Place of `value` on the scale of the distribution, from the measured value on.
     pub(super) fn place(&self, value: f64) -> f64 {
         self.scale.distance(self.value, value)
+    }
+
+    /// True for a value that has a place on the scale of the distribution.
+    pub(super) fn holds(&self, value: f64) -> bool {
+        self.scale.holds(value)
     }
 
     /// `limit` moved by `by` on the scale of the distribution.

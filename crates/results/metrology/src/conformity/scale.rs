@@ -6,7 +6,7 @@ use taceva_metrics::elementary::{exponential, logarithm};
 /// Scale on which a measured value has Student's distribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum OpenScale {
-    /// That of the value.
+    /// Scale of the value itself.
     Own,
     /// Logarithm of the value, as for errors.
     Logarithm,
@@ -60,10 +60,10 @@ impl OpenScale {
         }
     }
 
-    /// `value` moved by `by` on the scale; a value beyond its ends stays.
+    /// `value` moved by `by` on the scale; a value beyond its ends stays. A move by 0 changes no bit.
     pub(super) fn moved(self, value: f64, by: f64) -> f64 {
         match self {
-            _ if !self.holds(value) => value,
+            _ if by.abs() <= 0.0 || !self.holds(value) => value,
             OpenScale::Own => value + by,
             OpenScale::Logarithm => value * exponential(by),
             OpenScale::Remainder => 1.0 - (1.0 - value) * exponential(-by),

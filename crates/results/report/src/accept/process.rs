@@ -86,7 +86,7 @@ pub(super) fn notes(checks: &[LimitCheck]) -> Vec<String> {
     let mut notes: Vec<String> = units
         .map(|process| {
             format!(
-                "Risks among units like the {} given: a consumer's is the share of units that are accepted and do not meet the limit, a producer's the share that meet it and are not accepted.",
+                "Risks among units like the {} given. Consumer's risk: share of units that are accepted and do not meet the limit. Producer's risk: share of units that meet it and are not accepted.",
                 counted(process.units, "unit")
             )
         })

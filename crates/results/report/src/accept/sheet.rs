@@ -17,8 +17,7 @@ use crate::table::{Column, Table};
 use taceva_results::{SampleChannel, not_measured};
 
 /// Schema of an acceptance as JSON. 1.1: each finding states the better direction. 1.2: the number of trainings in its interval. 1.3: uncertainty,
-/// probability of conformity, acceptance limit, rule and verdict; risks among
-/// units of one process; accepted edits.
+/// probability of conformity, acceptance limit, rule and verdict; risks among units of one process; certificates; accepted edits.
 pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.3";
 
 /// Findings of one sensor unit, with the facts of its data sheet.
@@ -116,6 +115,7 @@ impl Acceptance<'_> {
             "schema": ACCEPTANCE_SCHEMA,
             "date": self.date,
             "subject": {"sensor": self.study.sensor, "serial": self.study.serial, "gel": self.study.gel, "source": self.study.source},
+            "traceability": self.study.traceability(),
             "edits": self.study.edits,
             "conditional_pass_counts": self.limits.counts_conditional_passes(),
             "passed": self.is_passed(),

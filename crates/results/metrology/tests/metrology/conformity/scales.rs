@@ -50,6 +50,19 @@ fn a_guard_of_the_whole_uncertainty_leads_from_the_end_of_an_interval_to_its_val
 }
 
 #[test]
+fn a_guard_of_nothing_accepts_a_value_at_its_limit() {
+    let rule = DecisionRule::Guarded {
+        r: 0.0,
+        coverage: 0.95,
+    };
+    // 1 − (1 − 0.1) is less than 0.1 in binary64.
+    let share = measured(0.1, [-0.08, 0.25], Scale::Logarithm);
+    let decision = decided(&share, &at_most(0.1), &rule);
+    let inner = decision.acceptance.and_then(|limits| limits.most());
+    assert_eq!((decision.word, inner), (Word::Pass, Some(0.1)));
+}
+
+#[test]
 fn an_expanded_uncertainty_is_its_factor_times_the_standard_uncertainty() {
     for (value, ends, scale) in INTERVALS {
         let decision = decided(&measured(value, ends, scale), &at_most(2.0), &GUARDED);
@@ -86,6 +99,37 @@ fn a_value_outside_its_interval_is_no_measurement() {
 }
 
 #[test]
+fn a_limit_below_all_errors_is_certain_for_infinite_degrees_of_freedom_too() {
+    let error = Measurement::new(0.08, 0.008, f64::INFINITY).expect("valid");
+    let error = error.logarithmic().expect("above 0");
+    let least = Limits::at_least(0.0).expect("finite");
+    assert_eq!(error.conformance_probability(&at_most(0.0)), Some(0.0));
+    assert_eq!(error.conformance_probability(&least), Some(1.0));
+}
+
+#[test]
+fn no_probability_is_below_zero() {
+    let measured = Measurement::new(0.0, 1.0, 9.0).expect("valid");
+    for step in 1..400_u32 {
+        let least = f64::from(step) / 100.0;
+        let limits = Limits::between(least, least * (1.0 + f64::EPSILON)).expect("in order");
+        let p = measured.conformance_probability(&limits).expect("p");
+        assert!((0.0..1e-14).contains(&p), "{least}: {p}");
+    }
+}
+
+#[test]
+fn a_guard_beyond_all_numbers_refuses_no_value() {
+    let rule = DecisionRule::Guarded {
+        r: 1e4,
+        coverage: 0.95,
+    };
+    let error = measured(0.08, [0.064, 0.1], Scale::Logarithm);
+    let decision = decided(&error, &at_most(0.05), &rule);
+    assert_eq!(decision.word, Word::ConditionalFail);
+}
+
+#[test]
 fn no_error_is_accepted_by_a_limit_of_zero() {
     let error = measured(0.08, [0.064, 0.1], Scale::Logarithm);
     for rule in [GUARDED, DecisionRule::Probability { p_conformity: 0.95 }] {
@@ -97,6 +141,24 @@ fn no_error_is_accepted_by_a_limit_of_zero() {
             1e-300,
             "p",
         );
+    }
+}
+
+#[test]
+fn a_limit_at_the_end_of_a_range_leaves_the_other_one_to_the_probability() {
+    let rule = DecisionRule::Probability { p_conformity: 0.95 };
+    let share = measured(0.8, [0.5, 16.0 / 17.0], Scale::Wilson);
+    let alone = Limits::at_least(0.6).expect("finite");
+    let alone = decided(&share, &alone, &rule).acceptance.expect("room");
+    let alone = alone.least().expect("a lower limit");
+    assert!(alone > 0.8, "{alone}");
+    for most in [1.0, 2.0] {
+        let limits = Limits::between(0.6, most).expect("in order");
+        let decision = decided(&share, &limits, &rule);
+        assert_eq!(decision.word, Word::ConditionalPass);
+        let inner = decision.acceptance.expect("room");
+        close(inner.least().expect("a lower limit"), alone, 1e-12, "least");
+        assert_eq!(inner.most(), Some(most));
     }
 }
 

@@ -129,10 +129,20 @@ fn a_sheet_of_measured_labels_begins_with_their_certificate_or_says_that_there_i
             r#"{{"schema": "taceva.evaluation/1.0", "subject": {{"sensor": "drawn", "source": "recorded"}},
                 "metrics": {{"mae": {{"Fz": {{"value": 0.5, "unit": "N", "n": 80}}}}}}, "provenance": {{{provenance}}}}}"#
         );
-        let study = crate::results::unsealed(&text).expect("a result").remove(0);
-        let findings = held(&study, &[KEPT]);
-        let table = sheet(&study, &findings).table();
-        table.notes[0].plain().to_owned()
+        let studies = crate::results::unsealed(&text);
+        let mut study = studies.expect("a result").remove(0);
+        // Rules and edits have notes too.
+        study
+            .edits
+            .push("results, 2026-11-20: better so".to_owned());
+        let findings = held_below("limits_version = 2", &study, &[KEPT]);
+        let sheet = sheet(&study, &findings);
+        let table = sheet.table();
+        assert!(table.notes.len() > 3, "{:?}", table.notes);
+        let first = table.notes[0].plain().to_owned();
+        let json: Value = serde_json::from_str(&sheet.json()).expect("JSON");
+        assert_eq!(json["traceability"], first);
+        first
     };
     assert_eq!(
         first_note(""),
@@ -166,6 +176,8 @@ fn programs_find_every_limit_with_its_ends_and_its_reason() {
     let json: Value = serde_json::from_str(&sheet(&study, &findings).json()).expect("JSON");
     assert_eq!(json["schema"], ACCEPTANCE_SCHEMA);
     assert_eq!(json["date"], "2026-11-22");
+    // Nothing was measured.
+    assert!(json.get("traceability").is_some_and(Value::is_null));
     assert_eq!(json["subject"]["serial"], "7");
     let [kept, broken] = [0, 1].map(|at| &json["findings"][at]);
     assert_eq!(
