@@ -42,7 +42,8 @@ pub(crate) static AGREEMENT: Metric = Metric {
                     Satterthwaite's. Intervals are exact for independent errors: of `low` and `high` by the noncentral t distribution, of \
                     the value and `sd` by χ². `slope` is the change of the error with the mean of truth and prediction, and `slope_p` the \
                     probability of such a slope by chance. The interval of `slope`, and those of planes, leave out one cluster at a \
-                    time. Undefined if all errors are equal, or if all samples are of one cluster.",
+                    time. Undefined if all errors are equal, or if all samples are of one cluster. \
+                    Above 30,000 clusters of a channel they count as unknown.",
     needs: LIMIT_NEEDS,
     constants: |_| {
         vec![Parameter {

@@ -32,7 +32,7 @@ pub(crate) static TOLERANCE_INTERVAL: Metric = Metric {
                     hundred, at least 1.96. The standard deviation is that of the agreement, with both components of variance if a contact \
                     point was pressed several times. The interval of the value shows how much it varies between choices of clusters, with \
                     the same k. Undefined without contact points unless samples are declared independent, if all errors are equal, or if \
-                    all samples are of one cluster.",
+                    all samples are of one cluster. Above 30,000 clusters of a channel they count as unknown.",
     needs: LIMIT_NEEDS,
     constants: |_| {
         let constant = |name, value| Parameter { name, value };

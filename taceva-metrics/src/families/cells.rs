@@ -133,7 +133,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
     }
 
     /// Merges all cells into one.
-    fn forget_names(&mut self) {
+    pub(crate) fn forget_names(&mut self) {
         if !self.named {
             return;
         }

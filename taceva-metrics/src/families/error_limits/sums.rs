@@ -6,6 +6,9 @@ use crate::exact::record::Record;
 use crate::families::cells::{Cells, add_times};
 use crate::stats::{DifferenceLine, OneWaySums};
 
+/// Greatest number of clusters of a channel whose errors are kept apart, which bounds the memory. Beyond it, clusters count as unknown.
+pub(super) const MOST_CLUSTERS: u64 = 30_000;
+
 /// Sums of one channel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ErrorSums {
@@ -18,6 +21,13 @@ pub(crate) struct ErrorSums {
 }
 
 impl ErrorSums {
+    /// Merges all clusters into one if there are too many. The outcome depends on the set of rows alone.
+    pub(super) fn bound(&mut self) {
+        if self.clusters.len() as u64 > MOST_CLUSTERS {
+            self.clusters.forget_names();
+        }
+    }
+
     /// Converts the sums to the record of a state.
     pub(super) fn to_record(&self) -> Record {
         Record {
@@ -56,6 +66,7 @@ impl Merge for ErrorSums {
         add_times(&mut self.n_invalid, other.n_invalid, times);
         self.line.merge_times(&other.line, times);
         self.clusters.merge_times(&other.clusters, times);
+        self.bound();
     }
 }
 
@@ -113,6 +124,6 @@ impl Merge for Totals {
         self.line.merge(&other.line);
         self.errors.merge(&other.errors);
         self.groups.merge(&other.groups);
-        self.is_unnamed |= other.is_unnamed;
+        self.is_unnamed |= other.is_unnamed || self.groups.groups() > MOST_CLUSTERS;
     }
 }

@@ -193,6 +193,23 @@ fn clusters_widen_what_is_known_of_their_errors() {
 }
 
 #[test]
+fn errors_of_more_than_30_000_places_count_as_without_places_in_any_order() {
+    let sample = |place: u32| {
+        let error = 0.001 * f64::from(place % 7);
+        at(&place.to_string(), pair(&[1.0], &[1.0 - error]))
+    };
+    let most: Vec<Sample> = (0..30_000).map(sample).collect();
+    let more: Vec<Sample> = (0..30_001).rev().map(sample).collect();
+    let of = |metric: &str, samples: &[Sample]| evaluate(metric, &["Fz"], samples);
+    let name = "tolerance_interval";
+    assert!(scalar(&of(name, &most), name, "Fz") > 0.0);
+    let reason = said(&of(name, &more), name, "Fz");
+    assert_eq!(reason, "samples without point_id");
+    let sd = |samples: &[Sample]| scalar(&of("agreement", samples), "agreement", "Fz") / Z;
+    assert!((sd(&more) - 0.002).abs() < 1e-5 && (sd(&most) - 0.002).abs() < 1e-5);
+}
+
+#[test]
 fn limits_of_errors_say_why_there_are_none() {
     let both = ["agreement", "tolerance_interval"];
     for metric in both {
