@@ -225,6 +225,12 @@ impl fmt::Display for Note {
                 by_count(*count, "its", "their"),
                 were = by_count(*count, "was", "were")
             ),
+            Note::FramesFrozen(count) => write!(
+                f,
+                "the camera froze: {} equalled the one before although the force changed, {} broken off and repeated",
+                counted(*count, "frame"),
+                by_count(*count, "and its press was", "and their presses were")
+            ),
         }
     }
 }
@@ -315,6 +321,10 @@ mod tests {
             (
                 Note::FramesRetried(2),
                 "2 frames were lost, damaged or older than their contact, and were recorded again",
+            ),
+            (
+                Note::FramesFrozen(1),
+                "the camera froze: 1 frame equalled the one before although the force changed, and its press was broken off and repeated",
             ),
             (
                 left_out(1),

@@ -55,6 +55,11 @@ pub enum StopCause {
         /// Last error of the sensor; `None` if it returned only outdated frames.
         last: Option<String>,
     },
+    /// A frame repeats the one before to the last bit although the force changed.
+    #[error(
+        "a frame equals the one before to the last bit although the force changed: the camera is frozen; restart it, look at it by `taceva preview`, and continue with `--resume`"
+    )]
+    FrozenFrame,
     /// A motion would leave the workspace. It was not made.
     #[error("a motion to {place} would leave the workspace of the plan")]
     Workspace {
@@ -95,12 +100,13 @@ pub enum StopCause {
 }
 
 impl StopCause {
-    /// True if force, pose or frames did not arrive in time, so that the press can be repeated.
+    /// True if force, pose or frames did not arrive in time, or a frame was an old one, so that the press can be repeated.
     pub fn is_silence(&self) -> bool {
         matches!(
             self,
             StopCause::Tripped(Trip::StaleForce { .. } | Trip::StalePose { .. })
                 | StopCause::Frames { .. }
+                | StopCause::FrozenFrame
         )
     }
 

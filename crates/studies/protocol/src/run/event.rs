@@ -36,6 +36,8 @@ pub enum Event {
     },
     /// A frame was unusable, so another one is captured.
     FrameRetried,
+    /// A frame repeated the one before to the last bit although the force changed. Its press is broken off.
+    FrameFrozen,
     /// A sample was taken.
     Sampled {
         /// Number of the sample in the press, from 0.

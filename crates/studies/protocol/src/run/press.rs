@@ -23,6 +23,9 @@ impl Run<'_> {
         untouched: Option<&mut dyn PressLog>,
     ) -> Step<PressRecord> {
         self.prepare(planned)?;
+        if let Some(camera) = &mut self.camera {
+            camera.leave();
+        }
         if let (Some(log), Some(camera)) = (untouched, &mut self.camera) {
             let now_s = self.tip.clock.now_s();
             let (frame, _) = camera.frame(now_s, &self.tip, self.events)?;
