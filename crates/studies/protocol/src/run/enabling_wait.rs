@@ -63,6 +63,11 @@ impl Tip<'_> {
 
     /// Raises the tip after a halt. Returns the cause that ends the run, and the place of the tip.
     fn leave(&mut self, cause: StopCause, attendant: &mut Attendant<'_>) -> (StopCause, Left) {
+        if self.stands_clear {
+            // Hands may be at the tip: a robot that stands clear is not made ready to move.
+            let _ = self.robot.halt();
+            return (cause, Left::Clear);
+        }
         loop {
             let _ = self.robot.halt();
             match self.wait_until_held(attendant) {

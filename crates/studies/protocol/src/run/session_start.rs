@@ -46,7 +46,10 @@ impl Run<'_> {
             Some(operator) => Some(&mut **operator),
             None => None,
         };
-        enable(robot, way, operator, self.tip.cancel)
+        self.tip.supervisor.lock().asks(true);
+        let enabled = enable(robot, way, operator, self.tip.cancel);
+        self.tip.supervisor.lock().asks(false);
+        enabled
     }
 
     /// Begins the session, once, before the first press and with its specimen.
