@@ -31,23 +31,37 @@ pub struct ReferenceTouch {
     pub depth_mm: f64,
     /// Normal force at that depth, in N.
     pub force_n: f64,
+    /// Standard uncertainty of the height, in mm.
+    pub height_u_mm: f64,
+    /// Standard uncertainty of the force at that depth, in N, with that of the depth.
+    pub force_u_n: f64,
 }
 
 impl ReferenceTouch {
     /// Greatest apparent displacement of the gel between two sessions, in mm; arms repeat to about 0.1 mm.
     const HEIGHT_MM: f64 = 0.1;
-    /// Greatest relative change of the force.
+    /// Greatest relative change of the stiffness.
     const FORCE_PART: f64 = 0.1;
+    /// Coverage factor of the uncertainty of a change.
+    const COVERAGE: f64 = 2.0;
 
-    /// Change since the `earlier` touch; `None` if within the repeatability of arms and gels.
+    /// Force by depth, in N/mm.
+    pub fn stiffness_n_mm(&self) -> f64 {
+        self.force_n / self.depth_mm
+    }
+
+    /// Change since the `earlier` touch; `None` if within the repeatability of arms and gels, or within the uncertainty of both touches.
     pub(super) fn changed_since(&self, earlier: &ReferenceTouch) -> Option<ChangedTouch> {
+        let part = |touch: &ReferenceTouch| touch.force_u_n / touch.force_n;
         let changed = ChangedTouch {
             height_mm: self.height_mm - earlier.height_mm,
-            force_part: self.force_n / earlier.force_n - 1.0,
+            force_part: self.stiffness_n_mm() / earlier.stiffness_n_mm() - 1.0,
+            height_u_mm: ReferenceTouch::COVERAGE * self.height_u_mm.hypot(earlier.height_u_mm),
+            force_u_part: ReferenceTouch::COVERAGE * part(self).hypot(part(earlier)),
         };
         // NaN counts as a change.
-        let is_same = changed.height_mm.abs() <= ReferenceTouch::HEIGHT_MM
-            && changed.force_part.abs() <= ReferenceTouch::FORCE_PART;
+        let is_same = changed.height_mm.abs() <= ReferenceTouch::HEIGHT_MM.max(changed.height_u_mm)
+            && changed.force_part.abs() <= ReferenceTouch::FORCE_PART.max(changed.force_u_part);
         (!is_same).then_some(changed)
     }
 }
@@ -147,6 +161,8 @@ mod tests {
             height_mm,
             depth_mm: 0.2,
             force_n,
+            height_u_mm: 0.0,
+            force_u_n: 0.0,
         };
         let earlier = touch(0.1, 0.06);
         for (height_mm, force_n, is_changed) in [
@@ -160,6 +176,22 @@ mod tests {
             (0.1, f64::NAN, true),
         ] {
             let changed = touch(height_mm, force_n).changed_since(&earlier);
+            assert_eq!(changed.is_some(), is_changed, "{height_mm} mm, {force_n} N");
+        }
+        // A difference within the uncertainty of both touches is no change.
+        let unsure = |height_mm: f64, force_n: f64| ReferenceTouch {
+            height_u_mm: 0.05,
+            force_u_n: 0.006,
+            ..touch(height_mm, force_n)
+        };
+        let earlier = unsure(0.1, 0.06);
+        for (height_mm, force_n, is_changed) in [
+            (0.23, 0.06, false),
+            (0.1, 0.075, false),
+            (0.25, 0.06, true),
+            (0.1, 0.09, true),
+        ] {
+            let changed = unsure(height_mm, force_n).changed_since(&earlier);
             assert_eq!(changed.is_some(), is_changed, "{height_mm} mm, {force_n} N");
         }
     }
