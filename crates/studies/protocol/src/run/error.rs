@@ -6,6 +6,7 @@ use taceva_core::{DriverError, Fault, SinkError, by_count, counted};
 
 use super::halt_reason::Trip;
 use super::reference_touch::TouchFault;
+use super::shear_way::ShearFault;
 use crate::content_id::ContentId;
 use crate::text::SceneError;
 
@@ -86,6 +87,9 @@ pub enum StopCause {
     /// Force or frames did not respond as a gel should in the gentle touch before the first press.
     #[error("{0}")]
     Touch(TouchFault),
+    /// The shear force of a press changed against the tangential way of the tip, unlike in the gentle touch.
+    #[error("{0}")]
+    Shear(ShearFault),
     /// The enabling switch was not held within the wait of the rig file.
     #[error(
         "the enabling switch was not held within {patience_s} s: hold it and continue with `--resume`; `patience_s` of [operator] sets this wait"

@@ -16,6 +16,9 @@ pub trait Operator {
 
     /// Shows a remark of a device on valid readings, with its remedy. Returns at once; does nothing by default.
     fn warn(&mut self, _warning: &str) {}
+
+    /// Shows a finding of the session, such as the stiffness of the gel. Returns at once; does nothing by default.
+    fn note(&mut self, _finding: &str) {}
 }
 
 /// Questions to the operator. [`Display`](fmt::Display) formats them.

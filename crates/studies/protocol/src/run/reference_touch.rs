@@ -50,6 +50,25 @@ impl ReferenceTouch {
         self.force_n / self.depth_mm
     }
 
+    /// Line for the operator: the stiffness, beside that of the `earlier` touch.
+    pub(super) fn line(&self, earlier: Option<&ReferenceTouch>) -> String {
+        let stiffness = self.stiffness_n_mm();
+        let beside = match earlier {
+            Some(earlier) => {
+                let before = earlier.stiffness_n_mm();
+                let change = 100.0 * (stiffness / before - 1.0);
+                format!("{before:.3} N/mm in the last session ({change:+.1} %)")
+            }
+            None => {
+                "a gel that should be about 4.4 or 9.8 times stiffer or softer shows a wrong unit of force".to_owned()
+            }
+        };
+        format!(
+            "gentle touch with the {}: {:.3} N at {:.3} mm, {stiffness:.3} N/mm; {beside}",
+            self.specimen, self.force_n, self.depth_mm
+        )
+    }
+
     /// Change since the `earlier` touch; `None` if within the repeatability of arms and gels, or within the uncertainty of both touches.
     pub(super) fn changed_since(&self, earlier: &ReferenceTouch) -> Option<ChangedTouch> {
         let part = |touch: &ReferenceTouch| touch.force_u_n / touch.force_n;
@@ -149,6 +168,27 @@ mod tests {
     use taceva_core::Nanometre;
 
     use super::*;
+
+    #[test]
+    fn a_touch_states_its_stiffness_beside_that_of_the_last_session() {
+        let touch = |force_n: f64| ReferenceTouch {
+            unit: "1".to_owned(),
+            specimen: Specimen::Sphere {
+                radius: Nanometre(4_000_000),
+            },
+            height_mm: 0.1,
+            depth_mm: 0.3,
+            force_n,
+            height_u_mm: 0.0,
+            force_u_n: 0.0,
+        };
+        let line = touch(0.6).line(Some(&touch(0.48)));
+        assert_eq!(
+            line,
+            "gentle touch with the sphere of radius 4 mm: 0.600 N at 0.300 mm, 2.000 N/mm; 1.600 N/mm in the last session (+25.0 %)"
+        );
+        assert!(touch(0.6).line(None).contains("wrong unit of force"));
+    }
 
     #[test]
     fn a_gel_that_moved_by_more_than_a_tenth_or_presses_by_more_than_a_tenth_otherwise_is_changed()

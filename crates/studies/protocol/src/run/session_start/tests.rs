@@ -1,8 +1,14 @@
 mod bench;
 mod taps;
 
-use bench::{Bench, MOUNTED, Memory, SURFACE_MM, Sees, Session, State, begun, rig_file};
+use taceva_core::{Nanometre, Phase};
 
+use bench::{
+    Bench, MOUNTED, Memory, SURFACE_MM, Sees, Session, State, begun, begun_with, one_press,
+    rig_file,
+};
+
+use crate::press::{Motion, Waypoint};
 use crate::rig_file::{RigFile, SignedAxes};
 use crate::run::{Answer, Left, Question, RunError, SessionRecord, StopCause, TouchFault};
 
@@ -253,5 +259,35 @@ fn a_gel_that_is_not_touched_as_before_is_asked_about_and_one_that_is_goes_on() 
         let error = done.expect_err("nobody can be asked");
         assert!(matches!(error.cause, StopCause::Missing(_)), "{error}");
         assert_eq!(log.presses, 0);
+    }
+}
+
+#[test]
+fn a_transducer_whose_fx_and_fy_are_swapped_after_the_touch_is_found_in_the_next_sheared_press() {
+    let mut plan = one_press();
+    let planned = &mut plan.presses[0];
+    planned.frames = false;
+    planned.press.place = [Nanometre(0); 2];
+    let waypoint = |shear: [i64; 2]| Waypoint {
+        depth: Nanometre(200_000),
+        shear: shear.map(Nanometre),
+        phase: Phase::Load,
+    };
+    planned.press.motion = Motion::Indent(vec![waypoint([0, 0]), waypoint([500_000, -400_000])]);
+    for (is_swapped, presses) in [(false, 1), (true, 0)] {
+        let (bench, rig) = (Bench::new(MOUNTED), rig_file(MOUNTED));
+        bench.state().stiffness = 4.0;
+        bench.state().is_swapped = is_swapped;
+        let session = Session {
+            rig: &rig,
+            robot: None,
+            touched: &[],
+            answer: None,
+        };
+        let (done, log, _) = begun_with(&bench, session, &plan);
+        assert_eq!((log.presses, log.sessions.len()), (presses, 1));
+        let cause = done.map_err(|error| (error.cause, error.left)).err();
+        let is_found = matches!(cause, Some((StopCause::Shear(_), Left::Clear)));
+        assert_eq!(is_found, is_swapped, "{cause:?}");
     }
 }
