@@ -46,7 +46,6 @@ impl<'a> Camera<'a> {
     ) -> Step<(Frame, Stamp)> {
         let info = self.sensor.frame_info();
         let too_large = || StopCause::Missing(format!("memory for frames of {info}"));
-        let asked_s = tip.clock.now_s();
         let mut last = None;
         for _ in 0..FRAME_TRIES {
             let mut bytes = vec![0; info.byte_len().ok_or_else(too_large)?];
@@ -62,8 +61,8 @@ impl<'a> Camera<'a> {
                     }
                     return Ok((frame, stamp));
                 }
-                // A streaming driver returns its newest frame. A frame received before this call is neither lost nor late.
-                Ok(stamp) if stamp.received_s.is_some_and(|at_s| at_s < asked_s) => {}
+                // A camera returns its newest frame. One from before the contact is neither lost nor damaged.
+                Ok(stamp) if stamp.valid_s < from_s => {}
                 Ok(_) => events(&Event::FrameRetried),
                 Err(error) if [ErrorKind::Timeout, ErrorKind::Protocol].contains(&error.kind()) => {
                     last = Some(error.to_string());

@@ -34,7 +34,7 @@ pub enum Event {
         /// Height of the contact in the sensor frame, in mm, positive into the gel.
         height: Millimetre,
     },
-    /// A frame was unusable, so another one is captured.
+    /// A frame was lost, damaged or of another clock, so another one is captured. A frame from before the contact is only replaced.
     FrameRetried,
     /// A frame repeated the one before to the last bit although the force changed. Its press is broken off.
     FrameFrozen,

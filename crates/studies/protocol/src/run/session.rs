@@ -258,7 +258,7 @@ impl<'a> Run<'a> {
                 self.go_on_after(fault, error)?;
                 continue;
             }
-            if !(is_silence || is_release) || error.left == Left::InPlace {
+            if !(is_silence || is_release) || error.left != Left::Clear {
                 return Err(error);
             }
             times += 1;
@@ -292,7 +292,7 @@ impl<'a> Run<'a> {
             };
             let is_release = cause.is_release();
             let error = self.abandoned(Some(planned.id), cause);
-            if !is_release || error.left == Left::InPlace {
+            if !is_release || error.left != Left::Clear {
                 return Err(error);
             }
         }

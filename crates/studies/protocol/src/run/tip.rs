@@ -69,6 +69,8 @@ pub(super) struct Tip<'a> {
     pub(super) is_box_zeroed: bool,
     /// True if the zero holds for the present load of the robot.
     pub(super) is_zero_known: bool,
+    /// True once a motion was sent.
+    pub(super) has_moved: bool,
     /// True while the robot is halted at the travel height or above it, so that hands may come near.
     pub(super) stands_clear: bool,
 }
@@ -156,6 +158,7 @@ impl<'a> Tip<'a> {
             ignores_cancel: false,
             is_box_zeroed: false,
             is_zero_known: false,
+            has_moved: false,
             stands_clear: false,
         }
     }
