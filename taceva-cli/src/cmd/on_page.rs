@@ -126,6 +126,7 @@ impl Viewer for Shown {
                 live.stage("the camera repeats a frame: the press is broken off");
             }
             Event::Halted(trip) => live.stage(&format!("halted: {trip}")),
+            Event::ForceLost(words) => live.stage(words),
             Event::Unheld => live.stage("hold the enabling switch: nothing moves until it is held"),
             Event::Mounted(specimen) => live.stage(&format!("mounted: {specimen}")),
             Event::Lit(light) => live.stage(&format!("light {light}")),

@@ -45,6 +45,8 @@ pub enum Event {
     },
     /// The supervisor halted the robot.
     Halted(Trip),
+    /// The force was lost while a question stands, with the cause and the remedy.
+    ForceLost(String),
     /// The tip left the gel after a halt.
     Retracted,
     /// The enabling switch is not held. Nothing moves until it is.

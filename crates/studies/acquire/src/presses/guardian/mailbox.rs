@@ -9,7 +9,7 @@ use taceva_core::{
     Wrench,
 };
 use taceva_drivers::MonotonicClock;
-use taceva_protocol::{Observation, SharedSupervisor};
+use taceva_protocol::{Event, Observation, SharedSupervisor};
 
 use crate::viewer::Viewer;
 
@@ -83,6 +83,19 @@ pub(super) struct Listeners<'a> {
     pub(super) supervisor: &'a SharedSupervisor,
     pub(super) viewer: Option<&'a dyn Viewer>,
     pub(super) progress: &'a dyn Progress,
+}
+
+impl Listeners<'_> {
+    /// Shows an operator at a question that the force is lost.
+    fn lose(&self, error: &DriverError) {
+        let words = format!(
+            "the force is lost: {error}; the robot stays halted: stop here, check cable and power of the transducer, and continue with `--resume`"
+        );
+        self.progress.remark(&words);
+        if let Some(viewer) = self.viewer {
+            viewer.event(&Event::ForceLost(words));
+        }
+    }
 }
 
 impl Mailbox {
@@ -203,9 +216,7 @@ impl Reader {
 
     fn read(&mut self, force: &mut dyn ForceTransducer, listeners: Listeners<'_>) {
         let Listeners {
-            supervisor,
-            viewer,
-            progress,
+            supervisor, viewer, ..
         } = listeners;
         match force.read(READ_DEADLINE) {
             Ok((wrench, stamp)) => {
@@ -235,7 +246,7 @@ impl Reader {
                 let is_news = is_lost && held.lose_force();
                 drop(held);
                 if is_news {
-                    progress.remark(&lost(&error));
+                    listeners.lose(&error);
                 }
             }
             Err(error) => {
@@ -249,20 +260,13 @@ impl Reader {
                 };
                 drop(held);
                 if is_news {
-                    progress.remark(&lost(&error));
+                    listeners.lose(&error);
                 }
                 self.slot.put(|latest| latest.error = Some(error));
                 std::thread::sleep(FAILED_REST);
             }
         }
     }
-}
-
-/// Line for an operator at a question.
-fn lost(error: &DriverError) -> String {
-    format!(
-        "the force is lost: {error}; the robot stays halted: stop here, check cable and power of the transducer, and continue with `--resume`"
-    )
 }
 
 fn carry_out(task: Task, force: &mut dyn ForceTransducer) -> Result<(), DriverError> {
