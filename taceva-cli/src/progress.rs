@@ -221,6 +221,11 @@ impl Progress for TerminalProgress {
     fn is_insisted(&self) -> bool {
         INSISTED.load(Ordering::SeqCst)
     }
+
+    /// Prints the line even with `--quiet`, and without the lock of the bar, which a question holds.
+    fn remark(&self, words: &str) {
+        stderr::say(format_args!("{words}"));
+    }
 }
 
 /// Plain line at the start of a stage: `leaving groups out (13)`. A stage of one step has none, unless `is_verbose`.

@@ -41,6 +41,10 @@ pub trait Progress: Send + Sync {
     fn is_insisted(&self) -> bool {
         false
     }
+    /// Shows `words` at once, also while a question stands, and never waits. Does nothing by default.
+    fn remark(&self, words: &str) {
+        let _ = words;
+    }
 }
 
 /// A progress that shows nothing and never cancels.

@@ -122,7 +122,11 @@ impl Viewer for Shown {
                 let retried = 1 + self.retried.fetch_add(1, Ordering::AcqRel);
                 live.lost(retried, 0, true);
             }
+            Event::FrameFrozen => {
+                live.stage("the camera repeats a frame: the press is broken off");
+            }
             Event::Halted(trip) => live.stage(&format!("halted: {trip}")),
+            Event::ForceLost(words) => live.stage(words),
             Event::Unheld => live.stage("hold the enabling switch: nothing moves until it is held"),
             Event::Mounted(specimen) => live.stage(&format!("mounted: {specimen}")),
             Event::Lit(light) => live.stage(&format!("light {light}")),

@@ -57,6 +57,10 @@ impl<I: Read + Waits> Operator for Terminal<I> {
         progress::without_bar(|| (self.say)(&format!("warning: {warning}")));
     }
 
+    fn note(&mut self, finding: &str) {
+        progress::without_bar(|| (self.say)(finding));
+    }
+
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer {
         progress::without_bar(|| self.answered(question, cancel))
     }

@@ -141,7 +141,7 @@ fn shifted(plan: &Plan) -> Option<String> {
 /// Refuses a scene that would measure nothing, because no study keeps a metric.
 ///
 /// # Errors
-/// [`Usage`] with the reason that skips most metrics.
+/// [`Usage`] with the missing line of the footprint, or else the reason that skips most metrics.
 pub(super) fn check_metrics(planned: &PlannedScene) -> anyhow::Result<()> {
     let studies = &planned.studies;
     if studies.iter().any(|study| !study.plan.metrics.is_empty()) {
@@ -154,7 +154,12 @@ pub(super) fn check_metrics(planned: &PlannedScene) -> anyhow::Result<()> {
             *reasons.entry(skip.reason.to_string()).or_default() += 1;
         }
     }
-    let most = reasons.into_iter().max_by_key(|(_, metrics)| *metrics);
+    // Names the line to write if one is missing.
+    let unwritten = PlanReason::Skip(SkipReason::FactAbsent("footprint")).to_string();
+    let most = match reasons.remove_entry(&unwritten) {
+        None => reasons.into_iter().max_by_key(|(_, metrics)| *metrics),
+        written => written,
+    };
     let reason = most.map_or_else(|| "none is requested".to_owned(), |(reason, _)| reason);
     Err(Usage::error(format!(
         "{}: no metric is kept, so nothing would be measured: {reason}",

@@ -82,3 +82,46 @@ fn what_cannot_be_done_is_refused_with_the_line_and_what_is_known() {
     bench.refused("rig check lab.toml", 3, no_rig);
     bench.refused("preview --rig lab.toml", 3, no_rig);
 }
+
+#[test]
+fn a_rig_without_a_sensing_area_keeps_no_metric_and_names_the_line_that_states_it() {
+    let bench = Bench::new();
+    let rig = r#"rig_version = 1
+[robot]
+driver = "ufactory/xarm:host=127.0.0.1"
+carries = "indenter"
+origin_mm = [300.0, 0.0, 251.3]
+axes = ["x", "-y", "-z"]
+[force]
+driver = "ati/netft:host=127.0.0.1"
+axes = ["x", "-y", "-z"]
+[sensor]
+driver = "camera/mjpeg:url=http://127.0.0.1:9/"
+[limits]
+Pz_max_mm = 1.0
+Fz_max_N = 2.0
+"#;
+    bench.write("lab.toml", rig);
+    bench.write(
+        "s.toml",
+        "scene_version = 1\nname = \"gel\"\n[model]\nname = \"ridge\"\n[protocol.calibration]\npoints = 60\n",
+    );
+    let plan = "plan s.toml --rig lab.toml";
+    let ran = bench.run(plan);
+    assert_eq!(ran.code, 2, "{}{}", ran.out, ran.err);
+    assert!(
+        ran.err.contains("no metric is kept")
+            && ran
+                .err
+                .contains("`footprint = { shape = \"disc\", radius_mm = … }`"),
+        "{}",
+        ran.err
+    );
+    let stated = rig.replace(
+        "[limits]",
+        "footprint = { shape = \"disc\", radius_mm = 8.0 }\n[limits]",
+    );
+    bench.write("lab.toml", &stated);
+    let ran = bench.run(plan);
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+}

@@ -46,7 +46,7 @@ pub use dataset::{Dataset, JoinedRecording, Pass, StreamReport};
 pub use decode::ChannelOrder;
 pub use digest::{Digest, DigestError};
 pub use error::{DatasetError, Place};
-pub use frame_retries::{add_frame_retries, frame_retries};
+pub use frame_retries::{add_frame_retries, add_frozen_frames, frame_retries, frozen_frames};
 pub use header::{
     Extension, Footprint, FrameCodec, FramesInfo, Header, Known, LeftOut, LivePredictions,
     MappedClass, MappedColumn, MappedJoin, MappedPictures, RecordingFacts, ReducedFrames,

@@ -46,6 +46,11 @@ pub struct Session {
     pub reaction_ms: f64,
     /// Travel of the tip after the halt, mm.
     pub overshoot_mm: f64,
+    /// Standard uncertainty of `height_mm`, mm.
+    pub height_u_mm: f64,
+    /// Standard uncertainty of `fz_n` at its depth, N.
+    #[serde(rename = "Fz_u_N")]
+    pub fz_u_n: f64,
 }
 
 /// The table of sessions beside a recording.
@@ -196,6 +201,8 @@ mod tests {
             picture_changed: true,
             reaction_ms: 6.5,
             overshoot_mm: 0.02,
+            height_u_mm: 0.01,
+            fz_u_n: 0.002,
         }
     }
 

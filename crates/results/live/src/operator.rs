@@ -32,6 +32,10 @@ impl PageOperator {
 }
 
 impl Operator for PageOperator {
+    fn note(&mut self, finding: &str) {
+        self.live.stage(finding);
+    }
+
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer {
         let asked = self.live.ask(question);
         loop {

@@ -26,7 +26,7 @@ use std::path::Path;
 use taceva_core::{DriverSource, Outline};
 use taceva_dataset::{
     Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec,
-    ReducedFrames, SensorFacts, SessionTable, Source, add_frame_retries,
+    ReducedFrames, SensorFacts, SessionTable, Source, add_frame_retries, add_frozen_frames,
 };
 use taceva_drivers::{Drivers, Selector};
 use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, Setting, StopCause};
@@ -175,7 +175,7 @@ fn acquire_unit(
     if let Some(viewer) = workshop.viewer {
         viewer.begins(plan, unit, &|press| log.is_finished(press));
     }
-    let mut retried = 0_u64;
+    let (mut retried, mut frozen) = (0_u64, 0_u64);
     let mut upcoming = open.surroundings.upcoming.take();
     let mut events = |event: &Event| {
         if let Some(viewer) = workshop.viewer {
@@ -193,6 +193,7 @@ fn acquire_unit(
             }
             Event::Finished { .. } => progress.advance(1),
             Event::FrameRetried => retried += 1,
+            Event::FrameFrozen => frozen += 1,
             _ => {}
         }
         if progress.is_cancelled() {
@@ -206,8 +207,9 @@ fn acquire_unit(
     };
     let done = open.conduct(&spec, log, sitting, &mut events);
     let done = done.map(drop).map_err(|error| stopped(plan, error));
-    // A failure to store the count must not lose the recording.
+    // A failure to store a count must not lose the recording.
     drop(add_frame_retries(path, retried));
+    drop(add_frozen_frames(path, frozen));
     done
 }
 

@@ -212,6 +212,8 @@ pub enum Note {
     Sessions(String),
     /// Number of frames that were captured again.
     FramesRetried(u64),
+    /// Number of frozen frames whose presses were broken off.
+    FramesFrozen(u64),
 }
 
 /// Pairing of the rows of truth and predictions. Its `Display` ends the sentence "rows were paired".

@@ -2,6 +2,7 @@
 
 mod content_id;
 mod draw;
+mod footprint_spec;
 mod frame_size;
 mod limit_spec;
 mod limits;
@@ -17,6 +18,7 @@ mod source;
 mod text;
 
 pub use content_id::ContentId;
+pub use footprint_spec::{FootprintSpec, Shape};
 pub use frame_size::FrameSize;
 pub use limit_spec::LimitSpec;
 pub use limits::{
@@ -33,14 +35,14 @@ pub use rig_file::{
 pub use run::{
     Answer, Cancel, ChangedTouch, Controls, DepthZero, Devices, Enabling, Event, Left, Mode,
     MotionStage, Observation, Operator, Oversight, PressLog, PressRecord, Question, ReferenceTouch,
-    RunError, RunReport, RunSpec, SessionRecord, SessionSpec, SharedSupervisor, SpecimenChanger,
-    Spot, StopCause, Supervisor, TapError, TapHeard, TapListener, Tapped, Timekeeper, TouchFault,
-    Trip, ZeroUnknown, raise, run, run_guarded, tap, wrench_between,
+    RunError, RunReport, RunSpec, SessionRecord, SessionSpec, SharedSupervisor, ShearFault,
+    SpecimenChanger, Spot, StopCause, Supervisor, TapError, TapHeard, TapListener, Tapped,
+    Timekeeper, TouchFault, Trip, ZeroUnknown, raise, run, run_guarded, tap, wrench_between,
 };
 pub use scene::{
-    BuiltinScene, Calibration, Contact, DepthOrigin, DeviceSpec, FootprintSpec, GratingClassifier,
-    Gratings, Hysteresis, Idle, LightSweep, LightingSpec, MetricSettings, MetricsSpec, ModelSpec,
-    Protocol, Repeatability, ReportSpec, Scene, SensorSpec, Shape, Spatial, Study, SurfaceMap,
+    BuiltinScene, Calibration, Contact, DepthOrigin, DeviceSpec, GratingClassifier, Gratings,
+    Hysteresis, Idle, LightSweep, LightingSpec, MetricSettings, MetricsSpec, ModelSpec, Protocol,
+    Repeatability, ReportSpec, Scene, SensorSpec, Spatial, Study, SurfaceMap,
 };
 pub use source::{RecordingInfo, RigInfo, SourceInfo};
 pub use taceva_core::Specimen;

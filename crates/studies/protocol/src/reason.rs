@@ -181,7 +181,7 @@ impl fmt::Display for PlanReason {
             PlanReason::Skip(reason @ SkipReason::FactAbsent("footprint")) => {
                 write!(
                     f,
-                    "{reason}: write {FOOTPRINT_LINE} under [sensor] of the scene"
+                    "{reason}: write {FOOTPRINT_LINE} under [sensor] of the scene or of the rig file"
                 )
             }
             PlanReason::Skip(reason) => write!(f, "{reason}"),

@@ -4,18 +4,21 @@ mod axes;
 mod changers;
 mod latency;
 mod registration;
+mod sensor;
 mod teach;
 
 pub use axes::SignedAxes;
 pub use changers::RigChangers;
 pub use latency::{Latency, RigLatencies};
 pub use registration::Registration;
+pub use sensor::RigSensor;
 pub use teach::{Jogged, Taught, TeachError};
 
 use serde::Deserialize;
 use taceva_core::{Certificate, Instrument};
 
 use changers::WrittenChangers;
+use sensor::WrittenSensor;
 
 use crate::content_id::ContentId;
 use crate::limit_spec::LimitSpec;
@@ -107,17 +110,6 @@ pub struct RigForce {
     pub certificate: Option<Certificate>,
 }
 
-/// A sensor of a rig.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RigSensor {
-    /// Selector of its driver.
-    pub driver: Setting<String>,
-    /// Delay between a frame and its stamp, in ms; `None` uses the latency that the driver states.
-    pub latency_ms: Option<Setting<f64>>,
-    /// Calibration certificate.
-    pub certificate: Option<Certificate>,
-}
-
 /// Operator of a rig, with the enabling switch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigOperator {
@@ -165,14 +157,6 @@ struct WrittenForce {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a table with `driver`")]
-struct WrittenSensor {
-    driver: Setting<String>,
-    latency_ms: Option<Setting<f64>>,
-    certificate: Option<Setting<Certificate>>,
-}
-
-#[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `enable`")]
 struct WrittenOperator {
     enable: Setting<String>,
@@ -202,14 +186,8 @@ impl RigFile {
         check.limits(&written.limits)?;
         let robot = written.robot.map(|robot| check.robot(robot)).transpose()?;
         let force = written.force.map(|force| check.force(force)).transpose()?;
-        let sensor = match written.sensor {
-            Some(sensor) => Some(RigSensor {
-                driver: sensor.driver,
-                latency_ms: check.latency(sensor.latency_ms)?,
-                certificate: check.certificate(Instrument::Sensor, sensor.certificate)?,
-            }),
-            None => None,
-        };
+        let sensor = written.sensor;
+        let sensor = sensor.map(|sensor| sensor.check(&check)).transpose()?;
         Ok(RigFile {
             simulated: written.simulated,
             robot,

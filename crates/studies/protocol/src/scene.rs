@@ -17,7 +17,7 @@ pub use counts::{
     SurfaceMap,
 };
 pub use depth_origin::DepthOrigin;
-pub use devices::{DeviceSpec, FootprintSpec, LightingSpec, ModelSpec, SensorSpec, Shape};
+pub use devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
 pub use metrics::{MetricSettings, MetricsSpec, ReportSpec};
 pub use study::Study;
 

@@ -79,6 +79,15 @@ impl Text {
         self.error(at, problem)
     }
 
+    /// Name of the text with the line of the byte offset `at`.
+    pub(crate) fn place(&self, at: Option<usize>) -> String {
+        let name = shown(&self.source_name);
+        at.map_or_else(
+            || name.to_string(),
+            |at| format!("{name}, line {}", self.line(at)),
+        )
+    }
+
     fn line(&self, at: usize) -> u64 {
         let before = self.text.bytes().take(at);
         1 + before.filter(|byte| *byte == b'\n').count() as u64

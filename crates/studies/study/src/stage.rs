@@ -8,7 +8,7 @@ mod score;
 use std::io;
 use std::path::Path;
 
-use taceva_dataset::{Dataset, RecordedSessions, frame_retries};
+use taceva_dataset::{Dataset, RecordedSessions, frame_retries, frozen_frames};
 use taceva_files::{parent_of, replace};
 use taceva_metrics::Evaluation;
 use taceva_models::{Checkpoints, Model};
@@ -103,6 +103,8 @@ pub(crate) fn assess(
     notes.extend(sessions.map(|sessions| Note::Sessions(sessions.note)));
     let retries = frame_retries(dataset.path());
     notes.extend((retries > 0).then_some(Note::FramesRetried(retries)));
+    let frozen = frozen_frames(dataset.path());
+    notes.extend((frozen > 0).then_some(Note::FramesFrozen(frozen)));
     let mut beyond = Bounded::default();
     if let Some((predicted, rows)) = &predicted {
         beyond = predicted.bounded(0..predicted.rows());

@@ -51,6 +51,10 @@ axes = [\"x\", \"y\", \"z\"]           # the transducer axis of x, y and z; Fz a
 
 [sensor]
 driver = {sensor:?}
+# Facts of the gel that no camera states, here or in the scene:
+# opaque = true
+# markers = false
+# footprint = {{ shape = \"disc\", radius_mm = 8.0 }}
 
 [limits]
 Pz_max_mm = {depth:?}

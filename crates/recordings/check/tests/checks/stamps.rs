@@ -245,8 +245,9 @@ fn a_clock_that_begins_anew_is_noticed_unless_the_machine_was_started_again_betw
         recording
     };
     let warns = |report: &CheckReport| codes(report).contains(&("TAC008", Severity::Warning));
-    let header = "boot_id,begun_s,unit,specimen,height_mm,depth_mm,Fz_N,zero_Fx_N,zero_Fy_N,zero_Fz_N,x_felt,y_felt,picture_changed,reaction_ms,overshoot_mm";
-    let row = "1.5,1,sphere of radius 4 mm,0.1,0.2,0.06,0.0,0.0,0.3,true,true,true,6.5,0.02";
+    let header = "boot_id,begun_s,unit,specimen,height_mm,depth_mm,Fz_N,zero_Fx_N,zero_Fy_N,zero_Fz_N,x_felt,y_felt,picture_changed,reaction_ms,overshoot_mm,height_u_mm,Fz_u_N";
+    let row =
+        "1.5,1,sphere of radius 4 mm,0.1,0.2,0.06,0.0,0.0,0.3,true,true,true,6.5,0.02,0.01,0.002";
     let sessions = |boots: [&str; 2]| {
         let [one, other] = boots;
         begun_anew().check_beside("", Some(&format!("{header}\n{one},{row}\n{other},{row}\n")))

@@ -6,6 +6,7 @@
   const headers = { 'X-Taceva-Token': token };
   let question = null;
   let isOver = false;
+  let drawnAt = null;
 
   const say = (words) => {
     find('lost').hidden = !words;
@@ -65,6 +66,10 @@
     gauge('shear', state.Fxy_N, state.limits.Fxy_max_N, 'N', 2);
     gauge('depth', state.Pz_mm, state.limits.Pz_max_mm, 'mm', 3);
     find('forces').hidden = ['normal', 'shear', 'depth'].every((id) => find(id).hidden);
+    // During presses the camera is read at rests only: an older picture does not belong to the present force.
+    const age = drawnAt === null ? 0 : (performance.now() - drawnAt) / 1000;
+    find('age').hidden = age < 1;
+    find('age').textContent = `picture taken ${age.toFixed(0)} s ago`;
     find('frames').textContent = `${state.frames} · ${state.rate_hz.toFixed(1)} Hz`;
     const lost = state.dropped + state.damaged;
     find('drops').textContent = state.numbered ? `${lost}` : `${lost} or more`;
@@ -171,6 +176,7 @@
     }
     canvas.getContext('2d').drawImage(picture, 0, 0);
     picture.close();
+    drawnAt = performance.now();
     predict(said);
     find('waiting').hidden = true;
   };

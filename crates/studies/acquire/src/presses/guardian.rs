@@ -20,7 +20,7 @@ use taceva_drivers::MonotonicClock;
 use taceva_protocol::{Cancel, Enabling, Observation, RigLimits, SharedSupervisor, Supervisor};
 
 use crate::viewer::Viewer;
-use mailbox::Mailbox;
+use mailbox::{Listeners, Mailbox};
 
 /// Interval between readings of the robot; each reading waits for the next report. An interval of 10 ms, the period of an arm, would miss every
 /// second report. Detecting a frozen signal takes eight readings, each after a motion.
@@ -78,7 +78,12 @@ impl Guarded<'_> {
         };
         let is_over = AtomicBool::new(false);
         std::thread::scope(|scope| {
-            scope.spawn(|| reader.serve(force, &supervisor, viewer));
+            let listeners = Listeners {
+                supervisor: &supervisor,
+                viewer,
+                progress,
+            };
+            scope.spawn(move || reader.serve(force, listeners));
             scope.spawn(|| watcher.look_on(&is_over));
             let _over = Over::new(&is_over);
             // Dropped here, so that the reader thread ends even if `conduct` panics.

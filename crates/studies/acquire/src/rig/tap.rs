@@ -9,13 +9,11 @@ use crate::error::AcquireError;
 use crate::presses::{Workshop, tap_study, written_latencies_ms};
 use crate::scene::{Overrides, PlannedScene, SceneText, StudySource};
 
-/// Scene for taps: limits, speeds and the start of a session. Its sensor facts concern the middle of the gel.
+/// Scene for taps: limits, speeds and the start of a session. Its footprint is the middle of the gel.
 const SCENE: &str = r#"
 scene_version = 1
 name = "tap"
 [sensor]
-opaque = true
-markers = false
 footprint = { shape = "disc", radius_mm = 1.0 }
 [model]
 name = "ridge"

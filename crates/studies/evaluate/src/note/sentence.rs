@@ -220,10 +220,15 @@ impl fmt::Display for Note {
             Note::Spacings(way) => f.write_str(way),
             Note::FramesRetried(count) => write!(
                 f,
-                "{} {were} lost, damaged or older than {} contact, and {were} recorded again",
+                "{} {were} lost or damaged, and {were} recorded again",
                 counted(*count, "frame"),
-                by_count(*count, "its", "their"),
                 were = by_count(*count, "was", "were")
+            ),
+            Note::FramesFrozen(count) => write!(
+                f,
+                "the camera froze: {} equalled the one before although the force changed, {} broken off and repeated",
+                counted(*count, "frame"),
+                by_count(*count, "and its press was", "and their presses were")
             ),
         }
     }
@@ -310,11 +315,15 @@ mod tests {
         for (note, said) in [
             (
                 Note::FramesRetried(1),
-                "1 frame was lost, damaged or older than its contact, and was recorded again",
+                "1 frame was lost or damaged, and was recorded again",
             ),
             (
                 Note::FramesRetried(2),
-                "2 frames were lost, damaged or older than their contact, and were recorded again",
+                "2 frames were lost or damaged, and were recorded again",
+            ),
+            (
+                Note::FramesFrozen(1),
+                "the camera froze: 1 frame equalled the one before although the force changed, and its press was broken off and repeated",
             ),
             (
                 left_out(1),

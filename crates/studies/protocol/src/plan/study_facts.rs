@@ -1,5 +1,6 @@
 //! Facts of a study before it begins, joined from scene and descriptors and checked for contradictions.
 
+mod gel;
 mod surface;
 
 use taceva_core::{
@@ -15,7 +16,7 @@ use crate::phase::PhaseInputs;
 use crate::phase_kind::PhaseKind;
 use crate::scene::{Scene, Study};
 use crate::source::{RecordingInfo, RigInfo, SourceInfo};
-use crate::text::{SceneError, SceneProblem, Setting};
+use crate::text::{SceneError, SceneProblem};
 
 /// The model of a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,16 +133,8 @@ impl<'a> Gather<'a> {
                 None => force.axes,
             }
         });
-        let opaque = self.agreed(
-            "opaque",
-            study.sensor.opaque,
-            sensor.and_then(|sensor| sensor.opaque),
-        )?;
-        let markers = self.agreed(
-            "markers",
-            study.sensor.markers,
-            sensor.and_then(|sensor| sensor.markers),
-        )?;
+        let opaque = self.opaque(sensor.and_then(|sensor| sensor.opaque))?;
+        let markers = self.markers(sensor.and_then(|sensor| sensor.markers))?;
         let footprint = self.footprint(sensor.and_then(|sensor| sensor.footprint))?;
         let frame = sensor.and_then(|sensor| sensor.frame);
         self.is_mapped(rig)?;
@@ -190,7 +183,7 @@ impl<'a> Gather<'a> {
     }
 
     fn of_recording(&self, recording: &RecordingInfo) -> Result<StudyFacts<'a>, SceneError> {
-        let opaque = self.agreed("opaque", self.study.sensor.opaque, recording.opaque)?;
+        let opaque = self.opaque(recording.opaque)?;
         let named = recording.channels.iter().map(Channel::name);
         Ok(StudyFacts {
             field_source: FieldSource::Recording {
@@ -198,7 +191,7 @@ impl<'a> Gather<'a> {
                 channels: named.map(str::to_owned).collect(),
             },
             opaque,
-            markers: self.study.sensor.markers.map(|markers| markers.value),
+            markers: self.markers(None)?,
             model: self.model(),
             units: Vec::new(),
             lights: Vec::new(),
@@ -228,25 +221,6 @@ impl<'a> Gather<'a> {
                 Err(self.refusal(kept.at(), problem))
             }
             _ => Ok(Some(kept.value)),
-        }
-    }
-
-    /// Merges a fact that scene and source may both state; rejects a contradiction.
-    fn agreed(
-        &self,
-        key: &str,
-        written: Option<Setting<bool>>,
-        stated: Option<bool>,
-    ) -> Result<Option<bool>, SceneError> {
-        match (written, stated) {
-            (Some(written), Some(stated)) if written.value != stated => {
-                let problem = format!(
-                    "`{key}` is {}, but the sensor states {stated}: correct one of them",
-                    written.value
-                );
-                Err(self.refusal(written.at(), SceneProblem::Contradiction(problem)))
-            }
-            (written, stated) => Ok(written.map(|written| written.value).or(stated)),
         }
     }
 

@@ -113,7 +113,9 @@ impl Run<'_> {
         let Some(operator) = &mut self.operator else {
             return Ok(Answer::Stop);
         };
+        self.tip.supervisor.lock().asks(true);
         let answer = operator.ask(question, self.tip.cancel);
+        self.tip.supervisor.lock().asks(false);
         if answer == Answer::Done {
             self.tip.release()?;
             self.is_reach_unknown = false;
@@ -127,7 +129,10 @@ impl Run<'_> {
             return Err(error);
         };
         let question = Question::Acknowledge(fault);
-        if operator.ask(&question, self.tip.cancel) != Answer::Done {
+        self.tip.supervisor.lock().asks(true);
+        let answer = operator.ask(&question, self.tip.cancel);
+        self.tip.supervisor.lock().asks(false);
+        if answer != Answer::Done {
             return Err(error);
         }
         self.tip.robot_failed = false;
@@ -145,7 +150,7 @@ mod tests {
     use crate::run::operator::Operator;
     use crate::run::rig::{CONTACT_MM, Rig, plan};
     use crate::run::time::Cancel;
-    use crate::run::{Controls, Devices, Mode, RunSpec};
+    use crate::run::{Controls, Devices, Left, Mode, RunSpec};
 
     /// Stores the height of the tip and the state of the halt at each question.
     struct Person(Rig, Answer, Vec<(f64, bool)>);
@@ -200,6 +205,11 @@ mod tests {
             run.tip.contact_mm = Some(CONTACT_MM);
             let said = run.ask(&Question::Light("S1".to_owned())).expect("asked");
             assert_eq!(said, answer);
+            if answer == Answer::Stop {
+                // Hands may be at the tip: a stop does not make the robot ready.
+                let error = run.abandoned(None, StopCause::Cancelled);
+                assert_eq!(error.left, Left::Clear);
+            }
             drop(run);
             assert_eq!(person.2, [(-2.0, true)]);
             let raised = seen.motions();

@@ -1,5 +1,7 @@
 //! Captures frames of the resting tip.
 
+mod freeze;
+
 use std::time::Duration;
 
 use taceva_core::{Deadline, ErrorKind, Frame, FrameMut, Sensor, Stamp};
@@ -7,6 +9,7 @@ use taceva_core::{Deadline, ErrorKind, Frame, FrameMut, Sensor, Stamp};
 use super::error::StopCause;
 use super::event::Event;
 use super::tip::{Step, Tip};
+use freeze::{Freeze, Moment};
 
 /// Number of lost, damaged or outdated frames after which the run stops.
 const FRAME_TRIES: u32 = 10;
@@ -18,14 +21,23 @@ const AHEAD_S: f64 = 0.001;
 /// A sensor that captures frames.
 pub(super) struct Camera<'a> {
     pub(super) sensor: &'a mut dyn Sensor,
+    freeze: Freeze,
 }
 
 impl<'a> Camera<'a> {
     pub(super) fn new(sensor: &'a mut dyn Sensor) -> Camera<'a> {
-        Camera { sensor }
+        Camera {
+            sensor,
+            freeze: Freeze::default(),
+        }
     }
 
-    /// First frame taken at or after `from_s`.
+    /// Notes that the tip left the gel since the last frame.
+    pub(super) fn leave(&mut self) {
+        self.freeze.leave();
+    }
+
+    /// First frame taken at or after `from_s`. Fails if it repeats the frame before although the force changed.
     pub(super) fn frame(
         &mut self,
         from_s: f64,
@@ -34,7 +46,6 @@ impl<'a> Camera<'a> {
     ) -> Step<(Frame, Stamp)> {
         let info = self.sensor.frame_info();
         let too_large = || StopCause::Missing(format!("memory for frames of {info}"));
-        let asked_s = tip.clock.now_s();
         let mut last = None;
         for _ in 0..FRAME_TRIES {
             let mut bytes = vec![0; info.byte_len().ok_or_else(too_large)?];
@@ -44,10 +55,14 @@ impl<'a> Camera<'a> {
                 Ok(stamp) if is_news(&stamp, from_s, tip.clock.now_s()) => {
                     let frame = Frame::new(info, bytes)
                         .expect("the buffer was made with the length of the frame");
+                    if self.freeze.is_frozen(&frame, Moment::of(tip)) {
+                        events(&Event::FrameFrozen);
+                        return Err(StopCause::FrozenFrame);
+                    }
                     return Ok((frame, stamp));
                 }
-                // A streaming driver returns its newest frame. A frame received before this call is neither lost nor late.
-                Ok(stamp) if stamp.received_s.is_some_and(|at_s| at_s < asked_s) => {}
+                // A camera returns its newest frame. One from before the contact is neither lost nor damaged.
+                Ok(stamp) if stamp.valid_s < from_s => {}
                 Ok(_) => events(&Event::FrameRetried),
                 Err(error) if [ErrorKind::Timeout, ErrorKind::Protocol].contains(&error.kind()) => {
                     last = Some(error.to_string());

@@ -110,9 +110,11 @@ impl Tip<'_> {
         self.here().position.z.0 <= -self.pace.clearance_mm
     }
 
-    /// Halts the robot until an explicit release.
+    /// Halts the robot, which stands clear of the gel, until an explicit release.
     pub(super) fn hold(&mut self) -> Step<()> {
-        Ok(self.robot.halt()?)
+        self.robot.halt()?;
+        self.stands_clear = true;
+        Ok(())
     }
 }
 

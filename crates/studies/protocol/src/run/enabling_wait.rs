@@ -54,6 +54,13 @@ impl Tip<'_> {
             (attendant.events)(&Event::Halted(trip));
         }
         let (cause, left) = self.leave(cause, &mut attendant);
+        // A tip that stands high and was never moved was not left in the gel.
+        let is_untouched =
+            left == Left::InPlace && !self.has_moved && self.find_pose().is_ok() && self.is_high();
+        let left = match is_untouched {
+            true => Left::Untouched,
+            false => left,
+        };
         RunError {
             press: None,
             cause,
@@ -63,6 +70,11 @@ impl Tip<'_> {
 
     /// Raises the tip after a halt. Returns the cause that ends the run, and the place of the tip.
     fn leave(&mut self, cause: StopCause, attendant: &mut Attendant<'_>) -> (StopCause, Left) {
+        if self.stands_clear {
+            // Hands may be at the tip: a robot that stands clear is not made ready to move.
+            let _ = self.robot.halt();
+            return (cause, Left::Clear);
+        }
         loop {
             let _ = self.robot.halt();
             match self.wait_until_held(attendant) {
@@ -118,5 +130,36 @@ impl Run<'_> {
         };
         let error = self.tip.abandoned(cause, attendant);
         RunError { press, ..error }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::rig::{CONTACT_MM, Rig, nothing, with_tip};
+
+    #[test]
+    fn a_tip_that_never_moved_is_only_left_in_place_if_it_may_be_in_the_gel() {
+        for (height_mm, expected) in [(-3.0, Left::Untouched), (CONTACT_MM + 0.5, Left::InPlace)] {
+            let rig = Rig::new(height_mm, nothing);
+            rig.state().unheard = u32::MAX;
+            let error = with_tip(&rig, |tip| {
+                let cause = tip.find().expect_err("it is never made ready");
+                let attendant = Attendant {
+                    operator: None,
+                    events: &mut |_| {},
+                    patience_s: 0.0,
+                };
+                tip.abandoned(cause, attendant)
+            });
+            assert_eq!(error.left, expected, "{height_mm} mm");
+            let said = error.to_string();
+            assert_eq!(
+                said.contains("perhaps in the gel"),
+                expected == Left::InPlace,
+                "{said}"
+            );
+            assert!(rig.motions().is_empty());
+        }
     }
 }

@@ -6,6 +6,7 @@ use taceva_core::{DriverError, Fault, SinkError, by_count, counted};
 
 use super::halt_reason::Trip;
 use super::reference_touch::TouchFault;
+use super::shear_way::ShearFault;
 use crate::content_id::ContentId;
 use crate::text::SceneError;
 
@@ -55,6 +56,11 @@ pub enum StopCause {
         /// Last error of the sensor; `None` if it returned only outdated frames.
         last: Option<String>,
     },
+    /// A frame repeats the one before to the last bit although the force changed.
+    #[error(
+        "a frame equals the one before to the last bit although the force changed: the camera is frozen; restart it, look at it by `taceva preview`, and continue with `--resume`"
+    )]
+    FrozenFrame,
     /// A motion would leave the workspace. It was not made.
     #[error("a motion to {place} would leave the workspace of the plan")]
     Workspace {
@@ -66,7 +72,7 @@ pub enum StopCause {
     Rig(Box<SceneError>),
     /// The guard reacts so late that a limit would be exceeded too far.
     #[error(
-        "force readings arrive up to {reaction_ms:.0} ms late on this machine, and the tip travels {overshoot_mm:.3} mm in that time: expected at most {greatest_mm:.3} mm (30 % of the allowed depth); stop other programs, start the run by `chrt -f 10 taceva run …`, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
+        "force readings arrive up to {reaction_ms:.0} ms late on this machine, and the tip travels {overshoot_mm:.3} mm in that time: expected at most {greatest_mm:.3} mm (30 % of the allowed depth); stop other programs, start the run by `chrt -f 10 taceva run …` if it was not, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
     )]
     SlowGuard {
         /// Time from a limit to the halt, in ms: the 99.9th percentile.
@@ -81,6 +87,9 @@ pub enum StopCause {
     /// Force or frames did not respond as a gel should in the gentle touch before the first press.
     #[error("{0}")]
     Touch(TouchFault),
+    /// The shear force of a press changed against the tangential way of the tip, unlike in the gentle touch.
+    #[error("{0}")]
+    Shear(ShearFault),
     /// The enabling switch was not held within the wait of the rig file.
     #[error(
         "the enabling switch was not held within {patience_s} s: hold it and continue with `--resume`; `patience_s` of [operator] sets this wait"
@@ -95,12 +104,13 @@ pub enum StopCause {
 }
 
 impl StopCause {
-    /// True if force, pose or frames did not arrive in time, so that the press can be repeated.
+    /// True if force, pose or frames did not arrive in time, or a frame was an old one, so that the press can be repeated.
     pub fn is_silence(&self) -> bool {
         matches!(
             self,
             StopCause::Tripped(Trip::StaleForce { .. } | Trip::StalePose { .. })
                 | StopCause::Frames { .. }
+                | StopCause::FrozenFrame
         )
     }
 

@@ -34,8 +34,10 @@ pub enum Event {
         /// Height of the contact in the sensor frame, in mm, positive into the gel.
         height: Millimetre,
     },
-    /// A frame was unusable, so another one is captured.
+    /// A frame was lost, damaged or of another clock, so another one is captured. A frame from before the contact is only replaced.
     FrameRetried,
+    /// A frame repeated the one before to the last bit although the force changed. Its press is broken off.
+    FrameFrozen,
     /// A sample was taken.
     Sampled {
         /// Number of the sample in the press, from 0.
@@ -43,6 +45,8 @@ pub enum Event {
     },
     /// The supervisor halted the robot.
     Halted(Trip),
+    /// The force was lost while a question stands, with the cause and the remedy.
+    ForceLost(String),
     /// The tip left the gel after a halt.
     Retracted,
     /// The enabling switch is not held. Nothing moves until it is.

@@ -45,6 +45,7 @@ impl Tip<'_> {
         let sent = self.supervisor.lock().sent(here, target);
         sent.map_err(StopCause::Tripped)?;
         self.target = target;
+        self.has_moved = true;
         let moved = motion(self.robot, deadline);
         self.supervisor.lock().rests();
         if let Err(error) = moved {

@@ -16,6 +16,9 @@ pub trait Operator {
 
     /// Shows a remark of a device on valid readings, with its remedy. Returns at once; does nothing by default.
     fn warn(&mut self, _warning: &str) {}
+
+    /// Shows a finding of the session, such as the stiffness of the gel. Returns at once; does nothing by default.
+    fn note(&mut self, _finding: &str) {}
 }
 
 /// Questions to the operator. [`Display`](fmt::Display) formats them.
@@ -70,6 +73,10 @@ pub struct ChangedTouch {
     pub height_mm: f64,
     /// Relative change of the force at equal depth.
     pub force_part: f64,
+    /// Expanded uncertainty of the change of the height, in mm; coverage factor 2.
+    pub height_u_mm: f64,
+    /// Expanded uncertainty of the relative change of the force; coverage factor 2.
+    pub force_u_part: f64,
 }
 
 /// Answers of the operator.
@@ -103,10 +110,16 @@ impl fmt::Display for Question {
             Question::Resume(ChangedTouch {
                 height_mm,
                 force_part,
+                height_u_mm,
+                force_u_part,
             }) => write!(
                 f,
-                "the gel surface is {height_mm:+.3} mm deeper than in the last session, and its force at the same depth differs by {:+.1} %: continue this recording if it is the same gel, stop if it was moved or replaced",
-                100.0 * force_part
+                "the gel surface is {:.3} ± {height_u_mm:.3} mm {} than in the last session, and the gel is {:.1} ± {:.1} % {}: continue this recording if it is the same gel, stop if it was moved or replaced",
+                height_mm.abs(),
+                if *height_mm < 0.0 { "higher" } else { "deeper" },
+                100.0 * force_part.abs(),
+                100.0 * force_u_part,
+                if *force_part < 0.0 { "softer" } else { "harder" }
             ),
             Question::Mount(specimen) => {
                 let unrotated = match specimen {
@@ -181,8 +194,19 @@ mod tests {
                 Question::Resume(ChangedTouch {
                     height_mm: -0.25,
                     force_part: 0.125,
+                    height_u_mm: 0.02,
+                    force_u_part: 0.05,
                 }),
-                "-0.250 mm deeper than in the last session, and its force at the same depth differs by +12.5 %",
+                "0.250 ± 0.020 mm higher than in the last session, and the gel is 12.5 ± 5.0 % harder:",
+            ),
+            (
+                Question::Resume(ChangedTouch {
+                    height_mm: 0.25,
+                    force_part: -0.207,
+                    height_u_mm: 0.02,
+                    force_u_part: 0.05,
+                }),
+                "0.250 ± 0.020 mm deeper than in the last session, and the gel is 20.7 ± 5.0 % softer:",
             ),
         ] {
             let text = question.to_string();

@@ -10,6 +10,7 @@ use super::log::{PressLog, PressRecord};
 use super::observe::observe;
 use super::sample::{self, Gathered, Spot};
 use super::session::Run;
+use super::shear_way::Sheared;
 use super::tip::{DEADLINE, Step, Tip};
 use crate::plan::PlannedPress;
 use crate::press::Motion;
@@ -23,6 +24,9 @@ impl Run<'_> {
         untouched: Option<&mut dyn PressLog>,
     ) -> Step<PressRecord> {
         self.prepare(planned)?;
+        if let Some(camera) = &mut self.camera {
+            camera.leave();
+        }
         if let (Some(log), Some(camera)) = (untouched, &mut self.camera) {
             let now_s = self.tip.clock.now_s();
             let (frame, _) = camera.frame(now_s, &self.tip, self.events)?;
@@ -152,6 +156,18 @@ impl Run<'_> {
     ) -> Step<()> {
         let camera = self.camera.as_mut().filter(|_| planned.frames);
         let observed = observe(before, &mut self.tip, camera, self.events)?;
+        let waypoint = usize::try_from(spot.number)
+            .ok()
+            .and_then(|number| planned.press.waypoints().get(number))
+            .filter(|_| spot.limited_by.is_none());
+        let sheared = waypoint.map(|waypoint| Sheared::at(waypoint, &observed.wrench));
+        if self.is_shear_known
+            && let (Some(sheared), Some(earlier)) = (&sheared, &gathered.sheared)
+            && let Some(fault) = sheared.fault(earlier, self.tip.pace.air_n)
+        {
+            return Err(StopCause::Shear(fault));
+        }
+        gathered.sheared = sheared;
         let sample = sample::sample(planned, spot, observed, &self.plan.channels);
         let zero_u = gathered.zero.and_then(|zero| zero.uncertainty.ok());
         let sample = sample.with_zero_u_mm(zero_u.map(|deviation| deviation.0));

@@ -31,23 +31,56 @@ pub struct ReferenceTouch {
     pub depth_mm: f64,
     /// Normal force at that depth, in N.
     pub force_n: f64,
+    /// Standard uncertainty of the height, in mm.
+    pub height_u_mm: f64,
+    /// Standard uncertainty of the force at that depth, in N, with that of the depth.
+    pub force_u_n: f64,
 }
 
 impl ReferenceTouch {
     /// Greatest apparent displacement of the gel between two sessions, in mm; arms repeat to about 0.1 mm.
     const HEIGHT_MM: f64 = 0.1;
-    /// Greatest relative change of the force.
+    /// Greatest relative change of the stiffness.
     const FORCE_PART: f64 = 0.1;
+    /// Coverage factor of the uncertainty of a change.
+    const COVERAGE: f64 = 2.0;
 
-    /// Change since the `earlier` touch; `None` if within the repeatability of arms and gels.
+    /// Force by depth, in N/mm.
+    pub fn stiffness_n_mm(&self) -> f64 {
+        self.force_n / self.depth_mm
+    }
+
+    /// Line for the operator: the stiffness, beside that of the `earlier` touch.
+    pub(super) fn line(&self, earlier: Option<&ReferenceTouch>) -> String {
+        let stiffness = self.stiffness_n_mm();
+        let beside = match earlier {
+            Some(earlier) => {
+                let before = earlier.stiffness_n_mm();
+                let change = 100.0 * (stiffness / before - 1.0);
+                format!("{before:.3} N/mm in the last session ({change:+.1} %)")
+            }
+            None => {
+                "a gel that should be about 4.4 or 9.8 times stiffer or softer shows a wrong unit of force".to_owned()
+            }
+        };
+        format!(
+            "gentle touch with the {}: {:.3} N at {:.3} mm, {stiffness:.3} N/mm; {beside}",
+            self.specimen, self.force_n, self.depth_mm
+        )
+    }
+
+    /// Change since the `earlier` touch; `None` if within the repeatability of arms and gels, or within the uncertainty of both touches.
     pub(super) fn changed_since(&self, earlier: &ReferenceTouch) -> Option<ChangedTouch> {
+        let part = |touch: &ReferenceTouch| touch.force_u_n / touch.force_n;
         let changed = ChangedTouch {
             height_mm: self.height_mm - earlier.height_mm,
-            force_part: self.force_n / earlier.force_n - 1.0,
+            force_part: self.stiffness_n_mm() / earlier.stiffness_n_mm() - 1.0,
+            height_u_mm: ReferenceTouch::COVERAGE * self.height_u_mm.hypot(earlier.height_u_mm),
+            force_u_part: ReferenceTouch::COVERAGE * part(self).hypot(part(earlier)),
         };
         // NaN counts as a change.
-        let is_same = changed.height_mm.abs() <= ReferenceTouch::HEIGHT_MM
-            && changed.force_part.abs() <= ReferenceTouch::FORCE_PART;
+        let is_same = changed.height_mm.abs() <= ReferenceTouch::HEIGHT_MM.max(changed.height_u_mm)
+            && changed.force_part.abs() <= ReferenceTouch::FORCE_PART.max(changed.force_u_part);
         (!is_same).then_some(changed)
     }
 }
@@ -137,6 +170,27 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_touch_states_its_stiffness_beside_that_of_the_last_session() {
+        let touch = |force_n: f64| ReferenceTouch {
+            unit: "1".to_owned(),
+            specimen: Specimen::Sphere {
+                radius: Nanometre(4_000_000),
+            },
+            height_mm: 0.1,
+            depth_mm: 0.3,
+            force_n,
+            height_u_mm: 0.0,
+            force_u_n: 0.0,
+        };
+        let line = touch(0.6).line(Some(&touch(0.48)));
+        assert_eq!(
+            line,
+            "gentle touch with the sphere of radius 4 mm: 0.600 N at 0.300 mm, 2.000 N/mm; 1.600 N/mm in the last session (+25.0 %)"
+        );
+        assert!(touch(0.6).line(None).contains("wrong unit of force"));
+    }
+
+    #[test]
     fn a_gel_that_moved_by_more_than_a_tenth_or_presses_by_more_than_a_tenth_otherwise_is_changed()
     {
         let touch = |height_mm: f64, force_n: f64| ReferenceTouch {
@@ -147,6 +201,8 @@ mod tests {
             height_mm,
             depth_mm: 0.2,
             force_n,
+            height_u_mm: 0.0,
+            force_u_n: 0.0,
         };
         let earlier = touch(0.1, 0.06);
         for (height_mm, force_n, is_changed) in [
@@ -160,6 +216,22 @@ mod tests {
             (0.1, f64::NAN, true),
         ] {
             let changed = touch(height_mm, force_n).changed_since(&earlier);
+            assert_eq!(changed.is_some(), is_changed, "{height_mm} mm, {force_n} N");
+        }
+        // A difference within the uncertainty of both touches is no change.
+        let unsure = |height_mm: f64, force_n: f64| ReferenceTouch {
+            height_u_mm: 0.05,
+            force_u_n: 0.006,
+            ..touch(height_mm, force_n)
+        };
+        let earlier = unsure(0.1, 0.06);
+        for (height_mm, force_n, is_changed) in [
+            (0.23, 0.06, false),
+            (0.1, 0.075, false),
+            (0.25, 0.06, true),
+            (0.1, 0.09, true),
+        ] {
+            let changed = unsure(height_mm, force_n).changed_since(&earlier);
             assert_eq!(changed.is_some(), is_changed, "{height_mm} mm, {force_n} N");
         }
     }

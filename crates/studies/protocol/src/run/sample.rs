@@ -4,6 +4,7 @@ use taceva_core::{Limit, Nanometre, Readings, Sample, Specimen};
 
 use super::depth_zero::DepthZero;
 use super::observe::Observed;
+use super::shear_way::Sheared;
 use crate::plan::{PlannedPress, SURFACE};
 use crate::press::Motion;
 
@@ -34,6 +35,8 @@ impl Spot {
 pub(super) struct Gathered {
     /// Height from which its depths count.
     pub(super) zero: Option<DepthZero>,
+    /// Last waypoint that was reached, with its shear force.
+    pub(super) sheared: Option<Sheared>,
     pub(super) samples: Vec<Sample>,
 }
 

@@ -39,6 +39,8 @@ pub(super) struct Run<'a> {
     pub(super) skipped: Vec<Question>,
     /// True from a skipped step until the operator confirms that hands are out of reach.
     pub(super) is_reach_unknown: bool,
+    /// True if the gentle touch measured pushes along x and y with the axes of the rig file.
+    pub(super) is_shear_known: bool,
     /// Session before its start; `None` without a rig file, and from the first press on.
     pub(super) session: Option<SessionSpec<'a>>,
 }
@@ -120,6 +122,7 @@ impl<'a> Run<'a> {
             patience_s,
             skipped: Vec::new(),
             is_reach_unknown: false,
+            is_shear_known: false,
             session,
         })
     }
@@ -255,7 +258,7 @@ impl<'a> Run<'a> {
                 self.go_on_after(fault, error)?;
                 continue;
             }
-            if !(is_silence || is_release) || error.left == Left::InPlace {
+            if !(is_silence || is_release) || error.left != Left::Clear {
                 return Err(error);
             }
             times += 1;
@@ -289,7 +292,7 @@ impl<'a> Run<'a> {
             };
             let is_release = cause.is_release();
             let error = self.abandoned(Some(planned.id), cause);
-            if !is_release || error.left == Left::InPlace {
+            if !is_release || error.left != Left::Clear {
                 return Err(error);
             }
         }

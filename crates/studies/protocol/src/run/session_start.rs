@@ -46,7 +46,10 @@ impl Run<'_> {
             Some(operator) => Some(&mut **operator),
             None => None,
         };
-        enable(robot, way, operator, self.tip.cancel)
+        self.tip.supervisor.lock().asks(true);
+        let enabled = enable(robot, way, operator, self.tip.cancel);
+        self.tip.supervisor.lock().asks(false);
+        enabled
     }
 
     /// Begins the session, once, before the first press and with its specimen.
@@ -64,6 +67,7 @@ impl Run<'_> {
             self.hold(None)?;
             let cause = match self.try_to_begin(&session, places, first) {
                 Ok(record) => {
+                    self.is_shear_known = record.pushes_felt == [true; 2];
                     return log.session(&record).map_err(|error| RunError {
                         press: None,
                         cause: StopCause::Log(error),
@@ -97,6 +101,9 @@ impl Run<'_> {
         let earlier = session.touched.iter().rev().find(|earlier| {
             earlier.unit == record.touch.unit && earlier.specimen == record.touch.specimen
         });
+        if let Some(operator) = &mut self.operator {
+            operator.note(&record.touch.line(earlier));
+        }
         if let Some(changed) = earlier.and_then(|earlier| record.touch.changed_since(earlier)) {
             let question = Question::Resume(changed);
             if self.operator.is_none() {

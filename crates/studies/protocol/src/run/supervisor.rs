@@ -5,6 +5,7 @@
 
 mod enabling;
 mod observation;
+mod question;
 mod reaction;
 mod repeats;
 
@@ -21,6 +22,7 @@ use super::align::Look;
 use super::halt_reason::Trip;
 use super::way::{distance, distance_from_way};
 use crate::limits::{FROZEN_READINGS, RigLimits};
+use question::StandingQuestion;
 use reaction::Lateness;
 use repeats::Repeats;
 
@@ -82,6 +84,7 @@ pub struct Supervisor {
     repeats: Repeats,
     tripped: Option<Trip>,
     enabling: Enabling,
+    question: StandingQuestion,
     /// Measured delays of readings, while they are measured.
     lateness: Option<Lateness>,
 }
@@ -105,6 +108,7 @@ impl Supervisor {
             repeats: Repeats::default(),
             tripped: None,
             enabling: Enabling::Held,
+            question: StandingQuestion::default(),
             lateness: None,
         }
     }

@@ -69,6 +69,10 @@ pub(super) struct Tip<'a> {
     pub(super) is_box_zeroed: bool,
     /// True if the zero holds for the present load of the robot.
     pub(super) is_zero_known: bool,
+    /// True once a motion was sent.
+    pub(super) has_moved: bool,
+    /// True while the robot is halted at the travel height or above it, so that hands may come near.
+    pub(super) stands_clear: bool,
 }
 
 /// Speeds, lengths and forces of a run.
@@ -154,6 +158,8 @@ impl<'a> Tip<'a> {
             ignores_cancel: false,
             is_box_zeroed: false,
             is_zero_known: false,
+            has_moved: false,
+            stands_clear: false,
         }
     }
 
@@ -265,6 +271,7 @@ impl<'a> Tip<'a> {
 
     /// Ends a halt. No stage limits the present force until it is known.
     pub(super) fn release(&mut self) -> Step<()> {
+        self.stands_clear = false;
         let supervisor = self.supervisor.clone();
         // Guard threads wait meanwhile: their next readings belong to the new stage.
         let mut held = supervisor.lock();

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
-use taceva_core::Footprint;
 
+use crate::footprint_spec::FootprintSpec;
 use crate::text::Setting;
 
 /// A device, named by its driver.
@@ -43,33 +43,6 @@ pub struct SensorSpec {
     pub footprint: Option<Setting<FootprintSpec>>,
 }
 
-/// Sensing surface, seen from above.
-///
-/// # Units
-/// mm.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a table with `shape`")]
-pub struct FootprintSpec {
-    /// Shape of the outline.
-    pub shape: Shape,
-    /// Radius of a disc.
-    pub radius_mm: Option<f64>,
-    /// Half the width of a rectangle.
-    pub half_x_mm: Option<f64>,
-    /// Half the height of a rectangle.
-    pub half_y_mm: Option<f64>,
-}
-
-/// An outline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Shape {
-    /// A disc.
-    Disc,
-    /// A rectangle.
-    Rect,
-}
-
 /// Model from frames to positions and forces: an estimator to fit, or a fitted model.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `name` or `file`")]
@@ -86,29 +59,4 @@ pub struct ModelSpec {
 /// Key of a selector: the text before its arguments.
 pub(crate) fn key_of(selector: &str) -> &str {
     selector.split_once(':').map_or(selector, |(key, _)| key)
-}
-
-impl FootprintSpec {
-    /// Builds the footprint; the error names the missing or superfluous length.
-    pub(crate) fn footprint(&self, depth_max_mm: Option<f64>) -> Result<Footprint, String> {
-        let FootprintSpec {
-            shape,
-            radius_mm,
-            half_x_mm,
-            half_y_mm,
-        } = *self;
-        let footprint = match (shape, radius_mm, half_x_mm, half_y_mm) {
-            (Shape::Disc, Some(radius), None, None) => Footprint::disc(radius, depth_max_mm),
-            (Shape::Rect, None, Some(half_x), Some(half_y)) => {
-                Footprint::rectangle(half_x, half_y, depth_max_mm)
-            }
-            (Shape::Disc, ..) => {
-                return Err("a disc has `radius_mm` and no other length".to_owned());
-            }
-            (Shape::Rect, ..) => {
-                return Err("a rect has `half_x_mm` and `half_y_mm` and no other length".to_owned());
-            }
-        };
-        footprint.map_err(|error| error.to_string())
-    }
 }

@@ -1,6 +1,8 @@
 //! Simulated rig on which a test runs a plan, with a log in memory.
 
-use taceva_core::{Frame, SinkError};
+use std::ops::Range;
+
+use taceva_core::{Deadline, DriverError, Frame, FrameInfo, FrameMut, Sensor, SinkError, Stamp};
 
 use crate::simulation::devices::{SimulatedForce, SimulatedRobot, SimulatedSensor};
 use crate::simulation::draws::Draws;
@@ -63,6 +65,8 @@ pub(super) struct Bench {
     pub(super) plan: Plan,
     pub(super) cancel: Cancel,
     pub(super) events: Vec<Event>,
+    /// Numbers of the captures of a run in which the camera repeats its last frame.
+    pub(super) frozen: Range<u32>,
     /// Person who answers questions.
     pub(super) operator: Option<Box<dyn Operator>>,
 }
@@ -83,6 +87,7 @@ impl Bench {
             plan,
             cancel: Cancel::new(),
             events: Vec::new(),
+            frozen: 0..0,
             operator: None,
         }
     }
@@ -101,7 +106,12 @@ impl Bench {
         let (mut robot, mut force, mut sensor) = (
             SimulatedRobot(self.shared.clone()),
             SimulatedForce::new(self.shared.clone()),
-            SimulatedSensor(self.shared.clone()),
+            Freezing {
+                inner: SimulatedSensor(self.shared.clone()),
+                frozen: self.frozen.clone(),
+                captures: 0,
+                last: Vec::new(),
+            },
         );
         let mut clock = self.shared.clone();
         let (events, cancel) = (&mut self.events, &self.cancel);
@@ -132,5 +142,36 @@ impl Bench {
 
     pub(super) fn height(&self) -> f64 {
         self.shared.world().tip[2]
+    }
+}
+
+/// Camera that repeats its last frame during some captures.
+struct Freezing {
+    inner: SimulatedSensor,
+    frozen: Range<u32>,
+    captures: u32,
+    last: Vec<u8>,
+}
+
+impl Sensor for Freezing {
+    fn frame_info(&self) -> FrameInfo {
+        self.inner.frame_info()
+    }
+
+    fn capture(
+        &mut self,
+        mut into: FrameMut<'_>,
+        deadline: Deadline,
+    ) -> Result<Stamp, DriverError> {
+        let info = into.info();
+        let again = FrameMut::new(info, into.bytes_mut()).expect("its size");
+        let stamp = self.inner.capture(again, deadline)?;
+        self.captures += 1;
+        if self.frozen.contains(&self.captures) {
+            into.bytes_mut().copy_from_slice(&self.last);
+        } else {
+            self.last = into.bytes_mut().to_vec();
+        }
+        Ok(stamp)
     }
 }

@@ -1,15 +1,18 @@
 //! Signals of a real rig: noisy poses, temporary gaps of readings, and a robot that stops by itself.
 
-use taceva_core::{Fault, Nanometre};
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use taceva_core::{Fault, Frame, Nanometre};
 
 use super::bench::{Bench, Memory, SOFT};
 use crate::simulation::fault::{FaultKind, Faults};
 use crate::simulation::gel::Gel;
 use crate::simulation::scenario::planned_scene;
-use taceva_protocol::Plan;
 use taceva_protocol::Signals;
 use taceva_protocol::{DepthOrigin, DepthZero, ZeroUnknown};
-use taceva_protocol::{Event, Left, Mode, StopCause, Trip};
+use taceva_protocol::{Event, Left, Mode, RunError, RunReport, StopCause, Trip};
+use taceva_protocol::{Motion, Plan, PlannedPress};
 
 /// A robot that reports its pose with uniform noise of ±0.05 mm per axis.
 const JITTERED: Gel = Gel {
@@ -165,6 +168,54 @@ fn a_press_that_is_broken_off_three_times_ends_the_run() {
     assert!(matches!(error.cause, StopCause::Frames { .. }), "{error}");
     let redone = |event: &&Event| matches!(event, Event::Redone { .. });
     assert_eq!(bench.events.iter().filter(redone).count(), 2);
+}
+
+/// A bench of thirty presses whose camera repeats frames during these captures, and its log after a run. Capture 18 begins a press.
+fn frozen(captures: Range<u32>) -> (Bench, Memory, Result<RunReport, RunError>) {
+    let mut plan = planned_scene(SCENE, 1, &SOFT).expect("a plan");
+    let is_indent = |press: &PlannedPress| matches!(press.press.motion, Motion::Indent(_));
+    plan.presses.retain(is_indent);
+    plan.presses.truncate(30);
+    let mut bench = Bench::with(SOFT, plan);
+    bench.frozen = captures;
+    let mut log = Memory::default();
+    let done = bench.run(Mode::Acquire, &mut log);
+    (bench, log, done)
+}
+
+/// True if no two recorded frames are equal.
+fn are_distinct(log: &Memory) -> bool {
+    let samples = log.records.iter().flat_map(|record| &record.samples);
+    let frames: Vec<&Frame> = samples.filter_map(|sample| sample.frame.as_ref()).collect();
+    let seen: BTreeSet<&[u8]> = frames.iter().map(|frame| frame.bytes()).collect();
+    !frames.is_empty() && seen.len() == frames.len()
+}
+
+#[test]
+fn a_camera_that_freezes_for_good_ends_the_run_above_the_gel_without_a_repeated_frame() {
+    let (mut bench, mut log, done) = frozen(18..u32::MAX);
+    let error = done.expect_err("blind");
+    assert!(matches!(error.cause, StopCause::FrozenFrame), "{error}");
+    assert_eq!(error.left, Left::Clear);
+    assert!(bench.height() < 0.0);
+    let frozen = |event: &&Event| matches!(event, Event::FrameFrozen);
+    assert_eq!(bench.events.iter().filter(frozen).count(), 3);
+    assert!(are_distinct(&log));
+    bench.frozen = 0..0;
+    bench.run(Mode::Acquire, &mut log).expect("it is restarted");
+    assert_eq!(log.records.len(), 30);
+    assert!(are_distinct(&log));
+    assert_eq!(bench.shared.world().oracle.violations, []);
+}
+
+#[test]
+fn a_press_with_one_frozen_frame_is_broken_off_and_made_again() {
+    let (bench, log, done) = frozen(18..19);
+    let report = done.expect("it sees again");
+    assert_eq!((report.made, report.redone), (30, 1));
+    let frozen = |event: &&Event| matches!(event, Event::FrameFrozen);
+    assert_eq!(bench.events.iter().filter(frozen).count(), 1);
+    assert!(are_distinct(&log));
 }
 
 #[test]

@@ -2,13 +2,14 @@
 
 use std::sync::mpsc::{Receiver, RecvError, Sender, TryRecvError, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use taceva_core::{
-    Axes, Deadline, DriverError, DriverKey, ErrorKind, ForceTransducer, Stamp, Tare, Wrench,
+    Axes, Deadline, DriverError, DriverKey, ErrorKind, ForceTransducer, Progress, Stamp, Tare,
+    Wrench,
 };
 use taceva_drivers::MonotonicClock;
-use taceva_protocol::{Observation, SharedSupervisor};
+use taceva_protocol::{Event, Observation, SharedSupervisor};
 
 use crate::viewer::Viewer;
 
@@ -16,6 +17,8 @@ use crate::viewer::Viewer;
 const READ_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
 /// Delay before a failing transducer is retried.
 const FAILED_REST: Duration = Duration::from_millis(5);
+/// Silence of the transducer after which it counts as lost while a question stands.
+const SILENCE: Duration = Duration::from_secs(1);
 
 /// Last reading of the transducer.
 #[derive(Default)]
@@ -70,6 +73,29 @@ pub(super) struct Mailbox {
 pub(super) struct Reader {
     slot: Arc<Slot>,
     requests: Receiver<Request>,
+    /// Time of the last reading.
+    heard: Instant,
+}
+
+/// Receivers of every reading, and of a lost force.
+#[derive(Clone, Copy)]
+pub(super) struct Listeners<'a> {
+    pub(super) supervisor: &'a SharedSupervisor,
+    pub(super) viewer: Option<&'a dyn Viewer>,
+    pub(super) progress: &'a dyn Progress,
+}
+
+impl Listeners<'_> {
+    /// Shows an operator at a question that the force is lost.
+    fn lose(&self, error: &DriverError) {
+        let words = format!(
+            "the force is lost: {error}; the robot stays halted: stop here, check cable and power of the transducer, and continue with `--resume`"
+        );
+        self.progress.remark(&words);
+        if let Some(viewer) = self.viewer {
+            viewer.event(&Event::ForceLost(words));
+        }
+    }
 }
 
 impl Mailbox {
@@ -86,8 +112,12 @@ impl Mailbox {
             taken: 0,
             sequence: None,
         };
-        let requests = received;
-        (mailbox, Reader { slot, requests })
+        let reader = Reader {
+            slot,
+            requests: received,
+            heard: Instant::now(),
+        };
+        (mailbox, reader)
     }
 
     fn ask(&self, task: Task) -> Result<(), DriverError> {
@@ -156,13 +186,8 @@ impl Tare for Mailbox {
 }
 
 impl Reader {
-    /// Reads `force` from start to stop, shows every reading to `supervisor`, and executes tasks between readings. Ends when the mailbox is dropped.
-    pub(super) fn serve(
-        self,
-        force: &mut dyn ForceTransducer,
-        supervisor: &SharedSupervisor,
-        viewer: Option<&dyn Viewer>,
-    ) {
+    /// Reads `force` from start to stop, shows every reading to `listeners`, and executes tasks between readings. Ends when the mailbox is dropped.
+    pub(super) fn serve(mut self, force: &mut dyn ForceTransducer, listeners: Listeners<'_>) {
         let mut is_started = false;
         loop {
             let request = match is_started {
@@ -181,21 +206,21 @@ impl Reader {
                     };
                     // A closed channel means that the run has ended.
                     let _ = outcome.send(carry_out(task, force));
+                    self.heard = Instant::now();
                 }
-                Err(TryRecvError::Empty) => self.read(force, supervisor, viewer),
+                Err(TryRecvError::Empty) => self.read(force, listeners),
                 Err(TryRecvError::Disconnected) => return,
             }
         }
     }
 
-    fn read(
-        &self,
-        force: &mut dyn ForceTransducer,
-        supervisor: &SharedSupervisor,
-        viewer: Option<&dyn Viewer>,
-    ) {
+    fn read(&mut self, force: &mut dyn ForceTransducer, listeners: Listeners<'_>) {
+        let Listeners {
+            supervisor, viewer, ..
+        } = listeners;
         match force.read(READ_DEADLINE) {
             Ok((wrench, stamp)) => {
+                self.heard = Instant::now();
                 let number = force.sequence();
                 let observation = match number {
                     Some(number) => Observation::Numbered(wrench, stamp, number),
@@ -215,14 +240,28 @@ impl Reader {
                 });
             }
             // The watcher thread measures the age of the last reading.
-            Err(error) if error.kind() == ErrorKind::Timeout => {}
+            Err(error) if error.kind() == ErrorKind::Timeout => {
+                let mut held = supervisor.lock();
+                let is_lost = held.is_asking() && self.heard.elapsed() > SILENCE;
+                let is_news = is_lost && held.lose_force();
+                drop(held);
+                if is_news {
+                    listeners.lose(&error);
+                }
+            }
             Err(error) => {
                 let mut held = supervisor.lock();
-                match error.kind() {
-                    ErrorKind::OutOfRange => drop(held.saturated()),
-                    _ => held.halt(),
-                }
+                let is_news = match error.kind() {
+                    ErrorKind::OutOfRange => {
+                        held.saturated();
+                        false
+                    }
+                    _ => held.lose_force(),
+                };
                 drop(held);
+                if is_news {
+                    listeners.lose(&error);
+                }
                 self.slot.put(|latest| latest.error = Some(error));
                 std::thread::sleep(FAILED_REST);
             }
@@ -239,130 +278,4 @@ fn carry_out(task: Task, force: &mut dyn ForceTransducer) -> Result<(), DriverEr
 }
 
 #[cfg(test)]
-mod tests {
-    use std::sync::atomic::{AtomicU32, Ordering};
-
-    use taceva_core::{Halt, Millimetre, Newton};
-    use taceva_protocol::{MotionStage, RigLimits, Supervisor, Trip};
-
-    use super::*;
-
-    const KEY: DriverKey = DriverKey::fixed("test/force");
-
-    /// A scripted transducer: one entry for each reading, then timeouts.
-    struct Script(Vec<Result<f64, ErrorKind>>);
-
-    impl ForceTransducer for Script {
-        fn axes(&self) -> Axes {
-            Axes::NORMAL
-        }
-
-        fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
-            std::thread::sleep(Duration::from_millis(2));
-            if self.0.is_empty() {
-                std::thread::sleep(deadline.remaining());
-                return Err(DriverError::new(ErrorKind::Timeout, &KEY, "read"));
-            }
-            match self.0.remove(0) {
-                Ok(force_n) => {
-                    let mut wrench = Wrench::default();
-                    wrench.force[2] = Newton(force_n);
-                    Ok((wrench, Stamp::at(MonotonicClock.now())))
-                }
-                Err(kind) => Err(DriverError::new(kind, &KEY, "read")),
-            }
-        }
-    }
-
-    #[derive(Default)]
-    struct Halts(AtomicU32);
-
-    impl Halt for Halts {
-        fn halt(&self) -> Result<(), DriverError> {
-            self.0.fetch_add(1, Ordering::SeqCst);
-            Ok(())
-        }
-    }
-
-    /// Result of `act` with a transducer that follows `script`, and the number of halts.
-    fn reading<T>(
-        script: Vec<Result<f64, ErrorKind>>,
-        act: impl FnOnce(&mut Mailbox, &SharedSupervisor) -> T,
-    ) -> (T, u32) {
-        let limits = RigLimits {
-            depth_max: Millimetre(1.0),
-            normal_max: Newton(2.0),
-            shear_max: Newton(2.0),
-            saturation: None,
-            speed_max_mm_s: 20.0,
-            overshoot: taceva_protocol::Overshoot {
-                segment_mm: 0.015,
-                healthy_mm: 0.0155,
-                frozen_mm: 0.1205,
-            },
-            simulated: false,
-            signals: taceva_protocol::Signals::default(),
-        };
-        let halts = Arc::new(Halts::default());
-        let mut supervisor = Supervisor::new(limits, halts.clone());
-        supervisor.watch(MotionStage::Search, MonotonicClock.now_s());
-        let supervisor = SharedSupervisor::new(supervisor);
-        let mut force = Script(script);
-        let (mailbox, reader) = Mailbox::of(&mut force, KEY);
-        let seen = std::thread::scope(|scope| {
-            scope.spawn(|| reader.serve(&mut force, &supervisor, None));
-            let mut mailbox = mailbox;
-            mailbox.start(Deadline::PASSED).expect("started");
-            act(&mut mailbox, &supervisor)
-        });
-        (seen, halts.0.load(Ordering::SeqCst))
-    }
-
-    const SECOND: Deadline = Deadline::after(Duration::from_secs(1));
-
-    #[test]
-    fn a_reading_is_taken_out_once_and_the_newest_first() {
-        let script = vec![Ok(0.1), Ok(0.2), Ok(0.3)];
-        let ((first, newest, nothing), halts) = reading(script, |mailbox, _| {
-            let force_n = |mailbox: &mut Mailbox, deadline| {
-                let read = mailbox.read(deadline);
-                read.map(|(wrench, _)| wrench.force[2].0)
-                    .map_err(|error| error.kind())
-            };
-            let first = force_n(mailbox, SECOND);
-            std::thread::sleep(Duration::from_millis(100));
-            let newest = force_n(mailbox, SECOND);
-            (first, newest, force_n(mailbox, Deadline::PASSED))
-        });
-        assert_eq!((first, newest), (Ok(0.1), Ok(0.3)));
-        assert_eq!((nothing, halts), (Err(ErrorKind::Timeout), 0));
-    }
-
-    #[test]
-    fn a_limit_is_seen_by_the_thread_that_reads_though_nobody_asks() {
-        let (tripped, halts) = reading(vec![Ok(0.1), Ok(2.5)], |_, supervisor| {
-            std::thread::sleep(Duration::from_millis(100));
-            supervisor.lock().tripped()
-        });
-        assert!(
-            matches!(tripped, Some(Trip::NormalForce { .. })),
-            "{tripped:?}"
-        );
-        assert_eq!(halts, 1);
-    }
-
-    #[test]
-    fn a_transducer_that_fails_halts_and_its_error_is_found_by_who_reads_next() {
-        for (kind, is_trip) in [
-            (ErrorKind::OutOfRange, true),
-            (ErrorKind::Disconnected, false),
-        ] {
-            let ((found, tripped), halts) = reading(vec![Err(kind)], |mailbox, supervisor| {
-                let found = mailbox.read(SECOND).map_err(|error| error.kind());
-                (found.map(drop), supervisor.lock().tripped())
-            });
-            assert_eq!((found, tripped.is_some()), (Err(kind), is_trip));
-            assert_eq!(halts, 1);
-        }
-    }
-}
+mod tests;

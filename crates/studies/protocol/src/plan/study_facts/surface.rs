@@ -3,44 +3,31 @@
 use taceva_core::{Footprint, Millimetre, Nanometre, Point, Pose, Rotation};
 
 use super::Gather;
+use crate::footprint_spec::FootprintSpec;
 use crate::rig_file::Registration;
 use crate::source::RigInfo;
 use crate::text::{SceneError, SceneProblem};
 
 impl Gather<'_> {
-    /// Footprint of the scene, which must lie within the sensor footprint. Without one, the sensor footprint.
+    /// Footprint of the scene, else of the rig file, else of the sensor. Each must lie within the next.
     pub(super) fn footprint(
         &self,
         stated: Option<Footprint>,
     ) -> Result<Option<Footprint>, SceneError> {
-        let Some(written) = self.study.sensor.footprint else {
-            return Ok(stated);
-        };
-        let depth = stated.and_then(|stated| stated.depth_max());
-        let footprint = written
-            .value
-            .footprint(depth.map(Nanometre::to_millimetres))
-            .map_err(|problem| self.refusal(written.at(), SceneProblem::Contradiction(problem)))?;
-        let extent = footprint.half_extent();
-        let reaches_out = |[outer_x, outer_y]: &[Nanometre; 2]| {
-            let [half_x, half_y] = &extent;
-            half_x > outer_x || half_y > outer_y
-        };
-        let stated = stated.as_ref().map(Footprint::half_extent);
-        if let Some(limit) = stated.filter(reaches_out) {
-            let by = |extent: [Nanometre; 2]| {
-                let [x, y] = extent.map(|half| Millimetre(half.to_millimetres()));
-                format!("{x} by {y}")
-            };
-            let problem = format!(
-                "the footprint extends {} from its centre, but the sensor allows at most {}: state a smaller one",
-                by(extent),
-                by(limit)
-            );
-            let problem = SceneProblem::Contradiction(problem);
-            return Err(self.refusal(written.at(), problem));
+        let (mut footprint, mut owner) = (stated, "the sensor".to_owned());
+        if let Some(rig) = &self.study.rig
+            && let Some(written) = self.gel().and_then(|gel| gel.footprint)
+        {
+            let refused = |problem| rig.error(written.at(), SceneProblem::Contradiction(problem));
+            footprint = Some(within(&written.value, footprint, &owner).map_err(refused)?);
+            owner = rig.text.place(written.at());
         }
-        Ok(Some(footprint))
+        if let Some(written) = self.study.sensor.footprint {
+            let refused =
+                |problem| self.refusal(written.at(), SceneProblem::Contradiction(problem));
+            footprint = Some(within(&written.value, footprint, &owner).map_err(refused)?);
+        }
+        Ok(footprint)
     }
 
     /// Rejects a robot that moves in its base frame if no rig file relates that frame to the sensor.
@@ -121,6 +108,36 @@ impl Gather<'_> {
                 let at = robot.and_then(|robot| robot.driver.at());
                 Err(rig.error(at, SceneProblem::Contradiction(problem)))
             }
+        }
+    }
+}
+
+/// Footprint of `written`, which must lie within `outer`, stated by `owner`.
+fn within(
+    written: &FootprintSpec,
+    outer: Option<Footprint>,
+    owner: &str,
+) -> Result<Footprint, String> {
+    let depth = outer.and_then(|outer| outer.depth_max());
+    let footprint = written.footprint(depth.map(Nanometre::to_millimetres))?;
+    let extent = footprint.half_extent();
+    let reaches_out = |[outer_x, outer_y]: &[Nanometre; 2]| {
+        let [half_x, half_y] = &extent;
+        half_x > outer_x || half_y > outer_y
+    };
+    let outer = outer.as_ref().map(Footprint::half_extent);
+    match outer.filter(reaches_out) {
+        None => Ok(footprint),
+        Some(limit) => {
+            let by = |extent: [Nanometre; 2]| {
+                let [x, y] = extent.map(|half| Millimetre(half.to_millimetres()));
+                format!("{x} by {y}")
+            };
+            Err(format!(
+                "the footprint extends {} from its centre, but {owner} allows at most {}: state a smaller one",
+                by(extent),
+                by(limit)
+            ))
         }
     }
 }

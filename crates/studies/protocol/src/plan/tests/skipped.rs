@@ -147,7 +147,7 @@ fn a_sensor_without_a_footprint_is_not_pressed() {
     assert_eq!(
         reason(&plan, "sensitivity"),
         "the sensor's `footprint` is not declared: write `footprint = { shape = \"disc\", radius_mm = … }` or \
-         `footprint = { shape = \"rect\", half_x_mm = …, half_y_mm = … }` under [sensor] of the scene"
+         `footprint = { shape = \"rect\", half_x_mm = …, half_y_mm = … }` under [sensor] of the scene or of the rig file"
     );
 }
 

@@ -1,4 +1,5 @@
-//! A gentle touch at the middle of the gel: down to the first force, on to three times that force, slightly sideways, and out again.
+//! A gentle touch at the middle of the gel: down to the first force, on to three times that force, slightly sideways, deeper for the comparison with
+//! other sessions, and out again.
 
 use taceva_core::{Axis, Degree};
 
@@ -24,6 +25,12 @@ const RISE: f64 = 3.0;
 const FORCE_PART: f64 = 0.5;
 /// Greatest depth of the touch, as a part of the depth limit.
 const DEPTH_PART: f64 = 0.5;
+/// Depth of the comparison with other sessions, in mm, and its greatest part of the limits of depth and force. A shallower touch scatters with the
+/// height of the contact. Taps go to a greater part.
+const REFERENCE_MM: f64 = 0.3;
+const REFERENCE_PART: f64 = 0.3;
+/// Greatest slope of a force over its depth, relative to their ratio: of a ball, by Hertz.
+const SLOPE: f64 = 1.5;
 /// Sideways push to each side, in mm.
 const PUSH_MM: f64 = 0.2;
 
@@ -45,7 +52,7 @@ impl Run<'_> {
         let earlier = earlier
             .clone()
             .find(|earlier| earlier.unit == *unit && earlier.specimen == specimen);
-        let Some(height_mm) = self.tip.feel_down(pace.air_n)? else {
+        let Some(Surface { height_mm, u_mm }) = self.tip.feel_down(pace.air_n)? else {
             let problem = SceneProblem::NothingTouched {
                 search_mm: self.plan.contact.search_mm.value,
             };
@@ -53,7 +60,7 @@ impl Run<'_> {
             let at = robot.and_then(|robot| robot.origin_mm.at());
             return Err(StopCause::Rig(Box::new(session.rig.error(at, problem))));
         };
-        let press = self.press_on(height_mm, earlier.map(|earlier| earlier.depth_mm))?;
+        let press = self.press_on(height_mm)?;
         let pushes = self.push_aside()?;
         let felt = Felt {
             press: press.mean_n,
@@ -65,7 +72,9 @@ impl Run<'_> {
             let problem = session.rig.error(force.axes.at(), problem);
             return Err(StopCause::Rig(Box::new(problem)));
         }
+        let reference = self.press_deeper(height_mm, earlier.map(|earlier| earlier.depth_mm))?;
         let depth_mm = self.tip.target.position.z.0 - height_mm;
+        let force_n = reference.mean_n[2];
         let picture = self.show_touch(height_mm, &in_air)?;
         self.tip.retreat()?;
         let left_n = self.tip.feel()?.magnitude_n();
@@ -85,7 +94,9 @@ impl Run<'_> {
                 specimen,
                 height_mm,
                 depth_mm,
-                force_n: press.mean_n[2],
+                force_n,
+                height_u_mm: u_mm,
+                force_u_n: reference.error_n.hypot(SLOPE * force_n / depth_mm * u_mm),
             },
             zero,
             pushes_felt: pushes.map(|push| push.is_some()),
@@ -95,14 +106,10 @@ impl Run<'_> {
         })
     }
 
-    /// Presses on from the first contact at `height_mm` to three times the contact force, or to the depth of an earlier session.
-    fn press_on(&mut self, height_mm: f64, depth_mm: Option<f64>) -> Step<Force> {
+    /// Presses on from the first contact at `height_mm` to three times the contact force.
+    fn press_on(&mut self, height_mm: f64) -> Step<Force> {
         let wanted_n = (RISE * self.tip.pace.air_n).min(FORCE_PART * self.tip.pace.normal_max_n);
         let deepest_mm = self.deepest_mm(height_mm);
-        if let Some(depth_mm) = depth_mm {
-            self.tip.deepen_to((height_mm + depth_mm).min(deepest_mm))?;
-            return self.tip.feel();
-        }
         loop {
             let force = self.tip.feel()?;
             if force.magnitude_n() >= wanted_n {
@@ -120,13 +127,38 @@ impl Run<'_> {
         }
     }
 
+    /// Presses on to the depth at which sessions are compared: that of an earlier session, or else [`REFERENCE_MM`]. Stops earlier at a part of the
+    /// force limit.
+    fn press_deeper(&mut self, height_mm: f64, earlier_mm: Option<f64>) -> Step<Force> {
+        let part = match earlier_mm {
+            Some(_) => FORCE_PART,
+            None => REFERENCE_PART,
+        };
+        let usual_mm = REFERENCE_MM.min(REFERENCE_PART * self.depth_max_mm());
+        let wanted_mm = height_mm + earlier_mm.unwrap_or(usual_mm);
+        let wanted_mm = wanted_mm.min(self.deepest_mm(height_mm));
+        let greatest_n = part * self.tip.pace.normal_max_n;
+        if earlier_mm.is_some() && self.tip.target.position.z.0 > wanted_mm {
+            // The present touch was deeper than the earlier one.
+            self.tip.deepen_to(wanted_mm)?;
+        }
+        loop {
+            let force = self.tip.feel()?;
+            let is_deep = self.tip.target.position.z.0 >= wanted_mm;
+            if is_deep || force.magnitude_n() >= greatest_n {
+                return Ok(force);
+            }
+            self.tip.deepen(wanted_mm)?;
+        }
+    }
+
     fn deepest_mm(&self, height_mm: f64) -> f64 {
-        let depth_max = self
-            .plan
-            .limits
-            .as_ref()
-            .map_or(0.0, |limits| limits.depth_max.0);
-        height_mm + DEPTH_PART * depth_max
+        height_mm + DEPTH_PART * self.depth_max_mm()
+    }
+
+    fn depth_max_mm(&self) -> f64 {
+        let limits = self.plan.limits.as_ref();
+        limits.map_or(0.0, |limits| limits.depth_max.0)
     }
 
     /// Force of a push to +x and of one to +y, each as half the difference from its opposite; `None` if not measurable.
@@ -206,7 +238,7 @@ impl Run<'_> {
 impl Tip<'_> {
     /// Descends by steps until the force exceeds the threshold along any axis. Returns the height of contact, interpolated between the last step
     /// below the threshold and the first one above; `None` at the end of the search.
-    fn feel_down(&mut self, threshold_n: f64) -> Step<Option<f64>> {
+    fn feel_down(&mut self, threshold_n: f64) -> Step<Option<Surface>> {
         self.watch(MotionStage::Search);
         let start_mm = self.target.position.z.0;
         self.contact_mm = Some(start_mm);
@@ -232,12 +264,18 @@ impl Tip<'_> {
             }
             // Projected on the direction of the present force, so that noise perpendicular to it does not count.
             let before_n = dot(&before_n, &force.mean_n) / felt_n;
-            let part = ((threshold_n - before_n) / (felt_n - before_n)).clamp(0.0, 1.0);
+            let rise_n = felt_n - before_n;
+            let part = ((threshold_n - before_n) / rise_n).clamp(0.0, 1.0);
             let height_mm = z_mm - self.pace.step_mm * (1.0 - part);
+            // The line between two steps deviates from the curve of a gel by up to an eighth of a step.
+            let of_line_mm = self.pace.step_mm / 8.0 / 3.0_f64.sqrt();
+            let of_noise_mm = self.pace.step_mm * force.single_n() / rise_n;
+            let of_pose_mm = self.pace.slack_mm / 3.0;
+            let u_mm = of_line_mm.hypot(of_noise_mm).hypot(of_pose_mm);
             self.contact_mm = Some(height_mm);
             self.is_felt_at(height_mm);
             self.watch(MotionStage::Press { height_mm });
-            return Ok(Some(height_mm));
+            return Ok(Some(Surface { height_mm, u_mm }));
         }
         Ok(None)
     }
@@ -278,6 +316,13 @@ impl Tip<'_> {
     }
 }
 
+/// Height of the first contact and its standard uncertainty, in mm.
+#[derive(Clone, Copy, Debug)]
+struct Surface {
+    height_mm: f64,
+    u_mm: f64,
+}
+
 /// Mean of several readings.
 #[derive(Clone, Copy, Debug, Default)]
 struct Force {
@@ -289,6 +334,11 @@ struct Force {
 impl Force {
     fn magnitude_n(&self) -> f64 {
         magnitude(&self.mean_n)
+    }
+
+    /// Standard deviation of a single reading.
+    fn single_n(&self) -> f64 {
+        self.error_n * f64::from(READINGS).sqrt()
     }
 }
 

@@ -50,12 +50,17 @@ impl Check<'_> {
 
     /// Builds a study, with the tables of the scene as defaults.
     fn study(&self, scene: &WrittenScene, study: &WrittenStudy) -> Result<Study, SceneError> {
-        let Some(sensor) = study.sensor.as_ref().or(scene.sensor.as_ref()) else {
-            let problem = format!(
-                "`{}` has no sensor: expected [sensor] with `driver` or `dataset`",
-                study.name.value
-            );
-            return self.refuse(study.name.at(), SceneProblem::Incomplete(problem));
+        let of_rig = Setting::default_of(SensorSpec::default());
+        let sensor = match study.sensor.as_ref().or(scene.sensor.as_ref()) {
+            Some(sensor) => sensor,
+            None if self.is_named_elsewhere() => &of_rig,
+            None => {
+                let problem = format!(
+                    "`{}` has no sensor: expected [sensor] with `driver` or `dataset`",
+                    study.name.value
+                );
+                return self.refuse(study.name.at(), SceneProblem::Incomplete(problem));
+            }
         };
         self.sensor(sensor)?;
         if scene.rig.is_some() {

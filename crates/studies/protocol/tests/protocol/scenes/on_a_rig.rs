@@ -1,5 +1,7 @@
 //! Tests of rig files, of every kind of invalid rig file, and of scenes that a rig file forbids.
 
+mod gel;
+
 use std::sync::Arc;
 
 use taceva_core::{Millimetre, Point, Workspace};

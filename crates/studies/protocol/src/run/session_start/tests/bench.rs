@@ -16,7 +16,7 @@ use crate::run::rig::plan;
 use crate::run::{
     Answer, Cancel, Controls, Devices, Mode, Observation, Operator, Oversight, PressLog,
     PressRecord, Question, ReferenceTouch, RunError, RunSpec, SessionRecord, SessionSpec,
-    SharedSupervisor, Supervisor, TapListener, Tapped, Timekeeper, run_guarded, tap,
+    SharedSupervisor, Supervisor, Timekeeper, run_guarded,
 };
 
 /// Mounting axes of the transducer.
@@ -54,6 +54,9 @@ pub(super) struct State {
     pub(super) late_until_s: f64,
     pub(super) clings_n: f64,
     pub(super) sees: Sees,
+    /// True if Fx and Fy are swapped after the first touch.
+    pub(super) is_swapped: bool,
+    touches: u32,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -83,6 +86,8 @@ impl Bench {
             late_until_s: f64::INFINITY,
             clings_n: 0.0,
             sees: Sees::Touches,
+            is_swapped: false,
+            touches: 0,
         })))
     }
 
@@ -111,6 +116,7 @@ impl State {
             return [0.0, 0.0, if is_new { 0.0 } else { self.clings_n }];
         }
         let here = [self.pose.position.x.0, self.pose.position.y.0];
+        self.touches += u32::from(self.touched.is_none());
         let touched = *self.touched.get_or_insert(here);
         let [x, y, z] = STIFFNESS_N_MM.map(|stiffness| stiffness * self.stiffness);
         [
@@ -161,7 +167,7 @@ impl Robot for Bench {
     }
 }
 
-struct Transducer(Bench);
+pub(super) struct Transducer(pub(super) Bench);
 
 impl ForceTransducer for Transducer {
     fn axes(&self) -> Axes {
@@ -175,7 +181,10 @@ impl ForceTransducer for Transducer {
         state.now_s += 0.002;
         let mounted = SignedAxes::read(MOUNTED).expect("right-handed");
         let hiss = f64::from(state.readings % 3) * 1e-4;
-        let force = state.force_n();
+        let mut force = state.force_n();
+        if state.is_swapped && state.touches > 1 {
+            force.swap(0, 1);
+        }
         let force = state.axes.to_sensor(mounted.to_device(force));
         let wrench = Wrench {
             force: force.map(|force_n| Newton(force_n + 0.2 + hiss)),
@@ -300,31 +309,8 @@ pub(super) struct Session<'a> {
     pub(super) answer: Option<Answer>,
 }
 
-/// Taps on the rig of a rig file, with `listener`.
-pub(super) fn tapped(bench: &Bench, listener: &mut dyn TapListener) -> Result<Tapped, RunError> {
-    let mut plan = one_press();
-    plan.presses[0].frames = false;
-    let supervisor = supervised(bench, &plan);
-    let (mut robot, mut clock) = (bench.clone(), bench.clone());
-    let controls = Controls {
-        clock: &mut clock,
-        cancel: &Cancel::new(),
-        events: &mut |_| {},
-        operator: None,
-    };
-    let session = SessionSpec {
-        rig: &rig_file(MOUNTED),
-        robot: None,
-        touched: &[],
-    };
-    let mut force = Transducer(bench.clone());
-    tap(
-        &plan, &mut robot, &mut force, controls, supervisor, session, listener,
-    )
-}
-
 /// A supervisor of the bench that receives every reading of its transducer.
-fn supervised(bench: &Bench, plan: &Plan) -> SharedSupervisor {
+pub(super) fn supervised(bench: &Bench, plan: &Plan) -> SharedSupervisor {
     let limits = plan.limits.clone().expect("it moves");
     let supervisor = SharedSupervisor::new(Supervisor::new(limits, Arc::new(bench.clone())));
     bench.state().supervisor = Some(supervisor.clone());
@@ -332,7 +318,7 @@ fn supervised(bench: &Bench, plan: &Plan) -> SharedSupervisor {
 }
 
 /// One touch of the surface, with a frame.
-fn one_press() -> Plan {
+pub(super) fn one_press() -> Plan {
     let mut plan = plan();
     plan.presses.truncate(1);
     let planned = &mut plan.presses[0];
@@ -345,14 +331,22 @@ fn one_press() -> Plan {
 }
 
 pub(super) fn begun(bench: &Bench, session: Session<'_>) -> (Result<(), RunError>, Memory, Person) {
-    let plan = one_press();
+    begun_with(bench, session, &one_press())
+}
+
+/// As [`begun`], with the presses of `plan`.
+pub(super) fn begun_with(
+    bench: &Bench,
+    session: Session<'_>,
+    plan: &Plan,
+) -> (Result<(), RunError>, Memory, Person) {
     let mut log = Memory::default();
     let mut person = Person {
         bench: bench.clone(),
         answer: session.answer.unwrap_or(Answer::Done),
         asked: Vec::new(),
     };
-    let supervisor = supervised(bench, &plan);
+    let supervisor = supervised(bench, plan);
     let (mut robot, mut clock) = (bench.clone(), bench.clone());
     let (mut force, mut camera) = (Transducer(bench.clone()), Camera(bench.clone()));
     let devices = Devices {
@@ -371,7 +365,7 @@ pub(super) fn begun(bench: &Bench, session: Session<'_>) -> (Result<(), RunError
         operator: has_person.then_some(&mut person as &mut dyn Operator),
     };
     let spec = RunSpec {
-        plan: &plan,
+        plan,
         unit: &plan.presses[0].press.unit,
         mode: Mode::Acquire,
     };

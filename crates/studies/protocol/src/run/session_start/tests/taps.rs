@@ -1,7 +1,10 @@
 //! Tests of interrupted taps.
 
-use super::bench::{Bench, MOUNTED, tapped};
-use crate::run::{Observation, TapHeard, TapListener, Tapped, Timekeeper as _};
+use super::bench::{Bench, MOUNTED, Transducer, one_press, rig_file, supervised};
+use crate::run::{
+    Cancel, Controls, Observation, RunError, SessionSpec, TapHeard, TapListener, Tapped,
+    Timekeeper as _, tap,
+};
 
 /// Counts taps. During one of them, the guard threads receive no readings for a while.
 struct Counting {
@@ -44,4 +47,27 @@ fn a_tap_that_silence_breaks_off_is_made_again_and_counts_once() {
     tapped(&bench, &mut counting).expect("silence ends no taps");
     let counts = (counting.begun, counting.counted);
     assert_eq!(counts, (Tapped::TAPS + 1, Tapped::TAPS));
+}
+
+/// Taps on the rig of a rig file, with `listener`.
+fn tapped(bench: &Bench, listener: &mut dyn TapListener) -> Result<Tapped, RunError> {
+    let mut plan = one_press();
+    plan.presses[0].frames = false;
+    let supervisor = supervised(bench, &plan);
+    let (mut robot, mut clock) = (bench.clone(), bench.clone());
+    let controls = Controls {
+        clock: &mut clock,
+        cancel: &Cancel::new(),
+        events: &mut |_| {},
+        operator: None,
+    };
+    let session = SessionSpec {
+        rig: &rig_file(MOUNTED),
+        robot: None,
+        touched: &[],
+    };
+    let mut force = Transducer(bench.clone());
+    tap(
+        &plan, &mut robot, &mut force, controls, supervisor, session, listener,
+    )
 }

@@ -1,0 +1,54 @@
+//! The sensor of a rig, and the facts of its gel that no camera states.
+
+use serde::Deserialize;
+use taceva_core::{Certificate, Instrument};
+
+use super::Check;
+use crate::footprint_spec::FootprintSpec;
+use crate::text::{SceneError, Setting};
+
+/// A sensor of a rig.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigSensor {
+    /// Selector of its driver.
+    pub driver: Setting<String>,
+    /// Delay between a frame and its stamp, in ms; `None` uses the latency that the driver states.
+    pub latency_ms: Option<Setting<f64>>,
+    /// True if ambient light cannot reach the camera. A scene must not state the opposite.
+    pub opaque: Option<Setting<bool>>,
+    /// True if the gel has markers. A scene must not state the opposite.
+    pub markers: Option<Setting<bool>>,
+    /// Outline of the sensing surface, seen from above. A scene may state a smaller one.
+    pub footprint: Option<Setting<FootprintSpec>>,
+    /// Calibration certificate.
+    pub certificate: Option<Certificate>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table with `driver`")]
+pub(super) struct WrittenSensor {
+    driver: Setting<String>,
+    latency_ms: Option<Setting<f64>>,
+    opaque: Option<Setting<bool>>,
+    markers: Option<Setting<bool>>,
+    footprint: Option<Setting<FootprintSpec>>,
+    certificate: Option<Setting<Certificate>>,
+}
+
+impl WrittenSensor {
+    pub(super) fn check(self, check: &Check<'_>) -> Result<RigSensor, SceneError> {
+        if let Some(footprint) = &self.footprint
+            && let Err(problem) = footprint.value.footprint(None)
+        {
+            return check.refuse(footprint.at(), problem);
+        }
+        Ok(RigSensor {
+            driver: self.driver,
+            latency_ms: check.latency(self.latency_ms)?,
+            opaque: self.opaque,
+            markers: self.markers,
+            footprint: self.footprint,
+            certificate: check.certificate(Instrument::Sensor, self.certificate)?,
+        })
+    }
+}

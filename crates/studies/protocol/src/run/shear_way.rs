@@ -1,0 +1,112 @@
+//! Compares the tangential way of the tip in a press with the change of the shear force.
+
+use std::fmt;
+
+use taceva_core::{Nanometre, Wrench};
+
+use crate::press::Waypoint;
+
+/// Least change of the shear force that is compared, in multiples of the least force in the air.
+const FORCE_STEPS: f64 = 5.0;
+/// Least part of the change along the way. The force of an elastic gel never decreases along the way, also with friction or a curved surface. A swap
+/// of x and y reverses the force of every way whose parts along x and y have opposite signs.
+const ALONG: f64 = -0.25;
+
+/// Waypoint of a resting tip, with its shear force in N.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sheared {
+    depth: Nanometre,
+    shear: [Nanometre; 2],
+    force_n: [f64; 2],
+}
+
+/// Tangential way and the change of the shear force over it, along x and y.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShearFault {
+    /// Way of the tip, in mm.
+    pub way_mm: [f64; 2],
+    /// Change of the force, in N.
+    pub force_n: [f64; 2],
+}
+
+impl fmt::Display for ShearFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [way_x, way_y] = self.way_mm;
+        let [force_x, force_y] = self.force_n;
+        write!(
+            f,
+            "the tip moved by ({way_x:.3}, {way_y:.3}) mm along x and y, and the shear force changed by ({force_x:.3}, {force_y:.3}) N: expected along the way, not against it, as in the gentle touch; check whether the transducer was turned or its channels swapped, and begin again: earlier labels of Fx and Fy may be wrong"
+        )
+    }
+}
+
+impl Sheared {
+    pub(super) fn at(waypoint: &Waypoint, wrench: &Wrench) -> Sheared {
+        let [x, y, _] = wrench.force.map(|force| force.0);
+        Sheared {
+            depth: waypoint.depth,
+            shear: waypoint.shear,
+            force_n: [x, y],
+        }
+    }
+
+    /// Fault if the tip moved sideways at one depth since `earlier` and the force changed against that way. `air_n` is the least force in the air.
+    pub(super) fn fault(&self, earlier: &Sheared, air_n: f64) -> Option<ShearFault> {
+        let axes = [0, 1];
+        let way_mm =
+            axes.map(|axis| Nanometre(self.shear[axis].0 - earlier.shear[axis].0).to_millimetres());
+        let force_n = axes.map(|axis| self.force_n[axis] - earlier.force_n[axis]);
+        let length = |[x, y]: [f64; 2]| x.hypot(y);
+        let is_compared = self.depth == earlier.depth
+            && length(way_mm) > 0.0
+            && length(force_n) > FORCE_STEPS * air_n;
+        let along = way_mm[0] * force_n[0] + way_mm[1] * force_n[1];
+        let is_possible = along >= ALONG * length(way_mm) * length(force_n);
+        (is_compared && !is_possible).then_some(ShearFault { way_mm, force_n })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{Newton, Phase};
+
+    use super::*;
+
+    fn sheared(depth: i64, shear: [i64; 2], force_n: [f64; 2]) -> Sheared {
+        let waypoint = Waypoint {
+            depth: Nanometre(depth),
+            shear: shear.map(Nanometre),
+            phase: Phase::Load,
+        };
+        let wrench = Wrench {
+            force: [force_n[0], force_n[1], 1.0].map(Newton),
+            ..Wrench::default()
+        };
+        Sheared::at(&waypoint, &wrench)
+    }
+
+    #[test]
+    fn a_shear_force_against_the_way_is_a_fault_and_a_small_one_is_not_compared() {
+        let straight = sheared(500_000, [0, 0], [0.01, -0.02]);
+        for (shear, force_n, is_fault) in [
+            ([300_000, 0], [0.31, -0.01], false),
+            ([300_000, 0], [0.31, 0.2], false),
+            // A ball that slides over a dome.
+            ([300_000, 0], [0.02, 0.3], false),
+            // Swapped, or of another sign.
+            ([300_000, -200_000], [-0.19, 0.28], true),
+            ([300_000, 0], [-0.3, -0.02], true),
+            ([-200_000, 200_000], [0.2, -0.2], true),
+            // Hidden by noise.
+            ([300_000, 0], [-0.05, 0.06], false),
+            ([0, 0], [0.01, 0.6], false),
+        ] {
+            let moved = sheared(500_000, shear, force_n);
+            let fault = moved.fault(&straight, 0.02);
+            assert_eq!(fault.is_some(), is_fault, "{shear:?}, {force_n:?}");
+        }
+        // Between two depths the force changes with the normal force.
+        let deeper = sheared(600_000, [300_000, 0], [0.0, 0.5]);
+        assert_eq!(deeper.fault(&straight, 0.02), None);
+    }
+}
