@@ -73,7 +73,12 @@ impl Tip<'_> {
         if self.stands_clear {
             // Hands may be at the tip: a robot that stands clear is not made ready to move.
             let _ = self.robot.halt();
-            return (cause, Left::Clear);
+            // A person at a question may have moved the tip down by hand.
+            let left = match self.find_pose().is_ok() && self.is_high() {
+                true => Left::Clear,
+                false => Left::InPlace,
+            };
+            return (cause, left);
         }
         loop {
             let _ = self.robot.halt();
