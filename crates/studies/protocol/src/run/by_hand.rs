@@ -117,7 +117,13 @@ impl Run<'_> {
         let answer = operator.ask(question, self.tip.cancel);
         self.tip.supervisor.lock().asks(false);
         if answer == Answer::Done {
+            // The person may have moved the tip down by hand: it then rises before it goes on.
             self.tip.release()?;
+            self.tip.find_pose()?;
+            if !self.tip.is_high() {
+                self.wait_until_held()?;
+                self.tip.find()?;
+            }
             self.is_reach_unknown = false;
         }
         Ok(answer)
@@ -169,6 +175,7 @@ mod tests {
         let by_hand = Some(CONTACT_MM + 0.5);
         for (answer, lowered_mm) in [
             (Answer::Done, None),
+            (Answer::Done, by_hand),
             (Answer::Skip, None),
             (Answer::Stop, None),
             (Answer::Stop, by_hand),
@@ -226,6 +233,9 @@ mod tests {
                 "{raised:?}"
             );
             assert_eq!(seen.state().halted, answer != Answer::Done);
+            if answer == Answer::Done {
+                assert!(seen.state().height_mm < 1e-9 - 2.0, "it stands low");
+            }
         }
     }
 }
