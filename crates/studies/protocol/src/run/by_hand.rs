@@ -120,7 +120,7 @@ impl Run<'_> {
             // The person may have moved the tip down by hand: it then rises before it goes on.
             self.tip.release()?;
             self.tip.find_pose()?;
-            if !self.tip.is_high() {
+            if !self.tip.is_about_high() {
                 self.wait_until_held()?;
                 self.tip.find()?;
             }
