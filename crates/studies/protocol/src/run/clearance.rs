@@ -113,7 +113,7 @@ impl Tip<'_> {
         self.here().position.z.0 <= -self.pace.clearance_mm
     }
 
-    /// As [`Tip::is_high`], if the reported pose repeats to [`REPEATED_MM`] only.
+    /// True if the tip is at or above the travel height, within [`REPEATED_MM`].
     pub(super) fn is_about_high(&self) -> bool {
         self.here().position.z.0 <= REPEATED_MM - self.pace.clearance_mm
     }
