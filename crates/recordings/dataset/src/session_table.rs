@@ -46,11 +46,12 @@ pub struct Session {
     pub reaction_ms: f64,
     /// Travel of the tip after the halt, mm.
     pub overshoot_mm: f64,
-    /// Standard uncertainty of `height_mm`, mm.
-    pub height_u_mm: f64,
-    /// Standard uncertainty of `fz_n` at its depth, N.
-    #[serde(rename = "Fz_u_N")]
-    pub fz_u_n: f64,
+    /// Standard uncertainty of `height_mm`, mm; `None` in sessions of builds that did not state it.
+    #[serde(default)]
+    pub height_u_mm: Option<f64>,
+    /// Standard uncertainty of `fz_n` at its depth, N; `None` as above.
+    #[serde(default, rename = "Fz_u_N")]
+    pub fz_u_n: Option<f64>,
 }
 
 /// The table of sessions beside a recording.
@@ -201,8 +202,8 @@ mod tests {
             picture_changed: true,
             reaction_ms: 6.5,
             overshoot_mm: 0.02,
-            height_u_mm: 0.01,
-            fz_u_n: 0.002,
+            height_u_mm: Some(0.01),
+            fz_u_n: Some(0.002),
         }
     }
 
@@ -233,6 +234,30 @@ mod tests {
             text.starts_with("boot_id,begun_s,unit,specimen,height_mm,depth_mm,Fz_N,zero_Fx_N")
         );
         assert_eq!(text.lines().count(), 3);
+    }
+
+    #[test]
+    fn a_table_without_the_columns_of_uncertainty_is_read_and_continued() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let recording = folder.path().join("1-gel");
+        let mut table = SessionTable::of(&recording).expect("none yet");
+        table.add(session(0.1, 0.06)).expect("written");
+        let text = fs::read_to_string(place(&recording)).expect("there");
+        let lines = text.lines().map(|line| {
+            let (rest, _) = line.rsplit_once(',').expect("Fz_u_N");
+            let (rest, _) = rest.rsplit_once(',').expect("height_u_mm");
+            format!("{rest}\n")
+        });
+        let earlier: String = lines.collect();
+        assert!(earlier.contains(",overshoot_mm\n"), "{earlier}");
+        fs::write(place(&recording), earlier).expect("written");
+        let mut table = SessionTable::of(&recording).expect("an earlier build wrote it");
+        assert_eq!(table.rows[0].height_u_mm, None);
+        table.add(session(0.14, 0.0615)).expect("written");
+        let rows = SessionTable::of(&recording).expect("both").rows;
+        let stated: Vec<Option<f64>> = rows.iter().map(|row| row.fz_u_n).collect();
+        assert_eq!(stated, [None, Some(0.002)]);
+        assert!(note(&recording).is_some_and(|said| said.contains("2 sessions")));
     }
 
     #[test]

@@ -27,8 +27,8 @@ pub(super) fn row(record: &SessionRecord) -> Session {
         picture_changed: record.picture_changed,
         reaction_ms: record.reaction_ms,
         overshoot_mm: record.overshoot_mm,
-        height_u_mm: record.touch.height_u_mm,
-        fz_u_n: record.touch.force_u_n,
+        height_u_mm: Some(record.touch.height_u_mm),
+        fz_u_n: Some(record.touch.force_u_n),
     }
 }
 
@@ -45,8 +45,9 @@ pub(super) fn touches(sessions: &[Session], plan: &Plan) -> Vec<ReferenceTouch> 
             height_mm: row.height_mm,
             depth_mm: row.depth_mm,
             force_n: row.fz_n,
-            height_u_mm: row.height_u_mm,
-            force_u_n: row.fz_u_n,
+            // The strictest comparison, if a session states no uncertainty.
+            height_u_mm: row.height_u_mm.unwrap_or_default(),
+            force_u_n: row.fz_u_n.unwrap_or_default(),
         })
     });
     touches.collect()

@@ -117,7 +117,13 @@ impl Run<'_> {
         let answer = operator.ask(question, self.tip.cancel);
         self.tip.supervisor.lock().asks(false);
         if answer == Answer::Done {
+            // The person may have moved the tip down by hand: it then rises before it goes on.
             self.tip.release()?;
+            self.tip.find_pose()?;
+            if !self.tip.is_about_high() {
+                self.wait_until_held()?;
+                self.tip.find()?;
+            }
             self.is_reach_unknown = false;
         }
         Ok(answer)
@@ -152,20 +158,28 @@ mod tests {
     use crate::run::time::Cancel;
     use crate::run::{Controls, Devices, Left, Mode, RunSpec};
 
-    /// Stores the height of the tip and the state of the halt at each question.
-    struct Person(Rig, Answer, Vec<(f64, bool)>);
+    /// Stores the height of the tip and the state of the halt at each question, and moves the tip by hand to a height, if any.
+    struct Person(Rig, Answer, Vec<(f64, bool)>, Option<f64>);
 
     impl Operator for Person {
         fn ask(&mut self, _: &Question, _: &Cancel) -> Answer {
-            let state = self.0.state();
+            let mut state = self.0.state();
             self.2.push((state.height_mm, state.halted));
+            state.height_mm = self.3.unwrap_or(state.height_mm);
             self.1
         }
     }
 
     #[test]
     fn a_tip_that_is_low_is_raised_before_somebody_is_asked_and_does_not_move_before_a_yes() {
-        for answer in [Answer::Done, Answer::Skip, Answer::Stop] {
+        let by_hand = Some(CONTACT_MM + 0.5);
+        for (answer, lowered_mm) in [
+            (Answer::Done, None),
+            (Answer::Done, by_hand),
+            (Answer::Skip, None),
+            (Answer::Stop, None),
+            (Answer::Stop, by_hand),
+        ] {
             // The gel pushes back below the contact height; readings differ.
             let mut rig = Rig::new(CONTACT_MM + 0.5, |question, height_mm| {
                 let pressed_mm = (height_mm - CONTACT_MM).max(0.0);
@@ -176,7 +190,7 @@ mod tests {
                 press.frames = false;
             }
             let (mut force, mut clock) = (rig.clone(), rig.clone());
-            let mut person = Person(rig.clone(), answer, Vec::new());
+            let mut person = Person(rig.clone(), answer, Vec::new(), lowered_mm);
             let cancel = Cancel::new();
             let spec = RunSpec {
                 plan: &plan,
@@ -208,7 +222,8 @@ mod tests {
             if answer == Answer::Stop {
                 // Hands may be at the tip: a stop does not make the robot ready.
                 let error = run.abandoned(None, StopCause::Cancelled);
-                assert_eq!(error.left, Left::Clear);
+                let is_low = error.left == Left::InPlace;
+                assert_eq!(is_low, lowered_mm.is_some(), "{error}");
             }
             drop(run);
             assert_eq!(person.2, [(-2.0, true)]);
@@ -218,6 +233,9 @@ mod tests {
                 "{raised:?}"
             );
             assert_eq!(seen.state().halted, answer != Answer::Done);
+            if answer == Answer::Done {
+                assert!(seen.state().height_mm < 1e-9 - 2.0, "it stands low");
+            }
         }
     }
 }

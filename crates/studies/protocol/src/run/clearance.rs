@@ -12,6 +12,9 @@ use super::time::Cancel;
 use super::tip::{DEADLINE, Pace, Step, Tip};
 use crate::plan::Plan;
 
+/// Repeatability of the poses that arms report at rest, in mm.
+const REPEATED_MM: f64 = 0.1;
+
 /// Raises the tip straight to the travel height if it is lower, and halts the robot there, clear of hands. Returns true if it moved.
 ///
 /// If `robot` is a name, the operator enables that robot before it moves. A tip that is high enough is only halted. `supervisor` watches this robot
@@ -108,6 +111,11 @@ impl Tip<'_> {
     /// True if the tip is at or above the travel height.
     pub(super) fn is_high(&self) -> bool {
         self.here().position.z.0 <= -self.pace.clearance_mm
+    }
+
+    /// True if the tip is at or above the travel height, within [`REPEATED_MM`].
+    pub(super) fn is_about_high(&self) -> bool {
+        self.here().position.z.0 <= REPEATED_MM - self.pace.clearance_mm
     }
 
     /// Halts the robot, which stands clear of the gel, until an explicit release.

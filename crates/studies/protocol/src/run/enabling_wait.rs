@@ -55,8 +55,10 @@ impl Tip<'_> {
         }
         let (cause, left) = self.leave(cause, &mut attendant);
         // A tip that stands high and was never moved was not left in the gel.
-        let is_untouched =
-            left == Left::InPlace && !self.has_moved && self.find_pose().is_ok() && self.is_high();
+        let is_untouched = left == Left::InPlace
+            && !self.has_moved
+            && self.find_pose().is_ok()
+            && self.is_about_high();
         let left = match is_untouched {
             true => Left::Untouched,
             false => left,
@@ -73,7 +75,12 @@ impl Tip<'_> {
         if self.stands_clear {
             // Hands may be at the tip: a robot that stands clear is not made ready to move.
             let _ = self.robot.halt();
-            return (cause, Left::Clear);
+            // A person at a question may have moved the tip down by hand.
+            let left = match self.find_pose().is_ok() && self.is_about_high() {
+                true => Left::Clear,
+                false => Left::InPlace,
+            };
+            return (cause, left);
         }
         loop {
             let _ = self.robot.halt();

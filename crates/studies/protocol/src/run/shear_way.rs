@@ -8,8 +8,10 @@ use crate::press::Waypoint;
 
 /// Least change of the shear force that is compared, in multiples of the least force in the air.
 const FORCE_STEPS: f64 = 5.0;
-/// Least part of the change along the way. The force of an elastic gel never decreases along the way, also with friction or a curved surface. A swap
-/// of x and y reverses the force of every way whose parts along x and y have opposite signs.
+/// Least change that is compared, as a part of the greater shear force. Slip and relaxation lower a shear force by less, also along the way.
+const CHANGED_PART: f64 = 0.75;
+/// Least part of the change along the way. Friction and an elastic gel push along the way. A swap of x and y reverses the force of every way whose
+/// parts along x and y have opposite signs.
 const ALONG: f64 = -0.25;
 
 /// Waypoint of a resting tip, with its shear force in N.
@@ -50,16 +52,18 @@ impl Sheared {
         }
     }
 
-    /// Fault if the tip moved sideways at one depth since `earlier` and the force changed against that way. `air_n` is the least force in the air.
+    /// Fault if the tip moved sideways at one depth since `earlier` and most of the shear force changed against that way. `air_n` is the least force
+    /// in the air.
     pub(super) fn fault(&self, earlier: &Sheared, air_n: f64) -> Option<ShearFault> {
         let axes = [0, 1];
         let way_mm =
             axes.map(|axis| Nanometre(self.shear[axis].0 - earlier.shear[axis].0).to_millimetres());
         let force_n = axes.map(|axis| self.force_n[axis] - earlier.force_n[axis]);
         let length = |[x, y]: [f64; 2]| x.hypot(y);
+        let greater_n = length(self.force_n).max(length(earlier.force_n));
         let is_compared = self.depth == earlier.depth
             && length(way_mm) > 0.0
-            && length(force_n) > FORCE_STEPS * air_n;
+            && length(force_n) > (FORCE_STEPS * air_n).max(CHANGED_PART * greater_n);
         let along = way_mm[0] * force_n[0] + way_mm[1] * force_n[1];
         let is_possible = along >= ALONG * length(way_mm) * length(force_n);
         (is_compared && !is_possible).then_some(ShearFault { way_mm, force_n })
@@ -108,5 +112,30 @@ mod tests {
         // Between two depths the force changes with the normal force.
         let deeper = sheared(600_000, [300_000, 0], [0.0, 0.5]);
         assert_eq!(deeper.fault(&straight, 0.02), None);
+    }
+
+    #[test]
+    fn a_shear_force_that_slips_or_relaxes_on_its_way_is_no_fault_and_one_that_reverses_is() {
+        // A shear at a smaller depth left a force against the way back to straight.
+        for (earlier, later, is_fault) in [
+            (
+                ([300_000, 0], [1.0, 0.0]),
+                ([600_000, 0], [0.7, 0.05]),
+                false,
+            ),
+            (([0, 0], [-1.0, 0.1]), ([-300_000, 0], [-0.85, 0.0]), false),
+            (([0, 0], [-0.4, 0.0]), ([300_000, 0], [0.8, 0.0]), false),
+            (
+                ([300_000, 0], [1.0, 0.0]),
+                ([600_000, 0], [-0.5, 0.0]),
+                true,
+            ),
+        ] {
+            let (shear, force_n) = earlier;
+            let earlier = sheared(500_000, shear, force_n);
+            let (shear, force_n) = later;
+            let fault = sheared(500_000, shear, force_n).fault(&earlier, 0.02);
+            assert_eq!(fault.is_some(), is_fault, "{shear:?}, {force_n:?}");
+        }
     }
 }

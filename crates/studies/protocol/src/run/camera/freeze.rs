@@ -12,6 +12,10 @@ const LIVE_FRAMES: u32 = 8;
 const NOISY_FRAMES: u32 = 4;
 /// Least change of the force that changes the frame of any camera, in multiples of the least force in the air.
 const FORCE_STEPS: f64 = 5.0;
+/// Distance of a sample from black or from full scale, up to which it shows nothing.
+const CLIPPED: u16 = 4;
+/// Greatest part of the samples of a blank frame that are not clipped, as of hot pixels.
+const SEEN_PART: f64 = 0.01;
 /// Least way of the tip that changes the frame of a camera without noise, in mm. A gel at rest may creep under it unseen.
 const MOVED_MM: f64 = 0.05;
 
@@ -20,6 +24,8 @@ const MOVED_MM: f64 = 0.05;
 pub(super) struct Moment {
     felt: Felt,
     pose: Pose,
+    /// True from a retreat to the next search: a light touch is not in the air, whatever its force.
+    is_in_air: bool,
     /// Least force that counts as contact in the air, in N.
     air_n: f64,
 }
@@ -30,12 +36,9 @@ impl Moment {
         Moment {
             felt: tip.felt,
             pose: tip.at,
+            is_in_air: tip.contact_mm.is_none(),
             air_n: tip.pace.air_n,
         }
-    }
-
-    fn is_in_air(&self) -> bool {
-        self.felt.normal_n.hypot(self.felt.shear_n) < self.air_n
     }
 
     /// True if the force changed so far since `earlier` that every camera shows it.
@@ -74,13 +77,13 @@ impl Freeze {
 
     /// True if `frame`, captured at `moment`, repeats the one before although the force changed.
     ///
-    /// A uniform frame, as of a camera in the dark, is never counted as a repeat.
+    /// A blank frame, as of a camera in the dark, is never counted as a repeat.
     pub(super) fn is_frozen(&mut self, frame: &Frame, moment: Moment) -> bool {
         let Some(last) = &self.last else {
             self.keep(frame, moment);
             return false;
         };
-        let stays_in_air = last.moment.is_in_air() && moment.is_in_air();
+        let stays_in_air = last.moment.is_in_air && moment.is_in_air;
         if last.frame.bytes() != frame.bytes() {
             self.changes = self.changes.saturating_add(1);
             self.changes_in_air += u32::from(stays_in_air);
@@ -95,7 +98,7 @@ impl Freeze {
             true => !stays_in_air && (last.is_left || is_moved || is_new_force),
             false => is_moved && is_new_force,
         };
-        if !must_differ || is_uniform(frame) {
+        if !must_differ || is_blank(frame) {
             return false;
         }
         self.is_coarse |= self.changes < LIVE_FRAMES;
@@ -111,9 +114,23 @@ impl Freeze {
     }
 }
 
-fn is_uniform(frame: &Frame) -> bool {
-    let bytes = frame.bytes();
-    bytes.iter().all(|byte| Some(byte) == bytes.first())
+/// True if all pixels are equal, or nearly all samples are dark or saturated.
+fn is_blank(frame: &Frame) -> bool {
+    let format = frame.info().format;
+    let mut pixels = frame
+        .bytes()
+        .chunks_exact(format.samples() * format.bytes_per_sample());
+    let first = pixels.next();
+    if pixels.all(|pixel| Some(pixel) == first) {
+        return true;
+    }
+    let greatest = format.full_scale() - CLIPPED;
+    let (mut seen, mut all) = (0_u32, 0_u32);
+    for sample in frame.samples() {
+        seen += u32::from(sample > CLIPPED && sample < greatest);
+        all += 1;
+    }
+    f64::from(seen) <= SEEN_PART * f64::from(all)
 }
 
 #[cfg(test)]
@@ -141,6 +158,7 @@ mod tests {
                 ..Felt::default()
             },
             pose,
+            is_in_air: normal_n < 0.01,
             air_n: 0.02,
         }
     }
@@ -204,5 +222,43 @@ mod tests {
         for force_n in [0.5, 0.9] {
             assert!(!dark.is_frozen(&frame([0, 0]), pressed(force_n)));
         }
+    }
+
+    #[test]
+    fn a_frame_of_one_colour_or_of_hot_pixels_in_the_dark_may_repeat() {
+        let mut hot = vec![1; 400];
+        hot[7] = 90;
+        let of = |format, width, bytes| {
+            let info = FrameInfo {
+                width,
+                height: 1,
+                format,
+            };
+            Frame::new(info, bytes).expect("its size")
+        };
+        for blank in [
+            of(PixelFormat::Gray8, 400, hot),
+            of(PixelFormat::Rgb8, 2, [10, 20, 30].repeat(2)),
+        ] {
+            let mut freeze = after_nine(true);
+            for force_n in [0.5, 0.9] {
+                assert!(!freeze.is_frozen(&blank, pressed(force_n)), "{blank:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn light_touches_are_no_evidence_that_a_camera_is_noisy() {
+        let light = |force_n| Moment {
+            is_in_air: false,
+            ..pressed(force_n)
+        };
+        let mut freeze = Freeze::default();
+        for number in 0..9 {
+            assert!(!freeze.is_frozen(&frame([number, 50]), light(0.005)));
+        }
+        // Two equal touches look alike to a camera without noise.
+        freeze.leave();
+        assert!(!freeze.is_frozen(&frame([8, 50]), light(0.03)));
     }
 }

@@ -267,11 +267,9 @@ impl Tip<'_> {
             let rise_n = felt_n - before_n;
             let part = ((threshold_n - before_n) / rise_n).clamp(0.0, 1.0);
             let height_mm = z_mm - self.pace.step_mm * (1.0 - part);
-            // The line between two steps deviates from the curve of a gel by up to an eighth of a step.
-            let of_line_mm = self.pace.step_mm / 8.0 / 3.0_f64.sqrt();
-            let of_noise_mm = self.pace.step_mm * force.single_n() / rise_n;
             let of_pose_mm = self.pace.slack_mm / 3.0;
-            let u_mm = of_line_mm.hypot(of_noise_mm).hypot(of_pose_mm);
+            let u_mm = between_steps_mm(self.pace.step_mm, force.single_n(), rise_n);
+            let u_mm = u_mm.hypot(of_pose_mm);
             self.contact_mm = Some(height_mm);
             self.is_felt_at(height_mm);
             self.watch(MotionStage::Press { height_mm });
@@ -323,6 +321,15 @@ struct Surface {
     u_mm: f64,
 }
 
+/// Standard uncertainty of a height between two steps, in mm, from the noise of a reading and the rise of the force over the step, in N.
+fn between_steps_mm(step_mm: f64, noise_n: f64, rise_n: f64) -> f64 {
+    // The line between two steps deviates from the curve of a gel by up to an eighth of a step.
+    let of_line_mm = step_mm / 8.0 / 3.0_f64.sqrt();
+    // The height lies within the step, however small the rise.
+    let of_noise_mm = step_mm * (noise_n / rise_n).min(1.0 / 3.0_f64.sqrt());
+    of_line_mm.hypot(of_noise_mm)
+}
+
 /// Mean of several readings.
 #[derive(Clone, Copy, Debug, Default)]
 struct Force {
@@ -352,4 +359,17 @@ fn magnitude(force: &[f64; 3]) -> f64 {
 
 fn dot(one: &[f64; 3], other: &[f64; 3]) -> f64 {
     one.iter().zip(other).map(|(one, other)| one * other).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::between_steps_mm;
+
+    #[test]
+    fn the_height_of_a_contact_is_known_within_its_step_however_small_the_rise() {
+        let [quiet, usual, flat] = [1e-9, 0.005, 10.0].map(|part| between_steps_mm(0.1, part, 1.0));
+        assert!((quiet - 0.1 / 8.0 / 3.0_f64.sqrt()).abs() < 1e-6, "{quiet}");
+        assert!(quiet < usual && usual < 0.01, "{usual}");
+        assert!(flat < 0.06, "{flat}");
+    }
 }

@@ -159,7 +159,7 @@ impl Progress for Remarks {
 
 /// Number of halts and the remarks, for a transducer that is lost while a question stands. The question ends before the run if `is_answered`.
 fn lost_at_a_question(is_answered: bool) -> (u32, Vec<String>) {
-    let readings = (0..100).map(|number| Ok(f64::from(number) * 1e-6));
+    let readings = (0..20).map(|number| Ok(f64::from(number) * 1e-6));
     let errors = (0..1_000).map(|_| Err(ErrorKind::Disconnected));
     let script = readings.chain(errors).collect();
     let remarks = Remarks::default();
