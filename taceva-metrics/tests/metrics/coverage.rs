@@ -97,7 +97,7 @@ fn the_page_states_the_studies_that_the_example_draws() {
         ),
         (
             "const REPEATS: u32 = 2;",
-            "press each point several times, with errors\nthat spread more towards the rim",
+            "each point several times, with errors that spread more towards the rim",
         ),
         (
             "const FALLING: &str = \"tolerance_interval\";",
