@@ -2,10 +2,12 @@
 
 mod contributions;
 mod numbers;
+mod reference;
 mod residuals;
 mod template;
 
 pub(crate) use contributions::draw as draw_contributions;
+pub use reference::reference_certificate;
 pub use residuals::residual_components;
 pub use template::BudgetTemplate;
 

@@ -33,7 +33,7 @@ pub use accept::{
     ACCEPTANCE_SCHEMA, AcceptError, Acceptance, Limit, LimitCheck, LimitsError, LimitsFile,
     ProcessRisk, accept, add_process_risks, limits_template,
 };
-pub use budget::{BudgetReport, BudgetTemplate, residual_components};
+pub use budget::{BudgetReport, BudgetTemplate, reference_certificate, residual_components};
 pub use choose::{
     Bound, CHOICE_SCHEMA, Candidate, Choice, Dropped, Evidence, Need, NeedError, Property, Step,
     choose, choose_results,
