@@ -1,4 +1,4 @@
-//! Uncertainty of a reading of each measured sensor, by the residuals of its samples.
+//! Uncertainty of a reading of each measured or simulated sensor, by the residuals of its samples.
 
 use maud::{Markup, html};
 use taceva_core::{Unit, shown};
@@ -38,7 +38,7 @@ pub(super) fn section(studies: &[Study]) -> Option<Markup> {
     (!entries.is_empty()).then_some(body)
 }
 
-/// True if the samples of a study are measured or simulated presses.
+/// True unless the samples of a study are synthetic or published.
 fn has_rows(study: &Study) -> bool {
     !["synthetic", "published"].contains(&study.source.as_str())
 }
