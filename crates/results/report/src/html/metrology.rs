@@ -6,8 +6,10 @@ use taceva_metrology::budget::{Budget, BudgetText, Components, Evidence, Figure,
 use taceva_results::Samples;
 
 use super::drawn;
-use crate::budget::{draw_contributions, reference_certificate, residual_components};
+use crate::contributions;
 use crate::names::names;
+use crate::reference::reference_certificate;
+use crate::residuals::residual_components;
 use crate::results::Study;
 
 /// Part of the protocol whose residuals count, and the column of places.
@@ -50,7 +52,7 @@ fn entry(study: &Study, name: &str, number: usize) -> Markup {
             return html! { p { strong { (name) } ": no uncertainty budget (" (reason) ")." } "\n" };
         }
     };
-    let figure = draw_contributions(&budget, number).map(|mut figure| {
+    let figure = contributions::draw(&budget, number).map(|mut figure| {
         figure.title = format!("{name}: {}", figure.title);
         figure
     });
