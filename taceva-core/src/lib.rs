@@ -73,7 +73,7 @@ pub use orientation::Orientation;
 pub use outcome::{Limit, PressOutcome};
 pub use panic::{caught, contained};
 pub use phase::Phase;
-pub use printable::{Shown, is_obeyed, shown, shown_lines};
+pub use printable::{Shown, is_obeyed, markdown, shown, shown_lines};
 pub use progress::{Progress, SilentProgress};
 pub use quantity::{Degree, Hertz, Lux, Millimetre, Newton, NewtonMillimetre};
 pub use registry::{

@@ -57,6 +57,28 @@ fn push_shown(written: &mut String, letter: char) {
     }
 }
 
+/// Text for a paragraph or a table cell of Markdown: one line without markup.
+///
+/// ```
+/// assert_eq!(taceva_core::markdown("a|b\n<i>*x*"), "a\\|b &lt;i>\\*x\\*");
+/// ```
+pub fn markdown(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '\n' | '\r' | '\t' => escaped.push(' '),
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '\\' | '|' | '*' | '_' | '`' | '[' | ']' | '~' | '#' | '!' => {
+                escaped.extend(['\\', letter]);
+            }
+            _ if is_obeyed(letter) => {}
+            _ => escaped.push(letter),
+        }
+    }
+    escaped
+}
+
 /// True for characters that control the display or are invisible: control characters (C0 and C1), marks of writing direction and line
 /// separators. Also true for zero-width characters, with which two different names look the same.
 pub fn is_obeyed(letter: char) -> bool {

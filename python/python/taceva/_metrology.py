@@ -313,8 +313,8 @@ def budget(
             own[str(stated)] = "certificate"
             certificate = stated
         if isinstance(results, Result):
-            results = _written(results, folder)[0]
-            own[str(results)] = "results"
+            results, samples = _written(results, folder)
+            own.update({str(results): "results", str(samples): "samples of results"})
         options = _options(
             results=None if results is None else os.path.abspath(results),
             certificate=None if certificate is None else os.path.abspath(certificate),

@@ -11,7 +11,7 @@ use taceva_report::{
 };
 
 use super::{Context, Usage, results};
-use crate::args::{Accept, Conditional};
+use crate::args::{Accept, Conditional, Format};
 use crate::report::triple::triple;
 use crate::{date, exit, output};
 
@@ -65,7 +65,11 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
         date: Some(&date),
         pictures: pictures.as_ref(),
     };
-    results::write(&acceptance.table(), &args.output, || acceptance.json())?;
+    let written = match args.output.format {
+        Format::Csv => acceptance.numbers(),
+        _ => acceptance.table(),
+    };
+    results::write(&written, &args.output, || acceptance.json())?;
     if let Some(path) = &args.html {
         let page = acceptance.page();
         output::write(Some(path), |out| out.write_all(page.as_bytes()))?;

@@ -84,3 +84,35 @@ fn runs_add_up_whoever_computes_them() {
         .for_each(|(part, rest)| *part += rest);
     assert_eq!(parts, coverage(CALIBRATION, method, 0..20));
 }
+
+#[test]
+fn the_page_states_the_studies_that_the_example_draws() {
+    let page = include_str!("../../../docs/coverage.md");
+    let example = include_str!("../../examples/coverage_by_metric.rs");
+    for (code, words) in [
+        ("const RUNS: u32 = 1000;", "Each column has 1,000 runs."),
+        (
+            "const POINTS_OF_TRUTH: u32 = 20_000;",
+            "one study of 20,000 locations",
+        ),
+        (
+            "const REPEATS: u32 = 2;",
+            "each point several times, with errors that spread more towards the rim",
+        ),
+        (
+            "const FALLING: &str = \"tolerance_interval\";",
+            "`tolerance_interval` is not among them",
+        ),
+        (
+            "const LIGHT: u32 = 30;",
+            "`detection_limit` is computed from 30 light presses in both columns.",
+        ),
+        (
+            "const LIGHT_STUDIES: u32 = 4000;",
+            "the mean over 4,000 such studies",
+        ),
+    ] {
+        assert!(example.contains(code), "{code}");
+        assert!(page.contains(words), "{words}");
+    }
+}

@@ -198,13 +198,6 @@ impl Recorder {
             resumed => resumed?,
         };
         let before = &recorder.facts;
-        // Earlier builds stored no instruments.
-        if !before.traceability.is_empty() && before.traceability != spec.facts.traceability {
-            return Err(DatasetError::request(
-                path,
-                "the existing recording has another certificate, serial number or driver of an instrument; record into a new folder",
-            ));
-        }
         let taxels = recorder.signals.as_ref().map(SignalsWriter::spec);
         if let Some(problem) = before.other_setting(&spec.facts) {
             return Err(DatasetError::request(path, problem));
@@ -219,7 +212,10 @@ impl Recorder {
                 "the existing recording has another sensor, clock, set of channels or taxels, or reduction of frames",
             ));
         }
-        Ok(recorder)
+        match before.other_instrument(&spec.facts, path) {
+            Some(problem) => Err(DatasetError::request(path, problem)),
+            None => Ok(recorder),
+        }
     }
 
     fn new(

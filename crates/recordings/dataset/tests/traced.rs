@@ -76,7 +76,19 @@ fn an_interrupted_recording_goes_on_with_its_certificate_and_with_no_other() {
     drop(recorder);
     let other = Recorder::open(&path, &spec("D-K-2")).map(drop);
     let message = other.expect_err("another certificate").to_string();
-    assert!(message.contains("another certificate"), "{message}");
+    let remedy = format!("`taceva capture {} --close`", path.display());
+    assert!(
+        message.contains("another certificate") && message.contains(&remedy),
+        "{message}"
+    );
+    let mut replaced = spec("D-K-2");
+    replaced.facts.traceability[0].serial = Some("43".to_owned());
+    let other = Recorder::open(&path, &replaced).map(drop);
+    let message = other.expect_err("another transducer").to_string();
+    assert!(
+        message.contains("another serial number") && !message.contains("--close"),
+        "{message}"
+    );
     let recorder = Recorder::open(&path, &spec("D-K-1")).expect("goes on");
     let header = recorder.close().expect("closed");
     assert_eq!(header.traceability[0], traced("D-K-1"));

@@ -1,12 +1,8 @@
 //! Uncertainty budgets of one measurand, as tables for people and for programs, and as a page.
 
-mod contributions;
 mod numbers;
-mod residuals;
 mod template;
 
-pub(crate) use contributions::draw as draw_contributions;
-pub use residuals::residual_components;
 pub use template::BudgetTemplate;
 
 use maud::html;
@@ -14,6 +10,7 @@ use serde::Serialize;
 use taceva_metrology::budget::{Budget, MonteCarloResult};
 use taceva_results::not_measured;
 
+use crate::contributions;
 use crate::html::{Document, drawn};
 use crate::number::FormattedValue;
 use crate::table::{Align, Cell, Column, Table, Words};

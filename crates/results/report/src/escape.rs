@@ -2,6 +2,7 @@
 
 use maud::html;
 use taceva_core::is_obeyed;
+pub use taceva_core::markdown;
 
 /// Escapes text for SVG elements and quoted attributes. Unprintable characters become `U+FFFD`.
 pub(crate) fn svg(text: &str) -> String {
@@ -74,24 +75,6 @@ pub(crate) fn is_set_everywhere(letter: char) -> bool {
     is_latin && !ABSENT.contains(letter)
 }
 
-/// Escapes text for a cell of a Markdown table: one line without markup.
-pub fn markdown(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len());
-    for letter in text.chars() {
-        match letter {
-            '\n' | '\r' | '\t' => escaped.push(' '),
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '\\' | '|' | '*' | '_' | '`' | '[' | ']' | '~' | '#' | '!' => {
-                escaped.extend(['\\', letter]);
-            }
-            _ if is_obeyed(letter) => {}
-            _ => escaped.push(letter),
-        }
-    }
-    escaped
-}
-
 /// Escapes text for a terminal, by [`taceva_core::shown`].
 pub fn terminal(text: &str) -> String {
     taceva_core::shown(text).to_string()
@@ -121,10 +104,5 @@ mod tests {
     #[test]
     fn no_name_controls_a_terminal() {
         assert_eq!(terminal("a\u{1b}[2J\u{202e}b"), "a\\u{1b}[2J\\u{202e}b");
-    }
-
-    #[test]
-    fn a_markdown_cell_stays_a_cell() {
-        assert_eq!(markdown("a|b\n<i>*x*"), "a\\|b &lt;i>\\*x\\*");
     }
 }

@@ -6,6 +6,7 @@ mod budget;
 pub mod catalogue;
 mod choose;
 mod compare;
+mod contributions;
 mod curve;
 mod escape;
 mod figure;
@@ -17,6 +18,8 @@ mod markup;
 mod names;
 mod number;
 mod paper;
+mod reference;
+mod residuals;
 mod results;
 mod scores;
 mod short_digests;
@@ -33,7 +36,7 @@ pub use accept::{
     ACCEPTANCE_SCHEMA, AcceptError, Acceptance, Limit, LimitCheck, LimitsError, LimitsFile,
     ProcessRisk, accept, add_process_risks, limits_template,
 };
-pub use budget::{BudgetReport, BudgetTemplate, residual_components};
+pub use budget::{BudgetReport, BudgetTemplate};
 pub use choose::{
     Bound, CHOICE_SCHEMA, Candidate, Choice, Dropped, Evidence, Need, NeedError, Property, Step,
     choose, choose_results,
@@ -53,6 +56,8 @@ pub use html::{Pick, Picture, ReportPage, Triple, picks, report};
 pub use names::names;
 pub use number::{FormattedValue, spaced, with_interval};
 pub use paper::{PaperForm, paper_form};
+pub use reference::reference_certificate;
+pub use residuals::residual_components;
 pub use results::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, Fact, Made, ModelBench, ModelRow,
     Statement, Study,

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use taceva_core::{Date, Instrument, shown};
+use taceva_core::{Date, shown};
 use taceva_metrology::budget::{
-    BudgetError, BudgetText, Certificate, Components, Evidence, Figure, Freedom, Missing,
+    BudgetError, BudgetText, Components, Evidence, Figure, Freedom, Missing,
 };
-use taceva_report::residual_components;
+use taceva_report::{reference_certificate, residual_components};
 use taceva_results::{EvaluationReport, Score};
 
 use crate::cmd::quantity::unit_of_six;
@@ -20,8 +20,9 @@ const SCORES: [&str; 4] = ["repeatability", "drift", "r_light", "hysteresis"];
 const CHANNELS: [&str; 6] = ["Fz", "Fx", "Fy", "Pz", "Px", "Py"];
 
 /// Reason and remedy of a certificate that is not there.
-const NO_CERTIFICATE: &str =
-    "the recording has none; add --certificate CERTIFICATE.toml, or state `U` and `k`";
+fn without_certificate(reason: &str) -> String {
+    format!("{reason}; add --certificate CERTIFICATE.toml, or state `U` and `k`")
+}
 
 /// Measurand of a budget.
 pub(super) struct Channel {
@@ -55,7 +56,10 @@ impl Measured {
         for figure in RESIDUALS.into_iter().chain(SCORES) {
             measured.lacks(figure, "no result is given; add --results RESULT.json");
         }
-        measured.lacks("certificate", NO_CERTIFICATE);
+        measured.lacks(
+            "certificate",
+            &without_certificate("the recording has none"),
+        );
         measured
     }
 
@@ -105,23 +109,9 @@ impl Measured {
     /// Takes the certificate of the reference, if the result has one for the channel.
     fn add_certificate(&mut self, found: &Found, channel: &Channel) {
         let stated = &found.report.provenance.traceability;
-        let is_without = stated.iter().any(|of| {
-            let is_reference = of.instrument != Instrument::Sensor;
-            let measures = of.instrument.unit_of(&channel.name).is_some();
-            is_reference && measures && of.certificate.is_none()
-        });
-        let mut all = Certificate::of_references(stated, &channel.name, self.recorded_on);
-        match (all.next(), all.next()) {
-            (Some(_), None) if is_without => {
-                let reason = "some of the recordings have none; add --certificate CERTIFICATE.toml";
-                self.lacks("certificate", reason);
-            }
-            (Some(only), None) => self.take(|evidence| evidence.with_certificate(only)),
-            (Some(_), Some(_)) => {
-                let reason = "the recordings have several; add --certificate CERTIFICATE.toml";
-                self.lacks("certificate", reason);
-            }
-            (None, _) => self.lacks("certificate", NO_CERTIFICATE),
+        match reference_certificate(stated, &channel.name, self.recorded_on) {
+            Ok(only) => self.take(|evidence| evidence.with_certificate(only)),
+            Err(reason) => self.lacks("certificate", &without_certificate(reason)),
         }
     }
 

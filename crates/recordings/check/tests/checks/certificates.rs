@@ -100,3 +100,15 @@ fn a_certificate_of_the_sensor_bounds_no_labels() {
     let report = checked(&[0.0, 60.0], VALID_S, &of_sensor);
     assert!(codes(&report).is_empty(), "{:#?}", report.findings);
 }
+
+#[test]
+fn pages_on_rigs_and_imports_name_both_findings() {
+    for page in [
+        include_str!("../../../../../docs/rig.md"),
+        include_str!("../../../../../docs/your-recording.md"),
+    ] {
+        for code in ["TAC028", "TAC029"] {
+            assert!(page.contains(code), "{code}");
+        }
+    }
+}

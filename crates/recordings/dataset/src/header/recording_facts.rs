@@ -1,6 +1,7 @@
 //! Facts of a recording that are known before its first sample.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::time::Duration;
 
 use taceva_core::{Clock, Date, Traceability};
@@ -104,6 +105,28 @@ impl RecordingFacts {
             };
             let (name, before) = (shown(name), shown(before));
             Some(format!("the setting `{name}` is {found}, expected `{before}` as in the existing recording: restore it, or record into a new folder"))
+        })
+    }
+
+    /// Difference of the instruments in `now`, in words, for the begun recording at `path`. Earlier builds stored no instruments.
+    pub(crate) fn other_instrument(&self, now: &RecordingFacts, path: &Path) -> Option<String> {
+        if self.traceability.is_empty() || self.traceability == now.traceability {
+            return None;
+        }
+        let [before, now] = [self, now].map(|facts| {
+            let mut devices = facts.traceability.clone();
+            for of in &mut devices {
+                of.certificate = None;
+            }
+            devices
+        });
+        Some(match before == now {
+            true => format!(
+                "the existing recording has another certificate of an instrument, or none; end it as it is with `taceva capture {} --close`, or \
+                 record into a new folder",
+                taceva_core::shown(path)
+            ),
+            false => "the existing recording has another serial number or driver of an instrument; record into a new folder".to_owned(),
         })
     }
 }

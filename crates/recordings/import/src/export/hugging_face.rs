@@ -1,5 +1,6 @@
 //! Hugging Face dataset: Parquet with the pictures in the column `image`.
 
+use taceva_core::markdown;
 use taceva_tables::{ParquetWriter, WrittenColumn, WrittenKind, huggingface_features};
 
 use super::cells;
@@ -100,24 +101,26 @@ fn card_of(exported: &Exported<'_>, taxels: Option<&str>) -> String {
     let header = dataset.header();
     let mut card = format!(
         "# {}\n\nSamples: {}. Source: {:?}. Exported from the dataset {}.\n\n| column | unit |\n|---|---|\n",
-        header.sensor.model,
+        markdown(&header.sensor.model),
         dataset.table().rows(),
         header.source,
         dataset.digest()
     );
     for channel in dataset.table().channels() {
-        card += &format!("| {} | {} |\n", channel.name(), channel.unit().symbol());
+        let name = markdown(channel.name());
+        card += &format!("| {name} | {} |\n", channel.unit().symbol());
     }
     if let (Some(name), Some(signals)) = (taxels, &header.signals) {
         card += &format!("| {name} | {} |\n", signals.spec.info.unit.symbol());
-        let names: Vec<String> = signals.spec.column_names().collect();
+        let names = signals.spec.column_names();
+        let names: Vec<String> = names.map(|name| markdown(&name)).collect();
         card += &format!("\n`{name}` holds, in this order: {}.\n", names.join(", "));
     }
     if !header.traceability.is_empty() {
         card += "\nTraceability of the labels:\n";
     }
     for traced in &header.traceability {
-        card += &format!("- {traced}\n");
+        card += &format!("- {}\n", markdown(&traced.to_string()));
     }
     card
 }

@@ -110,6 +110,34 @@ fn rows_under_another_certificate_are_refused_with_the_option_that_adds_them() {
 }
 
 #[test]
+fn rows_under_a_changed_certificate_of_the_same_number_are_refused_with_both_values() {
+    let end = "in certificates of the same number `D-K-1`; add these rows with `--new-certificate`";
+    for (before, after, words) in [
+        (
+            "\"3.0 mN\"",
+            "\"4.0 mN\"",
+            "`force.certificate.U.Fz` is `0.003 N` in the dataset and `0.004 N` in the map",
+        ),
+        (
+            "k = 2.0\n",
+            "k = 2.0\nvalid_until = 2027-05-12\n",
+            "`force.certificate.valid_until` is absent in the dataset and `2027-05-12` in the map",
+        ),
+        (
+            "range = { Fz = [\"0.05 N\", \"50 N\"] }\n",
+            "",
+            "`force.certificate.range` is `{\"Fz\":[\"0.05 N\",\"50 N\"]}` in the dataset and absent in the map",
+        ),
+    ] {
+        let changed = certified().replace(before, after);
+        let problem = extended(&certified(), &changed, false).expect_err("refused");
+        assert!(problem.contains(&format!("{words}, {end}")), "{problem}");
+        let header = extended(&certified(), &changed, true).expect("added");
+        assert_eq!(numbers(&header), [Some("D-K-1"), Some("D-K-1")]);
+    }
+}
+
+#[test]
 fn rows_without_the_certificate_of_the_dataset_are_refused_and_named_if_they_are_added() {
     let none = format!("{COLUMNS}{NO_TIME}");
     let problem = extended(&certified(), &none, false).expect_err("refused");

@@ -103,7 +103,7 @@ impl BudgetText {
         if self.written.expression.is_none() {
             budget.missing = overlap::missing(&inputs, evidence);
             if evidence.certificate().is_none() {
-                budget.warn("not traceable: the recording has no certificate of its reference");
+                budget.warn("not traceable: the budget has no certificate of the reference");
             }
         }
         let expiry = evidence.certificate().and_then(|of| of.expiry());

@@ -13,7 +13,7 @@ use crate::markup::{glossary, terms};
 use crate::number::numeral;
 use crate::results::Study;
 use crate::short_digests::short_digests;
-use crate::table::{Column, Table};
+use crate::table::{Cell, Column, Table};
 use taceva_results::{SampleChannel, not_measured};
 
 /// Schema of an acceptance as JSON. 1.1: each finding states the better direction. 1.2: the number of trainings in its interval. 1.3: uncertainty,
@@ -75,6 +75,19 @@ impl Acceptance<'_> {
         }
         if let Some(words) = not_measured([self.study.source.as_str()]) {
             table.note(words);
+        }
+        table
+    }
+
+    /// Table for programs, which have no notes: with the rule of each limit in the last column, if limits are decided by rules.
+    pub fn numbers(&self) -> Table {
+        let mut table = self.table();
+        if self.limits.is_by_rules() {
+            table.columns.push(Column::new("rule"));
+            for (row, finding) in table.rows.iter_mut().zip(self.findings) {
+                let rule = finding.limit.decided_by.to_string();
+                row.cells.push(Cell::text(rule));
+            }
         }
         table
     }

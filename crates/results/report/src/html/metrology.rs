@@ -1,15 +1,15 @@
-//! Uncertainty of a reading of each measured sensor, by the residuals of its samples.
+//! Uncertainty of a reading of each measured or simulated sensor, by the residuals of its samples.
 
 use maud::{Markup, html};
 use taceva_core::{Unit, shown};
-use taceva_metrology::budget::{
-    Budget, BudgetText, Certificate, Components, Evidence, Figure, MonteCarlo,
-};
+use taceva_metrology::budget::{Budget, BudgetText, Components, Evidence, Figure, MonteCarlo};
 use taceva_results::Samples;
 
 use super::drawn;
-use crate::budget::{draw_contributions, residual_components};
+use crate::contributions;
 use crate::names::names;
+use crate::reference::reference_certificate;
+use crate::residuals::residual_components;
 use crate::results::Study;
 
 /// Part of the protocol whose residuals count, and the column of places.
@@ -40,7 +40,7 @@ pub(super) fn section(studies: &[Study]) -> Option<Markup> {
     (!entries.is_empty()).then_some(body)
 }
 
-/// True if the samples of a study are measured or simulated presses.
+/// True unless the samples of a study are synthetic or published.
 fn has_rows(study: &Study) -> bool {
     !["synthetic", "published"].contains(&study.source.as_str())
 }
@@ -52,7 +52,7 @@ fn entry(study: &Study, name: &str, number: usize) -> Markup {
             return html! { p { strong { (name) } ": no uncertainty budget (" (reason) ")." } "\n" };
         }
     };
-    let figure = draw_contributions(&budget, number).map(|mut figure| {
+    let figure = contributions::draw(&budget, number).map(|mut figure| {
         figure.title = format!("{name}: {}", figure.title);
         figure
     });
@@ -83,13 +83,26 @@ fn budget(study: &Study) -> Result<Budget, String> {
     let components = residual_components(samples, name, part, column);
     let components = components.map_err(|reason| format!("{}: {reason}", shown(name)))?;
     let at = middle(samples, name, part);
+    let day = study.stated("recorded_on").and_then(|day| day.parse().ok());
+    let certificate = reference_certificate(&study.references, name, day);
+    let text = BudgetText::parse(&channel.sources(at, certificate.is_ok()));
+    let without = certificate.as_ref().err().copied();
     let evidence = evidence(study, samples, name, components);
-    let text = BudgetText::parse(&channel.sources(at, evidence.certificate().is_some()));
+    let evidence = match certificate {
+        Ok(certificate) => evidence.with_certificate(certificate),
+        Err(_) => evidence,
+    };
     let budgets = text.and_then(|text| text.budgets(&evidence, None::<MonteCarlo>));
     // The text has no lines that a reader could find.
     let budgets = budgets.map_err(|error| format!("{}: {}", shown(name), error.problem))?;
     let first = budgets.into_iter().next();
-    first.ok_or_else(|| "its labels have no median".to_owned())
+    let mut first = first.ok_or_else(|| "its labels have no median".to_owned())?;
+    for of in &mut first.missing {
+        if let Some(reason) = without.filter(|_| of.source == "certificate") {
+            of.reason = format!("reference: {reason}");
+        }
+    }
+    Ok(first)
 }
 
 /// Channel of a budget.
@@ -158,7 +171,7 @@ fn middle(samples: &Samples, channel: &str, part: &str) -> f64 {
     format!("{median:.1e}").parse().unwrap_or(median)
 }
 
-/// Figures of the residuals and the certificate, and further measured figures, which the budget names as effects without a source.
+/// Figures of the residuals, and further measured figures, which the budget names as effects without a source.
 fn evidence(
     study: &Study,
     samples: &Samples,
@@ -179,10 +192,5 @@ fn evidence(
     {
         evidence = evidence.with("r_light", of_lights.between);
     }
-    let day = study.stated("recorded_on").and_then(|day| day.parse().ok());
-    let mut certificates = Certificate::of_references(&study.references, channel, day);
-    match (certificates.next(), certificates.next()) {
-        (Some(only), None) => evidence.with_certificate(only),
-        _ => evidence,
-    }
+    evidence
 }

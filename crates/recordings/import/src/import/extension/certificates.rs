@@ -1,6 +1,9 @@
 //! Certificates of a dataset and of the rows that are added to it.
 
-use taceva_core::{Instrument, Traceability, shown};
+use std::collections::BTreeSet;
+
+use serde_json::Value;
+use taceva_core::{Certificate, Instrument, Traceability, shown};
 use taceva_dataset::{Dataset, RecordingFacts};
 
 use super::Addition;
@@ -16,40 +19,80 @@ pub(super) fn check_certificates(
         return Ok(());
     }
     for instrument in Instrument::ALL {
-        let own = numbers(&before.header().traceability, instrument);
-        let new = numbers(&facts.traceability, instrument);
-        if new.iter().all(|number| own.contains(number)) {
+        let own = certificates(&before.header().traceability, instrument);
+        let new = certificates(&facts.traceability, instrument);
+        let Some(other) = new.iter().find(|certificate| !own.contains(certificate)) else {
             continue;
-        }
+        };
+        let key = format!("{instrument}.certificate");
+        let changed = other.and_then(|other| changed(&own, other, &key));
+        let problem = changed.unwrap_or_else(|| {
+            format!(
+                "`{key}` is {} in the dataset and {} in the map",
+                in_words(&own),
+                in_words(&new)
+            )
+        });
         return Err(ImportError::request(
             before.path(),
             format!(
-                "`{instrument}.certificate` is {} in the dataset and {} in the map; add these rows with `--new-certificate`, or import \
-                 them as a separate dataset",
-                in_words(&own),
-                in_words(&new)
+                "{problem}; add these rows with `--new-certificate`, or import them as a separate dataset"
             ),
         ));
     }
     Ok(())
 }
 
-/// Numbers of the certificates of `instrument`; `None` for labels without one.
-fn numbers(of: &[Traceability], instrument: Instrument) -> Vec<Option<&str>> {
+/// Certificates of `instrument`; `None` for labels without one.
+fn certificates(of: &[Traceability], instrument: Instrument) -> Vec<Option<&Certificate>> {
     let of = of.iter().filter(|of| of.instrument == instrument);
-    let certificates = of.map(|of| of.certificate.as_ref());
-    let numbers: Vec<Option<&str>> = certificates
-        .map(|certificate| certificate.map(|certificate| certificate.number.as_str()))
-        .collect();
-    match numbers.is_empty() {
+    let certificates: Vec<Option<&Certificate>> = of.map(|of| of.certificate.as_ref()).collect();
+    match certificates.is_empty() {
         true => vec![None],
-        false => numbers,
+        false => certificates,
     }
 }
 
-fn in_words(numbers: &[Option<&str>]) -> String {
-    let words = numbers.iter().map(|number| match number {
-        Some(number) => format!("`{}`", shown(*number)),
+/// Difference of `new` from the certificate of the same number in the dataset, if there is one.
+fn changed(own: &[Option<&Certificate>], new: &Certificate, key: &str) -> Option<String> {
+    let mut own = own.iter().flatten();
+    let before = own.find(|own| own.number == new.number)?;
+    let [before, after] = [*before, new].map(|certificate| serde_json::to_value(certificate).ok());
+    let difference = first_difference(&before?, &after?, key)?;
+    let number = shown(&new.number);
+    Some(format!(
+        "{difference} in the map, in certificates of the same number `{number}`"
+    ))
+}
+
+/// First key that differs, with both values.
+fn first_difference(before: &Value, after: &Value, key: &str) -> Option<String> {
+    if before == after {
+        return None;
+    }
+    if let (Value::Object(before), Value::Object(after)) = (before, after) {
+        let names: BTreeSet<&String> = before.keys().chain(after.keys()).collect();
+        return names.into_iter().find_map(|name| {
+            let [before, after] =
+                [before, after].map(|table| table.get(name).unwrap_or(&Value::Null));
+            first_difference(before, after, &format!("{key}.{name}"))
+        });
+    }
+    let [before, after] = [before, after].map(value_in_words);
+    Some(format!("`{key}` is {before} in the dataset and {after}"))
+}
+
+fn value_in_words(value: &Value) -> String {
+    match value {
+        Value::Null => "absent".to_owned(),
+        Value::String(text) => format!("`{}`", shown(text)),
+        other => format!("`{}`", shown(&other.to_string())),
+    }
+}
+
+fn in_words(certificates: &[Option<&Certificate>]) -> String {
+    let words = certificates.iter().map(|certificate| match certificate {
+        Some(certificate) => format!("`{}`", shown(&certificate.number)),
         None => "absent".to_owned(),
     });
     words.collect::<Vec<_>>().join(" and ")

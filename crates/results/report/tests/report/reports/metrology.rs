@@ -48,7 +48,7 @@ fn each_measured_sensor_has_a_budget_with_its_bars_and_uncovered_effects() {
         "within places",
         "<li>hysteresis: unloading: not in this recording</li>",
         "<li>r_light: other light: measured, but no source of the budget names it</li>",
-        "<li>certificate: reference: the recording has no certificate</li>",
+        "<li>certificate: reference: the recording has none</li>",
         "<code>taceva budget --template RESULT.json &gt; budget.toml</code>",
     ] {
         assert!(section.contains(part), "no {part} in {section}");
@@ -62,7 +62,31 @@ fn a_certificate_of_the_recording_is_a_source() {
     study.references = vec![certified()];
     let section = section(&[study]);
     assert!(section.contains("reference"), "{section}");
-    assert!(!section.contains("has no certificate"), "{section}");
+    assert!(!section.contains("<li>certificate: "), "{section}");
+}
+
+#[test]
+fn a_certificate_of_some_recordings_or_one_of_several_is_no_source() {
+    let mut other = certified();
+    let of_other = other.certificate.as_mut().expect("a certificate");
+    of_other.number = "D-K-2".to_owned();
+    for (second, reason) in [
+        (
+            Traceability::new(Instrument::Force),
+            "some of the recordings have none",
+        ),
+        (other, "the recordings have several"),
+    ] {
+        let mut study = recorded("one");
+        study.references = vec![certified(), second];
+        let section = section(&[study]);
+        let line = format!("<li>certificate: reference: {reason}</li>");
+        assert!(section.contains(&line), "{section}");
+        assert!(
+            section.contains("not traceable: the budget has no certificate of the reference"),
+            "{section}"
+        );
+    }
 }
 
 #[test]
