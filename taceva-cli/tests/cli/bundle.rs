@@ -290,11 +290,12 @@ fn tables_that_are_withheld_leave_the_claims_at_the_scores() {
 #[test]
 fn simulated_results_say_everywhere_that_nothing_was_measured() {
     let bench = bench();
-    let path = bench.path("result.json");
-    edit(&path, |text| {
-        text.replacen("\"source\": \"unknown\"", "\"source\": \"simulated\"", 1)
-    });
-    accept(&path);
+    for (name, space) in [("result.json", " "), ("result.state", "")] {
+        let path = bench.path(name);
+        let [old, new] = ["unknown", "simulated"].map(|own| format!("\"source\":{space}\"{own}\""));
+        edit(&path, |text| text.replacen(&old, &new, 1));
+        accept(&path);
+    }
     bench.ok(&format!("{BUNDLE} b"));
     let badge = "Nothing here was measured: the samples are simulated.";
     assert_eq!(manifest(&bench, "b")["badge"], badge);
@@ -307,6 +308,15 @@ fn simulated_results_say_everywhere_that_nothing_was_measured() {
     });
     let found = verified(&bench, "b", 3);
     assert_eq!(found["damage"][0]["path"], "bundle.json");
+    // Results that hide it too are not those of the state.
+    let results = bench.path("b/results.json");
+    edit(&results, |text| {
+        text.replacen("\"source\": \"simulated\"", "\"source\": \"recorded\"", 1)
+    });
+    accept(&results);
+    relist(&bench, "b", |manifest| manifest["taceva"] = "0.0.0".into());
+    let found = verified(&bench, "b", 1);
+    assert_eq!(found["others"][0]["part"], "subject", "{}", found["others"]);
 }
 
 #[test]

@@ -14,6 +14,7 @@ mod level;
 mod make;
 mod manifest;
 mod name;
+mod origin;
 mod recomputation;
 mod redaction;
 mod request;
