@@ -1,6 +1,7 @@
 //! Bundles of results: made, verified, forged, compared.
 
 mod forgery;
+mod hidden;
 mod inputs;
 
 use std::fs;

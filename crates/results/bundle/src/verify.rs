@@ -69,6 +69,7 @@ pub fn verify(request: &VerifyRequest) -> Result<Verification, BundleError> {
     let manifest = &sealed.manifest;
     found.bundle = Some(facts(&sealed));
     found.remarks.extend(manifest.badge.clone());
+    found.remarks.extend(unchecked(manifest));
     let damage = form::files(&source, manifest)?;
     if !damage.is_empty() {
         return Ok(found.damaged_at(Level::Files, damage));
@@ -185,6 +186,26 @@ fn add_levels(found: &mut Verification, checked: &Checked, most: Level) {
         };
         found.add_level(level, reason);
     }
+}
+
+/// Remarks on texts and digests that nothing in the bundle can check.
+fn unchecked(manifest: &Manifest) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let own = env!("CARGO_PKG_VERSION");
+    if manifest.taceva != own {
+        remarks.push(format!(
+            "README.md, CITATION.cff and LICENSE were not compared: TacEva {} is said to have written them, and this is {own}.",
+            manifest.taceva
+        ));
+    }
+    let mut studies = manifest.studies.iter();
+    if !manifest.withheld.is_empty() && studies.any(|files| form::sample_table(files).is_none()) {
+        remarks.push(
+            "The digest of the samples was not computed again: their tables are withheld."
+                .to_owned(),
+        );
+    }
+    remarks
 }
 
 /// First file behind a study that is too long to read.
