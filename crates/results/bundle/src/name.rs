@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{counted, is_obeyed};
+use taceva_core::counted;
 
 use crate::error::{BundleError, Damage};
 use crate::layout::{MOST_FILES, MOST_NAME, MOST_PARTS};
@@ -18,17 +18,22 @@ pub(crate) fn fault(name: &str) -> Option<String> {
             name.len()
         ));
     }
-    if name
-        .chars()
-        .any(|letter| is_obeyed(letter) || "\\:".contains(letter))
-    {
-        return Some("a name with control characters, `\\` or `:`, expected none".to_owned());
+    let is_plain = |letter: char| letter.is_ascii_graphic() && !"\\:*?\"<>|".contains(letter);
+    if let Some(letter) = name.chars().find(|letter| !is_plain(*letter)) {
+        return Some(format!(
+            "the character U+{:04X}, which not every system keeps in a name; expected ASCII without spaces and `\\:*?\"<>|`",
+            u32::from(letter)
+        ));
     }
     let parts: Vec<&str> = name.split('/').collect();
     if parts.iter().any(|part| ["", ".", ".."].contains(part)) {
         return Some(
             "a path that leads out of the bundle, expected one below it, without `..`".to_owned(),
         );
+    }
+    // Windows drops such a dot, so two names would be one.
+    if parts.iter().any(|part| part.ends_with('.')) {
+        return Some("a part that ends in a dot, expected none".to_owned());
     }
     (parts.len() > MOST_PARTS).then(|| {
         format!(
@@ -69,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_that_leads_out_of_the_bundle_is_refused() {
+    fn a_name_that_leads_out_of_the_bundle_or_is_read_in_two_ways_is_refused() {
         for name in [
             "../x",
             "a/../x",
@@ -80,11 +85,18 @@ mod tests {
             "a\\x",
             "c:x",
             "a\u{202e}x",
+            "caf\u{e9}",
+            "cafe\u{301}",
+            "\u{fffd}",
+            "a b",
+            "a.",
         ] {
             assert!(fault(name).is_some(), "{name:?}");
         }
         assert!(fault(&"x".repeat(256)).is_some());
         assert!(fault(&["x"; 9].join("/")).is_some());
-        assert_eq!(fault("states/0.json"), None);
+        for name in ["states/0.json", ".eval_results/taceva.yaml"] {
+            assert_eq!(fault(name), None);
+        }
     }
 }

@@ -47,13 +47,10 @@ fn drop_state(bench: &Bench) {
 fn claims_that_are_left_out_repeated_or_of_other_files_are_damage() {
     let bench = made();
     let whole = manifest(&bench, "b");
-    for (words, change) in [
-        (
-            "is not claimed",
-            (|manifest| {
-                manifest["claims"].as_array_mut().expect("claims").pop();
-            }) as fn(&mut Value),
-        ),
+    let cases: [(&str, fn(&mut Value)); 4] = [
+        ("is not claimed", |manifest| {
+            manifest["claims"].as_array_mut().expect("claims").pop();
+        }),
         ("is claimed twice", |manifest| {
             let claims = manifest["claims"].as_array_mut().expect("claims");
             claims.push(claims[0].clone());
@@ -63,9 +60,10 @@ fn claims_that_are_left_out_repeated_or_of_other_files_are_damage() {
         }),
         ("it is named twice in `studies`", |manifest| {
             manifest["studies"][0]["states"] =
-                vec![Value::from("states/0.json"), "states/0.json".into()].into();
+                serde_json::json!(["states/0.json", "states/0.json"]);
         }),
-    ] {
+    ];
+    for (words, change) in cases {
         relist(&bench, "b", |manifest| {
             manifest.clone_from(&whole);
             change(manifest);
