@@ -116,6 +116,9 @@ fn the_same_inputs_give_the_same_bytes_and_an_existing_bundle_stays() {
         3,
         "no bundle, which is not replaced",
     );
+    bench.write("mine/bundle.json", "{}");
+    let words = format!("{BUNDLE} mine --force");
+    bench.refused(&words, 3, "`notes`, which no bundle writes");
     assert_eq!(read("mine/notes"), b"mine");
 }
 

@@ -11,8 +11,10 @@ use crate::claim_list;
 use crate::environment::{ENVIRONMENT_SCHEMA, Environment};
 use crate::error::{BundleError, Damage};
 use crate::header;
-use crate::layout::{ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES};
-use crate::manifest::{BundledFile, Manifest, StudyFiles, badge_of, source_of};
+use crate::layout::{
+    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES, is_header,
+};
+use crate::manifest::{Manifest, StudyFiles, badge_of, source_of};
 use crate::name;
 use crate::sample_digest::{SAMPLES_SCHEMA, SampleDigest, StudySamples};
 use crate::source::Source;
@@ -106,7 +108,11 @@ pub(crate) fn form(
     damage.extend(environment(source).err());
     damage.extend(samples(source, manifest, reports, jobs)?);
     let known = header::known(reports);
-    let headers = manifest.files.iter().filter(|file| is_header(file));
+    // A header keeps its name, whatever its role.
+    let headers = manifest
+        .files
+        .iter()
+        .filter(|file| file.role == HEADER_ROLE || is_header(&file.path));
     damage.extend(headers.filter_map(|file| dataset_header(source, &file.path, &known).err()));
     // Another version may write these texts in other words.
     if manifest.taceva == env!("CARGO_PKG_VERSION") {
@@ -223,12 +229,6 @@ fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
             problem,
         )
     })
-}
-
-/// True for the header of a dataset, by its role or its name.
-fn is_header(file: &BundledFile) -> bool {
-    let is_named = file.path.starts_with("dataset") && file.path.ends_with(".toml");
-    file.role == HEADER_ROLE || is_named
 }
 
 /// Fault of the header of a dataset.
