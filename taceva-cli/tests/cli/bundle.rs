@@ -54,7 +54,9 @@ fn score(bench: &Bench, prediction: &str, name: &str) {
 fn verified(bench: &Bench, words: &str, code: i32) -> Value {
     let ran = bench.run(&format!("bundle verify {words} --format json -q"));
     assert_eq!(ran.code, code, "{words}\n{}{}", ran.out, ran.err);
-    serde_json::from_str(&ran.out).expect("JSON")
+    let found = serde_json::from_str(&ran.out).expect("JSON");
+    crate::schema::check("bundle-verification", &found);
+    found
 }
 
 /// Claims of a verification with this verdict.
@@ -72,6 +74,9 @@ fn every_claim_of_scored_tables_is_computed_again_from_folder_and_file() {
     for place in ["b", "b.tar.gz"] {
         let said = bench.ok(&format!("{BUNDLE} {place}"));
         assert!(said.contains("level    predictions: "), "{said}");
+        if place == "b" {
+            crate::schema::check("bundle", &manifest(&bench, place));
+        }
         let found = verified(&bench, place, 0);
         assert_eq!(found["schema"], "taceva.verification/1");
         let claims = found["claims"].as_array().expect("claims");
@@ -355,6 +360,7 @@ fn two_bundles_are_compared_by_claims_and_samples() {
     score(&bench, "better.csv", "better");
     bench.ok("bundle better.json --state better.state --truth truth.csv --pred better.csv --draft --date 2026-11-28 -q --out two");
     let found = bench.json("bundle diff one two");
+    crate::schema::check("bundle-comparison", &found);
     assert_eq!(found["has_same_samples"], true);
     assert!(
         found["claims"]
