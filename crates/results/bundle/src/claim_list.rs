@@ -6,7 +6,6 @@ use taceva_results::EvaluationReport;
 
 use crate::claim::{Claim, claims};
 use crate::error::Damage;
-use crate::form::names;
 use crate::layout::MANIFEST;
 use crate::manifest::Manifest;
 
@@ -25,7 +24,7 @@ pub(crate) fn fault(manifest: &Manifest, reports: &[EvaluationReport]) -> Option
             return damage(format!("{} is claimed twice", named(claim)));
         }
         let files = manifest.studies.get(claim.study);
-        if !files.is_some_and(|files| names(files).eq(&claim.from)) {
+        if !files.is_some_and(|files| files.names().eq(&claim.from)) {
             return damage(format!(
                 "{} names other files in `from` than its study",
                 named(claim)

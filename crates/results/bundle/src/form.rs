@@ -156,12 +156,14 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
     let mut behind = BTreeSet::new();
     for (files, report) in manifest.studies.iter().zip(reports) {
         // A state that counts twice halves intervals, and one file behind many studies is read as often.
-        if let Some(name) = names(files).find(|name| !behind.insert(name.as_str())) {
+        if let Some(name) = files.names().find(|name| !behind.insert(name.as_str())) {
             let rule = "a file is behind one study, once";
             damage.push(Damage::new(name, rule, "it is named twice in `studies`"));
             continue;
         }
-        let unlisted = names(files).find(|name| !source.files().contains_key(*name));
+        let unlisted = files
+            .names()
+            .find(|name| !source.files().contains_key(*name));
         if let Some(name) = unlisted {
             damage.push(Damage::new(name, rule, "it is missing"));
             continue;
@@ -203,13 +205,6 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
         ));
     }
     damage
-}
-
-/// Names of the files behind a study.
-pub(crate) fn names(files: &StudyFiles) -> impl Iterator<Item = &String> {
-    let tables = files.tables.iter();
-    let tables = tables.flat_map(|tables| [&tables.truth, &tables.prediction]);
-    files.states.iter().chain(tables).chain(&files.samples)
 }
 
 /// A manifest that states another origin than the results.

@@ -14,7 +14,6 @@ use crate::card;
 use crate::claim::{claims, words};
 use crate::environment::Environment;
 use crate::error::BundleError;
-use crate::form::names;
 use crate::inputs::{Inputs, StudyInputs};
 use crate::layout::{
     ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_TABLE, MOST_TEXT, RESULTS, SAMPLES, is_own,
@@ -129,7 +128,7 @@ fn write(inputs: &Inputs, request: &BundleRequest, root: &Path) -> Result<MadeBu
     }
     let mut all_claims = Vec::new();
     for (number, (report, files)) in inputs.reports.iter().zip(&studies).enumerate() {
-        let from: Vec<String> = names(files).cloned().collect();
+        let from: Vec<String> = files.names().cloned().collect();
         all_claims.extend(claims(number, report, &from));
     }
     let mut manifest = Manifest {

@@ -83,6 +83,15 @@ pub struct StudyFiles {
     pub samples: Option<String>,
 }
 
+impl StudyFiles {
+    /// Names of all files.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &String> {
+        let tables = self.tables.iter();
+        let tables = tables.flat_map(|tables| [&tables.truth, &tables.prediction]);
+        self.states.iter().chain(tables).chain(&self.samples)
+    }
+}
+
 /// Two tables that were scored.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]

@@ -10,7 +10,7 @@ use crate::error::{BundleError, Damage};
 use crate::form;
 use crate::layout::{MANIFEST, MOST_BYTES, MOST_TABLE, MOST_TEXT};
 use crate::level::Level;
-use crate::manifest::{Manifest, SealedManifest};
+use crate::manifest::{Manifest, SealedManifest, StudyFiles};
 use crate::recomputation::Recomputation;
 use crate::source::Source;
 use crate::study_check::StudyCheck;
@@ -210,7 +210,7 @@ fn unchecked(manifest: &Manifest) -> Vec<String> {
 
 /// First file behind a study that is too long to read.
 fn too_long(source: &Source, manifest: &Manifest) -> Option<Damage> {
-    let names = manifest.studies.iter().flat_map(form::names);
+    let names = manifest.studies.iter().flat_map(StudyFiles::names);
     names
         .filter(|name| source.files().contains_key(*name))
         .find_map(|name| source.size(name, MOST_TABLE).err())
