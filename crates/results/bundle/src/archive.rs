@@ -48,12 +48,13 @@ pub(crate) fn pack(root: &Path, names: &[String], path: &Path) -> io::Result<()>
 /// [`BundleError::Damaged`] for the first entry that is refused: a link, a device, a name that leads out or comes twice; for too many files
 /// or bytes, and for a file that is no `.tar.gz`.
 pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleError> {
-    let file = File::open(path).map_err(BundleError::file(path))?;
-    let about = file.metadata().map_err(BundleError::file(path))?;
+    // A pipe would be waited for if it was opened.
+    let about = fs::metadata(path).map_err(BundleError::file(path))?;
     if !about.is_file() {
         let problem = "no regular file, expected a folder or a .tar.gz";
         return Err(damaged(".", problem));
     }
+    let file = File::open(path).map_err(BundleError::file(path))?;
     let allowed = about
         .len()
         .saturating_mul(GROWTH)

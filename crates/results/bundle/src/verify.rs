@@ -82,6 +82,12 @@ pub fn verify(request: &VerifyRequest) -> Result<Verification, BundleError> {
         Ok(reports) => reports,
         Err(damage) => return Ok(found.damaged_at(Level::Form, vec![damage])),
     };
+    for report in &reports {
+        let edits = report.provenance.edits.iter();
+        found
+            .remarks
+            .extend(edits.map(|edit| format!("Edited: {edit}.")));
+    }
     let damage = match too_long(&source, manifest) {
         Some(damage) => vec![damage],
         None => form::form(&source, manifest, &reports, request.jobs)?,

@@ -173,4 +173,16 @@ fn inputs_and_settings_that_the_results_rename_differ_from_the_state() {
         .filter_map(|other| other["part"].as_str())
         .collect();
     assert_eq!(parts, ["subject", "tables"]);
+    let remarks = found["remarks"].to_string();
+    assert!(remarks.contains("Edited: results, "), "{remarks}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_no_bundle_and_is_not_waited_for() {
+    let bench = Bench::new();
+    assert_eq!(bench.shell("mkfifo pipe.tar.gz").code, 0);
+    let found = verified(&bench, "pipe.tar.gz", 3);
+    let problem = found["damage"][0]["problem"].as_str().expect("words");
+    assert!(problem.contains("no regular file"), "{problem}");
 }
