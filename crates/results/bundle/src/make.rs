@@ -83,7 +83,9 @@ fn check_replaceable(out: &Path) -> Result<(), BundleError> {
     if !out.join(MANIFEST).is_file() {
         return refused("a folder that is no bundle");
     }
-    let source = Source::open(out, u64::MAX)?;
+    let Ok(source) = Source::open(out, u64::MAX) else {
+        return refused("a folder with links, or with names that no bundle writes");
+    };
     match source.files().keys().find(|name| !is_own(name)) {
         Some(name) => refused(&format!("a folder with `{name}`, which no bundle writes")),
         None => Ok(()),
