@@ -31,6 +31,8 @@ pub(crate) const TEXTS: [&str; 5] = [
 pub(crate) const MOST_FILES: usize = 4096;
 /// Most bytes of all files, unless the caller sets another limit.
 pub const MOST_BYTES: u64 = 2 << 30;
+/// Most bytes of the manifest.
+pub(crate) const MOST_MANIFEST: u64 = 8 << 20;
 /// Most bytes of a text: JSON, TOML or Markdown.
 pub(crate) const MOST_TEXT: u64 = 24 << 20;
 /// Most bytes of a table.

@@ -16,7 +16,8 @@ use crate::environment::Environment;
 use crate::error::BundleError;
 use crate::inputs::{Inputs, StudyInputs};
 use crate::layout::{
-    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_TABLE, MOST_TEXT, RESULTS, SAMPLES, is_own,
+    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_MANIFEST, MOST_TABLE, MOST_TEXT, RESULTS,
+    SAMPLES, is_own,
 };
 use crate::manifest::{
     BUNDLE_SCHEMA, BundledFile, Manifest, StudyFiles, TableFiles, Withheld, badge_of, source_of,
@@ -159,6 +160,16 @@ fn write(inputs: &Inputs, request: &BundleRequest, root: &Path) -> Result<MadeBu
         .files
         .sort_by(|one, other| one.path.cmp(&other.path));
     let text = manifest.sealed()?;
+    let scores = inputs.reports.iter().map(|report| report.scores.len());
+    let numbers = scores.sum::<usize>().max(manifest.claims.len());
+    if numbers > MOST_CLAIMS || text.len() as u64 > MOST_MANIFEST {
+        let problem = format!(
+            "{} in a manifest of {} bytes, expected at most {MOST_CLAIMS} in {MOST_MANIFEST}; bundle the result of one study",
+            counted(numbers as u64, "number"),
+            text.len()
+        );
+        return Err(BundleError::input(&inputs.path, problem));
+    }
     writer.add(MANIFEST, "manifest", text.as_bytes())?;
     writer.sync()?;
     Ok(MadeBundle {

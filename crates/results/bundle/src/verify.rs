@@ -8,7 +8,7 @@ use taceva_results::EvaluationReport;
 
 use crate::error::{BundleError, Damage};
 use crate::form;
-use crate::layout::{MANIFEST, MOST_BYTES, MOST_TABLE, MOST_TEXT};
+use crate::layout::{MANIFEST, MOST_BYTES, MOST_MANIFEST, MOST_TABLE};
 use crate::level::Level;
 use crate::manifest::{Manifest, SealedManifest, StudyFiles};
 use crate::recomputation::Recomputation;
@@ -60,7 +60,7 @@ pub fn verify(request: &VerifyRequest) -> Result<Verification, BundleError> {
         Err(error) => return Err(error),
     };
     let read = source
-        .text(MANIFEST, MOST_TEXT)
+        .text(MANIFEST, MOST_MANIFEST)
         .and_then(|text| Manifest::parse(&text));
     let sealed = match read {
         Ok(sealed) => sealed,
@@ -243,7 +243,7 @@ fn facts(sealed: &SealedManifest) -> BundleFacts {
 pub(crate) fn open_manifest(path: &Path) -> Result<(BundleFacts, Manifest), BundleError> {
     let source = Source::open(path, MOST_BYTES)?;
     let text = source
-        .text(MANIFEST, MOST_TEXT)
+        .text(MANIFEST, MOST_MANIFEST)
         .map_err(BundleError::Damaged)?;
     let sealed = Manifest::parse(&text).map_err(BundleError::Damaged)?;
     Ok((facts(&sealed), sealed.manifest))

@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::forgery::{accept, manifest, relist};
+use super::forgery::{accept, edit, manifest, relist};
 use super::{BUNDLE, bench, of_verdict, verified};
 use crate::support::Bench;
 
@@ -72,6 +72,18 @@ fn claims_that_are_left_out_repeated_or_of_other_files_are_damage() {
         let problem = found["damage"][0]["problem"].as_str().expect("words");
         assert!(problem.contains(words), "{problem}");
     }
+}
+
+#[test]
+fn a_byte_inside_the_seal_of_the_manifest_is_damage_too() {
+    let bench = made();
+    let path = bench.path("b/bundle.json");
+    edit(&path, |text| {
+        text.replacen("\"keys\": \"", "\"keys\": \"x", 1)
+    });
+    let found = verified(&bench, "b", 3);
+    let problem = found["damage"][0]["problem"].as_str().expect("words");
+    assert!(problem.contains("other keys than its content"), "{problem}");
 }
 
 #[test]
