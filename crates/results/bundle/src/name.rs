@@ -56,14 +56,19 @@ pub(crate) fn check_amount(files: usize, bytes: u64, most: u64) -> Result<(), Bu
     Ok(())
 }
 
-/// Rejects two names that are equal but for case, which some file systems cannot hold.
+/// Rejects two names, of files or folders, that are equal but for case, which some file systems cannot hold.
 pub(crate) fn check_case<'a>(names: impl Iterator<Item = &'a String>) -> Result<(), BundleError> {
-    let mut known: BTreeMap<String, &String> = BTreeMap::new();
+    let mut known: BTreeMap<String, &str> = BTreeMap::new();
     for name in names {
-        if let Some(other) = known.insert(name.to_lowercase(), name) {
-            let problem = format!("equal to `{other}` but for case");
-            let rule = "names differ in more than case";
-            return Err(BundleError::Damaged(Damage::new(name, rule, problem)));
+        let folders = name.match_indices('/').map(|(at, _)| at);
+        for end in folders.chain([name.len()]) {
+            let own = &name[..end];
+            let other = known.insert(own.to_lowercase(), own);
+            if let Some(other) = other.filter(|other| *other != own) {
+                let problem = format!("equal to `{other}` but for case");
+                let rule = "names differ in more than case";
+                return Err(BundleError::Damaged(Damage::new(own, rule, problem)));
+            }
         }
     }
     Ok(())

@@ -143,6 +143,7 @@ fn names_that_come_twice_or_differ_in_case_alone_are_refused() {
         &[plain("a.json", b"1"), plain("A.json", b"2")],
         "but for case",
     );
+    refused(&[plain("a/1", b"1"), plain("A/2", b"2")], "but for case");
 }
 
 #[test]
