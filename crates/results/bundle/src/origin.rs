@@ -21,7 +21,7 @@ pub(crate) fn differences(
         found.push(("subject", format!("{own}; the state has {other}")));
     }
     let (own, other) = (&report.provenance, &state.provenance);
-    let other_than = |part| format!("results.json has another {part} than the state");
+    let other_than = |part: &str| format!("results.json has another {part} than the state");
     for (part, is_same) in [
         ("dataset", own.dataset == other.dataset),
         ("tables", own.tables == other.tables),
