@@ -87,6 +87,18 @@ fn a_byte_inside_the_seal_of_the_manifest_is_damage_too() {
 }
 
 #[test]
+fn control_characters_of_a_bundle_reach_no_terminal() {
+    let bench = made();
+    edit(&bench.path("b/environment.json"), |text| {
+        text.replacen("taceva.environment/1", "x\\u001b[2J", 1)
+    });
+    relist(&bench, "b", |_| {});
+    let ran = bench.run("bundle verify b");
+    assert_eq!(ran.code, 3, "{}{}", ran.out, ran.err);
+    assert!(ran.out.contains("schema `x\\u{1b}[2J`"), "{}", ran.out);
+}
+
+#[test]
 fn a_claim_that_states_a_level_without_its_files_is_not_verified() {
     let bench = made();
     drop_state(&bench);
