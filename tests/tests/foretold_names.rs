@@ -17,7 +17,7 @@ const SOME: usize = 8;
 const MOST: usize = 24;
 
 /// Commands, each in a folder `work` in which only they create names. Inputs are in `given` beside it.
-const COMMANDS: [(&str, &str); 29] = [
+const COMMANDS: [(&str, &str); 31] = [
     (
         "import",
         "import ../given/lab --map ../given/map.toml --out set",
@@ -91,6 +91,14 @@ const COMMANDS: [(&str, &str); 29] = [
     (
         "budget",
         "budget ../given/budget.toml --mc 0 --format csv --out budget.csv --html budget.html",
+    ),
+    (
+        "bundle",
+        "bundle ../given/ridge.json --state ../given/ridge.state --draft --out bundle",
+    ),
+    (
+        "packed bundle",
+        "bundle ../given/ridge.json --state ../given/ridge.state --draft --out bundle.tar.gz",
     ),
     ("catalogue site", "catalogue site --out pages"),
     (

@@ -169,10 +169,11 @@ pub(crate) fn comparison(
         )?;
     }
     for own in &found.claims {
-        let [one, other] = own.values.map(|value| match value {
-            Some(value) => value.to_string(),
-            None => "none".to_owned(),
-        });
+        let words = |at: usize| match (own.values[at], own.n[at]) {
+            (Some(value), Some(n)) => format!("{value} (n = {n})"),
+            _ => "none".to_owned(),
+        };
+        let [one, other] = [0, 1].map(words);
         writeln!(
             out,
             "claim  study {}, {}: {one} and {other}",

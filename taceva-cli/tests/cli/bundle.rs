@@ -1,6 +1,7 @@
 //! Bundles of results: made, verified, forged, compared.
 
 mod forgery;
+mod hidden;
 mod inputs;
 
 use std::fs;
@@ -53,7 +54,9 @@ fn score(bench: &Bench, prediction: &str, name: &str) {
 fn verified(bench: &Bench, words: &str, code: i32) -> Value {
     let ran = bench.run(&format!("bundle verify {words} --format json -q"));
     assert_eq!(ran.code, code, "{words}\n{}{}", ran.out, ran.err);
-    serde_json::from_str(&ran.out).expect("JSON")
+    let found = serde_json::from_str(&ran.out).expect("JSON");
+    crate::schema::check("bundle-verification", &found);
+    found
 }
 
 /// Claims of a verification with this verdict.
@@ -71,6 +74,9 @@ fn every_claim_of_scored_tables_is_computed_again_from_folder_and_file() {
     for place in ["b", "b.tar.gz"] {
         let said = bench.ok(&format!("{BUNDLE} {place}"));
         assert!(said.contains("level    predictions: "), "{said}");
+        if place == "b" {
+            crate::schema::check("bundle", &manifest(&bench, place));
+        }
         let found = verified(&bench, place, 0);
         assert_eq!(found["schema"], "taceva.verification/1");
         let claims = found["claims"].as_array().expect("claims");
@@ -115,6 +121,9 @@ fn the_same_inputs_give_the_same_bytes_and_an_existing_bundle_stays() {
         3,
         "no bundle, which is not replaced",
     );
+    bench.write("mine/bundle.json", "{}");
+    let words = format!("{BUNDLE} mine --force");
+    bench.refused(&words, 3, "`notes`, which no bundle writes");
     assert_eq!(read("mine/notes"), b"mine");
 }
 
@@ -290,11 +299,12 @@ fn tables_that_are_withheld_leave_the_claims_at_the_scores() {
 #[test]
 fn simulated_results_say_everywhere_that_nothing_was_measured() {
     let bench = bench();
-    let path = bench.path("result.json");
-    edit(&path, |text| {
-        text.replacen("\"source\": \"unknown\"", "\"source\": \"simulated\"", 1)
-    });
-    accept(&path);
+    for (name, space) in [("result.json", " "), ("result.state", "")] {
+        let path = bench.path(name);
+        let [old, new] = ["unknown", "simulated"].map(|own| format!("\"source\":{space}\"{own}\""));
+        edit(&path, |text| text.replacen(&old, &new, 1));
+        accept(&path);
+    }
     bench.ok(&format!("{BUNDLE} b"));
     let badge = "Nothing here was measured: the samples are simulated.";
     assert_eq!(manifest(&bench, "b")["badge"], badge);
@@ -307,6 +317,15 @@ fn simulated_results_say_everywhere_that_nothing_was_measured() {
     });
     let found = verified(&bench, "b", 3);
     assert_eq!(found["damage"][0]["path"], "bundle.json");
+    // Results that hide it too are not those of the state.
+    let results = bench.path("b/results.json");
+    edit(&results, |text| {
+        text.replacen("\"source\": \"simulated\"", "\"source\": \"recorded\"", 1)
+    });
+    accept(&results);
+    relist(&bench, "b", |manifest| manifest["taceva"] = "0.0.0".into());
+    let found = verified(&bench, "b", 1);
+    assert_eq!(found["others"][0]["part"], "subject", "{}", found["others"]);
 }
 
 #[test]
@@ -341,6 +360,7 @@ fn two_bundles_are_compared_by_claims_and_samples() {
     score(&bench, "better.csv", "better");
     bench.ok("bundle better.json --state better.state --truth truth.csv --pred better.csv --draft --date 2026-11-28 -q --out two");
     let found = bench.json("bundle diff one two");
+    crate::schema::check("bundle-comparison", &found);
     assert_eq!(found["has_same_samples"], true);
     assert!(
         found["claims"]

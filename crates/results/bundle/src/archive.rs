@@ -48,12 +48,13 @@ pub(crate) fn pack(root: &Path, names: &[String], path: &Path) -> io::Result<()>
 /// [`BundleError::Damaged`] for the first entry that is refused: a link, a device, a name that leads out or comes twice; for too many files
 /// or bytes, and for a file that is no `.tar.gz`.
 pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleError> {
-    let file = File::open(path).map_err(BundleError::file(path))?;
-    let about = file.metadata().map_err(BundleError::file(path))?;
+    // A pipe would be waited for if it was opened.
+    let about = fs::metadata(path).map_err(BundleError::file(path))?;
     if !about.is_file() {
         let problem = "no regular file, expected a folder or a .tar.gz";
         return Err(damaged(".", problem));
     }
+    let file = File::open(path).map_err(BundleError::file(path))?;
     let allowed = about
         .len()
         .saturating_mul(GROWTH)
@@ -112,6 +113,11 @@ fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<()
             {
                 return Err(damaged(folder, &fault).into());
             }
+            let size = entry.header().size()?;
+            if size > 0 {
+                let problem = format!("a folder with {size} bytes of content, expected none");
+                return Err(damaged(folder, &problem).into());
+            }
             continue;
         }
         if let Some(fault) = name::fault(own) {
@@ -133,7 +139,12 @@ fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<()
         check_amount(names.len(), total, most)?;
         let path = into.join(own);
         if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder).map_err(BundleError::file(folder))?;
+            match fs::create_dir_all(folder) {
+                Err(error) if is_taken(&error) => {
+                    return Err(damaged(own, "a file has the name of its folder").into());
+                }
+                made => made.map_err(BundleError::file(folder))?,
+            }
         }
         let created = OpenOptions::new().write(true).create_new(true).open(&path);
         let mut file = match created {
@@ -148,9 +159,32 @@ fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<()
         }
     }
     check_case(names.iter())?;
-    // The checksum of the packed bytes follows their end.
-    io::copy(&mut archive.into_inner(), &mut io::sink())?;
+    // The checksum of the packed bytes follows their end. Other programs read files behind it.
+    if has_more(archive.into_inner())? {
+        return Err(damaged(
+            ".",
+            "bytes after the end of the archive, expected zeros alone",
+        )
+        .into());
+    }
     Ok(())
+}
+
+/// True if anything but zeros is left in `rest`, which is read to its end.
+fn has_more(mut rest: impl Read) -> io::Result<bool> {
+    let (mut block, mut has_more) = (vec![0; 1 << 16], false);
+    loop {
+        match rest.read(&mut block)? {
+            0 => return Ok(has_more),
+            read => has_more |= block[..read].iter().any(|byte| *byte != 0),
+        }
+    }
+}
+
+/// True if a folder cannot be made because a file has its name.
+fn is_taken(error: &io::Error) -> bool {
+    let kind = error.kind();
+    kind == io::ErrorKind::AlreadyExists || kind == io::ErrorKind::NotADirectory
 }
 
 fn damaged(path: &str, problem: &str) -> BundleError {

@@ -43,6 +43,8 @@ pub struct ClaimDifference {
     pub values: [Option<f64>; 2],
     /// Interval of each bundle.
     pub ci95: [Option<[f64; 2]>; 2],
+    /// Number of samples of each bundle.
+    pub n: [Option<u64>; 2],
 }
 
 /// Claim whose definitions differ.
@@ -103,6 +105,7 @@ pub fn compare(one: &Path, other: &Path) -> Result<BundleComparison, BundleError
             claim,
             values: pair.map(|own| own.map(|own| own.value)),
             ci95: pair.map(|own| own.and_then(|own| own.ci95)),
+            n: pair.map(|own| own.map(|own| own.n)),
         });
     }
     Ok(found)

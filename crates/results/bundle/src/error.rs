@@ -46,7 +46,7 @@ pub enum BundleError {
 
 /// Finding that makes a bundle unusable.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, thiserror::Error)]
-#[error("{}: {problem}", shown(path))]
+#[error("{}: {}", shown(path), shown(problem))]
 #[non_exhaustive]
 pub struct Damage {
     /// File in the bundle, or the bundle itself.

@@ -7,9 +7,13 @@ use taceva_evaluate::StateFile;
 use taceva_results::EvaluationReport;
 
 use crate::card;
+use crate::claim_list;
 use crate::environment::{ENVIRONMENT_SCHEMA, Environment};
 use crate::error::{BundleError, Damage};
-use crate::layout::{ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES};
+use crate::header;
+use crate::layout::{
+    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES, is_header,
+};
 use crate::manifest::{Manifest, StudyFiles, badge_of, source_of};
 use crate::name;
 use crate::sample_digest::{SAMPLES_SCHEMA, SampleDigest, StudySamples};
@@ -95,16 +99,21 @@ pub(crate) fn form(
     let mut damage = Vec::new();
     damage.extend(studies(source, manifest, reports));
     damage.extend(origin(manifest, reports));
+    if damage.is_empty() {
+        damage.extend(claim_list::fault(manifest, reports));
+    }
     if !damage.is_empty() {
         return Ok(damage);
     }
     damage.extend(environment(source).err());
     damage.extend(samples(source, manifest, reports, jobs)?);
+    let known = header::known(reports);
+    // A header keeps its name, whatever its role.
     let headers = manifest
         .files
         .iter()
-        .filter(|file| file.role == HEADER_ROLE);
-    damage.extend(headers.filter_map(|file| header(source, &file.path).err()));
+        .filter(|file| file.role == HEADER_ROLE || is_header(&file.path));
+    damage.extend(headers.filter_map(|file| dataset_header(source, &file.path, &known).err()));
     // Another version may write these texts in other words.
     if manifest.taceva == env!("CARGO_PKG_VERSION") {
         let mut restored = manifest.clone();
@@ -144,8 +153,17 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
         return vec![Damage::new(MANIFEST, rule, problem)];
     }
     let mut damage = Vec::new();
+    let mut behind = BTreeSet::new();
     for (files, report) in manifest.studies.iter().zip(reports) {
-        let unlisted = names(files).find(|name| !source.files().contains_key(*name));
+        // A state that counts twice halves intervals, and one file behind many studies is read as often.
+        if let Some(name) = files.names().find(|name| !behind.insert(name.as_str())) {
+            let rule = "a file is behind one study, once";
+            damage.push(Damage::new(name, rule, "it is named twice in `studies`"));
+            continue;
+        }
+        let unlisted = files
+            .names()
+            .find(|name| !source.files().contains_key(*name));
         if let Some(name) = unlisted {
             damage.push(Damage::new(name, rule, "it is missing"));
             continue;
@@ -189,13 +207,6 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
     damage
 }
 
-/// Names of the files behind a study.
-pub(crate) fn names(files: &StudyFiles) -> impl Iterator<Item = &String> {
-    let tables = files.tables.iter();
-    let tables = tables.flat_map(|tables| [&tables.truth, &tables.prediction]);
-    files.states.iter().chain(tables).chain(&files.samples)
-}
-
 /// A manifest that states another origin than the results.
 fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
     let (source, badge) = (source_of(reports), badge_of(reports));
@@ -216,14 +227,16 @@ fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
 }
 
 /// Fault of the header of a dataset.
-fn header(source: &Source, name: &str) -> Result<(), Damage> {
+fn dataset_header(source: &Source, name: &str, known: &[&str]) -> Result<(), Damage> {
     let text = source.text(name, MOST_TEXT)?;
-    match taceva_files::seal::toml_text::check(&text) {
-        Ok(_) => Ok(()),
-        Err(error) => {
-            let rule = "headers of datasets have their seal";
-            Err(Damage::new(name, rule, error.to_string()))
-        }
+    let rule = "headers of datasets have their seal";
+    taceva_files::seal::toml_text::check(&text)
+        .map_err(|error| Damage::new(name, rule, error.to_string()))?;
+    let rule = "headers are those of the datasets of results.json";
+    let digest = header::digest(&text).map_err(|problem| Damage::new(name, rule, problem))?;
+    match header::fault(&digest, known) {
+        None => Ok(()),
+        Some(problem) => Err(Damage::new(name, rule, problem)),
     }
 }
 

@@ -10,6 +10,7 @@ use taceva_files::parent_of;
 use taceva_results::EvaluationReport;
 
 use crate::error::BundleError;
+use crate::header;
 use crate::layout::{HEADER, MOST_TABLE, MOST_TEXT, RESULTS, TEXTS};
 use crate::request::{BundleRequest, ScoredTables};
 use crate::source::digest_of;
@@ -161,16 +162,7 @@ fn headers(
     run: Option<&Path>,
     reports: &[EvaluationReport],
 ) -> Result<Vec<String>, BundleError> {
-    let mut known: Vec<&str> = Vec::new();
-    for report in reports {
-        let own = &report.provenance;
-        known.extend(own.dataset.as_deref());
-        known.extend(
-            own.recordings
-                .iter()
-                .map(|recording| recording.digest.as_str()),
-        );
-    }
+    let known = header::known(reports);
     let of_run = match run
         .map(|run| run.join(RECORDINGS))
         .filter(|folder| folder.is_dir())
@@ -190,20 +182,11 @@ fn headers(
             continue;
         }
         let text = text(&path)?;
-        let table: toml::Table = toml::from_str(&text)
-            .map_err(|error| BundleError::input(&path, error.message().to_owned()))?;
-        let digest = table
-            .get("digest")
-            .and_then(toml::Value::as_str)
-            .unwrap_or_default();
-        if known.contains(&digest) {
-            headers.push(text);
-        } else if is_given {
-            let problem = format!(
-                "the dataset {digest} is not one of the results: {}",
-                known.join(", ")
-            );
-            return Err(BundleError::input(&path, problem));
+        let digest = header::digest(&text).map_err(|problem| BundleError::input(&path, problem))?;
+        match header::fault(&digest, &known) {
+            None => headers.push(text),
+            Some(problem) if is_given => return Err(BundleError::input(&path, problem)),
+            Some(_) => {}
         }
     }
     Ok(headers)

@@ -31,6 +31,8 @@ pub(crate) const TEXTS: [&str; 5] = [
 pub(crate) const MOST_FILES: usize = 4096;
 /// Most bytes of all files, unless the caller sets another limit.
 pub const MOST_BYTES: u64 = 2 << 30;
+/// Most bytes of the manifest.
+pub(crate) const MOST_MANIFEST: u64 = 8 << 20;
 /// Most bytes of a text: JSON, TOML or Markdown.
 pub(crate) const MOST_TEXT: u64 = 24 << 20;
 /// Most bytes of a table.
@@ -45,3 +47,25 @@ pub(crate) const MOST_PARTS: usize = 8;
 pub(crate) const GROWTH: u64 = 128;
 /// The further bytes.
 pub(crate) const GROWTH_BYTES: u64 = 64 << 20;
+
+/// True for a name that a bundle gives to its files.
+pub(crate) fn is_own(name: &str) -> bool {
+    let fixed = [
+        MANIFEST,
+        RESULTS,
+        SAMPLES,
+        ENVIRONMENT,
+        CARD,
+        CITATION,
+        LICENCE,
+    ];
+    let is_inner = ["states/", "tables/"]
+        .iter()
+        .any(|own| name.starts_with(own));
+    fixed.contains(&name) || TEXTS.contains(&name) || is_inner || is_header(name)
+}
+
+/// True for the name of a header: `dataset.toml`, `dataset-2.toml`.
+pub(crate) fn is_header(name: &str) -> bool {
+    name.starts_with("dataset") && name.ends_with(".toml")
+}

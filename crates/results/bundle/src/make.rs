@@ -5,6 +5,7 @@ use std::fs::{self, File};
 use std::io::Write as _;
 use std::path::Path;
 
+use taceva_core::counted;
 use taceva_files::seal::digest_of_bytes;
 use taceva_files::{Staged, TemporaryFolder, parent_of, replace, sync_folder};
 
@@ -13,9 +14,11 @@ use crate::card;
 use crate::claim::{claims, words};
 use crate::environment::Environment;
 use crate::error::BundleError;
-use crate::form::names;
 use crate::inputs::{Inputs, StudyInputs};
-use crate::layout::{ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_TABLE, MOST_TEXT, RESULTS, SAMPLES};
+use crate::layout::{
+    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_MANIFEST, MOST_TABLE, MOST_TEXT, RESULTS,
+    SAMPLES, is_own,
+};
 use crate::manifest::{
     BUNDLE_SCHEMA, BundledFile, Manifest, StudyFiles, TableFiles, Withheld, badge_of, source_of,
 };
@@ -62,15 +65,32 @@ pub fn make(request: &BundleRequest, out: &Path) -> Result<MadeBundle, BundleErr
             .map_err(BundleError::file(out))?;
         return Ok(made);
     }
-    if out.is_dir() && !out.join(MANIFEST).is_file() {
-        let problem = "a folder that is no bundle, which is not replaced; name another place";
-        return Err(BundleError::input(out, problem));
+    if out.is_dir() {
+        check_replaceable(out)?;
     }
     let staged = Staged::beside(out).map_err(BundleError::file(out))?;
     fs::create_dir(staged.path()).map_err(BundleError::file(out))?;
     let made = write(&inputs, request, staged.path())?;
     staged.put_in_place().map_err(BundleError::file(out))?;
     Ok(made)
+}
+
+/// Rejects a folder with anything but files of a bundle.
+fn check_replaceable(out: &Path) -> Result<(), BundleError> {
+    let refused = |what: &str| {
+        let problem = format!("{what}, which is not replaced; name another place");
+        Err(BundleError::input(out, problem))
+    };
+    if !out.join(MANIFEST).is_file() {
+        return refused("a folder that is no bundle");
+    }
+    let Ok(source) = Source::open(out, u64::MAX) else {
+        return refused("a folder with links, or with names that no bundle writes");
+    };
+    match source.files().keys().find(|name| !is_own(name)) {
+        Some(name) => refused(&format!("a folder with `{name}`, which no bundle writes")),
+        None => Ok(()),
+    }
 }
 
 /// Writes the bundle into the empty folder `root`, the manifest last.
@@ -111,7 +131,7 @@ fn write(inputs: &Inputs, request: &BundleRequest, root: &Path) -> Result<MadeBu
     }
     let mut all_claims = Vec::new();
     for (number, (report, files)) in inputs.reports.iter().zip(&studies).enumerate() {
-        let from: Vec<String> = names(files).cloned().collect();
+        let from: Vec<String> = files.names().cloned().collect();
         all_claims.extend(claims(number, report, &from));
     }
     let mut manifest = Manifest {
@@ -140,10 +160,20 @@ fn write(inputs: &Inputs, request: &BundleRequest, root: &Path) -> Result<MadeBu
         .files
         .sort_by(|one, other| one.path.cmp(&other.path));
     let text = manifest.sealed()?;
+    let scores = inputs.reports.iter().map(|report| report.scores.len());
+    let numbers = scores.sum::<usize>().max(manifest.claims.len());
+    if numbers > MOST_CLAIMS || text.len() as u64 > MOST_MANIFEST {
+        let problem = format!(
+            "{} in a manifest of {} bytes, expected at most {MOST_CLAIMS} in {MOST_MANIFEST}; bundle the result of one study",
+            counted(numbers as u64, "number"),
+            text.len()
+        );
+        return Err(BundleError::input(&inputs.path, problem));
+    }
     writer.add(MANIFEST, "manifest", text.as_bytes())?;
     writer.sync()?;
     Ok(MadeBundle {
-        notes: notes(inputs, request),
+        notes: notes(inputs, request, &writer),
         manifest,
     })
 }
@@ -194,7 +224,7 @@ fn sensors(inputs: &Inputs) -> String {
 }
 
 /// Remarks for the maker: what the bundle says that redaction cannot change.
-fn notes(inputs: &Inputs, request: &BundleRequest) -> Vec<String> {
+fn notes(inputs: &Inputs, request: &BundleRequest, written: &Writer<'_>) -> Vec<String> {
     let mut notes: Vec<String> = badge_of(&inputs.reports).into_iter().collect();
     if request.redactions.contains(&Redaction::Serials) {
         let serials = inputs
@@ -206,6 +236,29 @@ fn notes(inputs: &Inputs, request: &BundleRequest) -> Vec<String> {
             notes.push(format!(
                 "results, states and headers of datasets are sealed and stay as they are: they name the unit {}",
                 serials.join(", ")
+            ));
+        }
+    }
+    let kept = [
+        "results",
+        "state",
+        HEADER_ROLE,
+        "truth",
+        "prediction",
+        "samples",
+    ];
+    for file in &written.files {
+        if !kept.contains(&file.role.as_str()) || file.size > MOST_TEXT {
+            continue;
+        }
+        // A table of Parquet is no text.
+        let text = fs::read_to_string(written.root.join(&file.path)).unwrap_or_default();
+        let (_, count) = redacted(&text, &request.redactions);
+        if count > 0 {
+            notes.push(format!(
+                "{} stays as it was sealed or scored, with {} that --redact replaces in texts",
+                file.path,
+                counted(count, "word")
             ));
         }
     }
@@ -254,8 +307,12 @@ impl Writer<'_> {
     fn copy(&mut self, name: &str, role: &str, from: &Path, most: u64) -> Result<(), BundleError> {
         let about = fs::metadata(from).map_err(BundleError::file(from))?;
         if !about.is_file() || about.len() > most {
+            let remedy = match role {
+                "state" => "score fewer metrics by --metrics",
+                _ => "leave tables out by --without predictions",
+            };
             let problem = format!(
-                "{} bytes, a bundle holds a file of at most {most}; leave tables out by --without predictions",
+                "{} bytes, expected a regular file of at most {most}; {remedy}",
                 about.len()
             );
             return Err(BundleError::input(from, problem));

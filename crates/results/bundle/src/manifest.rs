@@ -83,6 +83,15 @@ pub struct StudyFiles {
     pub samples: Option<String>,
 }
 
+impl StudyFiles {
+    /// Names of all files.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &String> {
+        let tables = self.tables.iter();
+        let tables = tables.flat_map(|tables| [&tables.truth, &tables.prediction]);
+        self.states.iter().chain(tables).chain(&self.samples)
+    }
+}
+
 /// Two tables that were scored.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -144,6 +153,10 @@ impl Manifest {
         }
         let opened = taceva_files::seal::json::check(text)
             .map_err(|error| damaged("the manifest has its seal", error.to_string()))?;
+        if has_own_seal(text) != Some(true) {
+            let problem = "`seal` has other keys than its content; make the bundle again";
+            return Err(damaged("the manifest has its seal", problem.to_owned()));
+        }
         let manifest = serde_json::from_str(text)
             .map_err(|error| damaged(rule, shown(&error.to_string()).to_string()))?;
         Ok(SealedManifest {
@@ -164,6 +177,15 @@ impl Manifest {
         })?;
         Ok(format!("{sealed}\n"))
     }
+}
+
+/// True if the whole seal is that of its content. A seal shows which key was changed, and its digest does not cover its own words.
+fn has_own_seal(text: &str) -> Option<bool> {
+    let mut content: serde_json::Value = serde_json::from_str(text).ok()?;
+    let seal = content.as_object_mut()?.remove("seal")?;
+    let sealed = taceva_files::seal::json::seal(&content.to_string()).ok()?;
+    let again: serde_json::Value = serde_json::from_str(&sealed).ok()?;
+    Some(again["seal"] == seal)
 }
 
 /// Origin of the samples of all `reports`.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{counted, is_obeyed};
+use taceva_core::counted;
 
 use crate::error::{BundleError, Damage};
 use crate::layout::{MOST_FILES, MOST_NAME, MOST_PARTS};
@@ -18,17 +18,22 @@ pub(crate) fn fault(name: &str) -> Option<String> {
             name.len()
         ));
     }
-    if name
-        .chars()
-        .any(|letter| is_obeyed(letter) || "\\:".contains(letter))
-    {
-        return Some("a name with control characters, `\\` or `:`, expected none".to_owned());
+    let is_plain = |letter: char| letter.is_ascii_graphic() && !"\\:*?\"<>|".contains(letter);
+    if let Some(letter) = name.chars().find(|letter| !is_plain(*letter)) {
+        return Some(format!(
+            "the character U+{:04X}, which not every system keeps in a name; expected ASCII without spaces and `\\:*?\"<>|`",
+            u32::from(letter)
+        ));
     }
     let parts: Vec<&str> = name.split('/').collect();
     if parts.iter().any(|part| ["", ".", ".."].contains(part)) {
         return Some(
             "a path that leads out of the bundle, expected one below it, without `..`".to_owned(),
         );
+    }
+    // Windows drops such a dot, so two names would be one.
+    if parts.iter().any(|part| part.ends_with('.')) {
+        return Some("a part that ends in a dot, expected none".to_owned());
     }
     (parts.len() > MOST_PARTS).then(|| {
         format!(
@@ -51,14 +56,19 @@ pub(crate) fn check_amount(files: usize, bytes: u64, most: u64) -> Result<(), Bu
     Ok(())
 }
 
-/// Rejects two names that are equal but for case, which some file systems cannot hold.
+/// Rejects two names, of files or folders, that are equal but for case, which some file systems cannot hold.
 pub(crate) fn check_case<'a>(names: impl Iterator<Item = &'a String>) -> Result<(), BundleError> {
-    let mut known: BTreeMap<String, &String> = BTreeMap::new();
+    let mut known: BTreeMap<String, &str> = BTreeMap::new();
     for name in names {
-        if let Some(other) = known.insert(name.to_lowercase(), name) {
-            let problem = format!("equal to `{other}` but for case");
-            let rule = "names differ in more than case";
-            return Err(BundleError::Damaged(Damage::new(name, rule, problem)));
+        let folders = name.match_indices('/').map(|(at, _)| at);
+        for end in folders.chain([name.len()]) {
+            let own = &name[..end];
+            let other = known.insert(own.to_lowercase(), own);
+            if let Some(other) = other.filter(|other| *other != own) {
+                let problem = format!("equal to `{other}` but for case");
+                let rule = "names differ in more than case";
+                return Err(BundleError::Damaged(Damage::new(own, rule, problem)));
+            }
         }
     }
     Ok(())
@@ -69,7 +79,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_that_leads_out_of_the_bundle_is_refused() {
+    fn a_name_that_leads_out_of_the_bundle_or_is_read_in_two_ways_is_refused() {
         for name in [
             "../x",
             "a/../x",
@@ -80,11 +90,18 @@ mod tests {
             "a\\x",
             "c:x",
             "a\u{202e}x",
+            "caf\u{e9}",
+            "cafe\u{301}",
+            "\u{fffd}",
+            "a b",
+            "a.",
         ] {
             assert!(fault(name).is_some(), "{name:?}");
         }
         assert!(fault(&"x".repeat(256)).is_some());
         assert!(fault(&["x"; 9].join("/")).is_some());
-        assert_eq!(fault("states/0.json"), None);
+        for name in ["states/0.json", ".eval_results/taceva.yaml"] {
+            assert_eq!(fault(name), None);
+        }
     }
 }

@@ -30,7 +30,8 @@ pub(crate) struct TableScores {
 
 /// Scores of a study, computed again.
 pub(crate) struct Recomputation {
-    pub(crate) states: Result<Vec<Score>, Stop>,
+    /// Scores, subject and provenance by the states.
+    pub(crate) states: Result<EvaluationReport, Stop>,
     pub(crate) tables: Result<TableScores, Stop>,
 }
 
@@ -88,7 +89,7 @@ impl Stop {
     }
 }
 
-fn of_states(source: &Source, files: &StudyFiles) -> Result<Vec<Score>, Stop> {
+fn of_states(source: &Source, files: &StudyFiles) -> Result<EvaluationReport, Stop> {
     if files.states.is_empty() {
         let reason = "no state: evaluate or score again with --state-out, and give the state to `taceva bundle --state`";
         return Err(Stop::absent(reason));
@@ -136,19 +137,16 @@ fn of_tables(source: &Source, files: &StudyFiles, jobs: NonZeroUsize) -> Result<
         (None, None) => return Err(Stop::absent("no tables")),
     };
     Ok(TableScores {
-        scores: as_read(&recount.report)?,
+        scores: as_read(&recount.report)?.scores,
         // A table of samples lacks what metrics of the truth alone read.
         has_other_sums: files.tables.is_some() && !recount.has_equal_sums,
         left_out: recount.left_out,
     })
 }
 
-/// Scores of `report` as they are read from its JSON, so that both sides of a comparison have one form.
-fn as_read(report: &EvaluationReport) -> Result<Vec<Score>, Stop> {
+/// `report` as it is read from its JSON, so that both sides of a comparison have one form.
+fn as_read(report: &EvaluationReport) -> Result<EvaluationReport, Stop> {
     let text = sealed(report).map_err(Stop::failed)?;
     let mut reports = read(&text).map_err(Stop::failed)?;
-    match reports.pop() {
-        Some(report) => Ok(report.scores),
-        None => Err(Stop::failed("no scores")),
-    }
+    reports.pop().ok_or_else(|| Stop::failed("no scores"))
 }

@@ -56,14 +56,19 @@ const ENDS: &str = " \t\r\n\"',;()[]{}=";
 /// The text with `what` redacted, and the number of redacted words.
 pub fn redacted(text: &str, what: &[Redaction]) -> (String, u64) {
     let (mut written, mut count) = (String::with_capacity(text.len()), 0);
-    let (mut key, mut quote) = (String::new(), None);
+    let (mut key, mut quote, mut lists) = (String::new(), None, 0_usize);
     let mut rest = text;
     while let Some(letter) = rest.chars().next() {
         if ENDS.contains(letter) {
             match letter {
                 '"' | '\'' if quote.is_none() => quote = Some(letter),
                 own if quote == Some(own) => quote = None,
+                '\n' if lists > 0 => quote = None,
                 '\n' => (quote, key) = (None, String::new()),
+                '[' if quote.is_none() => lists += 1,
+                ']' if quote.is_none() => lists = lists.saturating_sub(1),
+                // Every item of a list has its key.
+                ',' if quote.is_none() && lists > 0 => {}
                 ',' | ';' | '{' => key.clear(),
                 _ => {}
             }
@@ -73,8 +78,8 @@ pub fn redacted(text: &str, what: &[Redaction]) -> (String, u64) {
         }
         let end = rest.find(|letter: char| ENDS.contains(letter));
         let word = &rest[..end.unwrap_or(rest.len())];
-        let after = rest[word.len()..].trim_start();
-        if after.starts_with('=') {
+        let after = rest[word.len()..].trim_start_matches(['"', '\'']);
+        if after.trim_start().starts_with('=') {
             // The key of a driver's argument stands behind the driver's name.
             key = word.rsplit(':').next().unwrap_or(word).to_lowercase();
             written.push_str(word);
@@ -82,11 +87,12 @@ pub fn redacted(text: &str, what: &[Redaction]) -> (String, u64) {
             continue;
         }
         let is_wanted = |kind: Redaction| what.contains(&kind);
-        let word = match is_path(word) {
-            true => &rest[..path_length(rest, quote)],
-            false => word,
+        let path = path_start(word);
+        let word = match path {
+            Some(start) => &rest[..start + path_length(&rest[start..], quote)],
+            None => word,
         };
-        let is_redacted = (is_wanted(Redaction::Paths) && is_path(word))
+        let is_redacted = (is_wanted(Redaction::Paths) && path.is_some())
             || (is_wanted(Redaction::Serials) && is_serial(&key, word))
             || (is_wanted(Redaction::Hosts) && is_host(&key, word));
         count += u64::from(is_redacted);
@@ -94,6 +100,18 @@ pub fn redacted(text: &str, what: &[Redaction]) -> (String, u64) {
         rest = &rest[word.len()..];
     }
     (written, count)
+}
+
+/// Start of the absolute path in a word: at its beginning, or behind a mark such as that of a driver's argument.
+fn path_start(word: &str) -> Option<usize> {
+    let marks = word.char_indices();
+    let marks = marks.filter(|(_, own)| ":`<>|@".contains(*own));
+    let mut behind = marks.map(|(at, own)| at + own.len_utf8());
+    if is_path(word) {
+        return Some(0);
+    }
+    // `//` behind a mark is of an address.
+    behind.find(|at| is_path(&word[*at..]) && !word[*at..].starts_with("//"))
 }
 
 /// True if a word begins an absolute path.
@@ -130,7 +148,9 @@ fn is_host(key: &str, word: &str) -> bool {
 /// True if a part of the word is an address: of IPv4, of IPv6 or of an interface.
 fn is_address(word: &str) -> bool {
     let of_four = |part: &str| part.parse::<std::net::Ipv4Addr>().is_ok();
-    let is_six = word.matches(':').count() > 1 && word.parse::<std::net::Ipv6Addr>().is_ok();
+    // The interface stands behind `%`.
+    let six = word.split('%').next().unwrap_or(word);
+    let is_six = six.matches(':').count() > 1 && six.parse::<std::net::Ipv6Addr>().is_ok();
     let octets: Vec<&str> = word.split([':', '-']).collect();
     let is_octet = |octet: &&str| octet.len() == 2 && u8::from_str_radix(octet, 16).is_ok();
     let is_interface = octets.len() == 6 && octets.iter().all(is_octet);
@@ -155,12 +175,33 @@ mod tests {
             ("out = '/home/a lab/x'", "out = 'redacted'"),
             ("out = \"C:\\\\lab\\\\x\"", "out = \"redacted\""),
             ("# see /home/me/notes here", "# see redacted here"),
+            ("# see `/home/me/notes`", "# see redacted"),
+            ("port = \"serial:/dev/ttyUSB0\"", "port = \"redacted\""),
+            ("v6 = \"fe80::1%eth0\"", "v6 = \"redacted\""),
+            ("\"host\" = \"lab-pc\"", "\"host\" = \"redacted\""),
+            ("at = \"//server/share\"", "at = \"redacted\""),
+            ("at = \"file:///home/me/x y\"", "at = \"redacted\""),
+            ("unc = \"\\\\\\\\server\\\\share\"", "unc = \"redacted\""),
+            (
+                "unit = \"N/mm\"\nrate = \"1/s\"",
+                "unit = \"N/mm\"\nrate = \"1/s\"",
+            ),
             ("size = 0.5\nname = \"a/b\"", "size = 0.5\nname = \"a/b\""),
         ] {
             let (found, words) = redacted(text, &ALL);
             assert_eq!(found, expected);
             assert_eq!(words, u64::from(text != expected), "{text}");
         }
+    }
+
+    #[test]
+    fn every_host_of_a_list_is_redacted() {
+        let text = "host = [\"pc-1\",\n  \"pc-2\"]\nname = \"x\"\n";
+        let expected = "host = [\"redacted\",\n  \"redacted\"]\nname = \"x\"\n";
+        assert_eq!(
+            redacted(text, &[Redaction::Hosts]),
+            (expected.to_owned(), 2)
+        );
     }
 
     #[test]

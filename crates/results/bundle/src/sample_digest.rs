@@ -95,17 +95,21 @@ impl StudySamples {
         labels.sort_unstable();
         let mut lines: Vec<String> = Vec::with_capacity(table.rows());
         for row in 0..table.rows() {
-            let mut line = match id {
+            let id = match id {
                 Some(column) => table.cell(row, column).to_owned(),
                 None => (row + 1).to_string(),
             };
-            line.push('\0');
-            line.push_str(frame.map_or("", |column| table.cell(row, column)));
-            for (name, column) in &labels {
+            let frame = frame.map_or("", |column| table.cell(row, column));
+            let labels = labels.iter().map(|(name, column)| {
                 let number = table.number(row, *column).ok().flatten();
-                let bits = number.map(|number| format!("{:016x}", number.to_bits()));
-                line.push_str(&format!("\0{name}={}", bits.unwrap_or_default()));
-            }
+                (
+                    *name,
+                    number.map(|number| format!("{:016x}", number.to_bits())),
+                )
+            });
+            let labels: Vec<(&str, Option<String>)> = labels.collect();
+            // A list of JSON, so that no id is read as labels or as several samples.
+            let line = serde_json::json!([id, frame, labels]).to_string();
             lines.push(line);
         }
         lines.sort_unstable();
@@ -132,5 +136,36 @@ impl StudySamples {
             count: None,
             digest: digest_of_bytes(named.to_string().as_bytes()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn digest(table: &str) -> Option<String> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("t.csv");
+        std::fs::write(&path, table).expect("room");
+        let samples = StudySamples::of_table(&path, NonZeroUsize::MIN).ok()?;
+        Some(samples.digest)
+    }
+
+    #[test]
+    fn the_digest_is_of_ids_and_labels_in_any_order_of_rows_and_columns() {
+        let one = digest("id,Fz,Fx\na,0.5,1\nb,0.25,2\n");
+        assert!(one.is_some());
+        assert_eq!(one, digest("Fx,id,Fz\n2,b,0.25\n1.0,a,0.50\n"));
+        assert_ne!(one, digest("id,Fz,Fx\na,0.5,1\nb,0.25,3\n"));
+        assert_ne!(one, digest("id,Fz,Fy\na,0.5,1\nb,0.25,2\n"));
+        assert_ne!(one, digest("id,Fz,Fx\na,0.5,1\n"));
+    }
+
+    #[test]
+    fn an_id_that_looks_like_several_samples_is_one() {
+        let honest = digest("id,Fz\na,0.5\nb,0.5\n").expect("a table");
+        let bits = format!("{:016x}", 0.5_f64.to_bits());
+        let forged = format!("id,Fz\n\"a\0\0Fz={bits}\nb\",0.5\n");
+        assert_ne!(digest(&forged), Some(honest));
     }
 }

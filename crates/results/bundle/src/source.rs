@@ -51,7 +51,7 @@ impl Source {
     ) -> Result<Source, BundleError> {
         let mut files = BTreeMap::new();
         let mut folders = vec![String::new()];
-        let mut total = 0_u64;
+        let (mut total, mut count) = (0_u64, 0);
         while let Some(folder) = folders.pop() {
             let path = root.join(&folder);
             for entry in fs::read_dir(&path).map_err(BundleError::file(&path))? {
@@ -81,7 +81,9 @@ impl Source {
                     };
                     return Err(refused("every entry is a regular file", what.to_owned()));
                 }
-                check_amount(files.len() + folders.len(), total, most)?;
+                // Folders that were listed count too.
+                count += 1;
+                check_amount(count, total, most)?;
             }
         }
         check_case(files.keys())?;

@@ -4,6 +4,7 @@ use taceva_results::{EvaluationReport, Score};
 
 use crate::claim::{Claim, Number, words};
 use crate::level::Level;
+use crate::origin;
 use crate::recomputation::{Recomputation, Stop, TableScores};
 use crate::verification::{ClaimCheck, OtherCheck, Verdict};
 
@@ -19,8 +20,28 @@ pub(crate) struct StudyCheck<'a> {
 }
 
 impl StudyCheck<'_> {
-    /// Verdict on a claim of this study.
+    /// Verdict on a claim of this study. A claim that states a deeper level than it reaches is not verified.
     pub(crate) fn claim(&self, claim: &Claim) -> ClaimCheck {
+        let check = self.reached(claim);
+        let stated = claim.level.min(self.most);
+        if check.level >= stated || check.verdict == Verdict::Differs {
+            return check;
+        }
+        let reason = format!(
+            "bundle.json states the level {stated}, reached {}: {}",
+            check.level,
+            check.reason.as_deref().unwrap_or("no files")
+        );
+        ClaimCheck {
+            verdict: Verdict::NotRecomputable,
+            reason: Some(reason),
+            is_absent: false,
+            ..check
+        }
+    }
+
+    /// Verdict on a claim, as deep as the files allow.
+    fn reached(&self, claim: &Claim) -> ClaimCheck {
         let mut check = ClaimCheck {
             study: claim.study,
             metric: claim.metric.clone(),
@@ -50,7 +71,7 @@ impl StudyCheck<'_> {
             return check;
         }
         let scores = match &self.again.states {
-            Ok(scores) => scores,
+            Ok(state) => &state.scores,
             Err(stop) => return check.stopped(stop),
         };
         check = self.compared(check, claim, scores, Level::Scores);
@@ -115,6 +136,10 @@ impl StudyCheck<'_> {
         let stated = claim.number();
         check.level = level;
         check.recomputed = Some(again.value);
+        if !claim.is_of(score) {
+            let reason = format!("{from} gives n = {}, expected {}", score.n, claim.n);
+            return check.ended(Verdict::Differs, reason);
+        }
         if stated.is_same(again) {
             return check;
         }
@@ -138,9 +163,21 @@ impl StudyCheck<'_> {
             verdict,
             reason: reason.to_owned(),
         };
-        let Ok(states) = &self.again.states else {
+        let Ok(state) = &self.again.states else {
             return found;
         };
+        let states = state.scores.as_slice();
+        for (part, reason) in origin::differences(self.report, state) {
+            found.push(other(part.to_owned(), Verdict::Differs, &reason));
+        }
+        for score in states {
+            let (metric, channel) = (score.metric.as_str(), score.channel.as_str());
+            if self.report.score(metric, channel).is_none() {
+                let part = words(metric, None, channel);
+                let reason = "the state has this score, and results.json lacks it";
+                found.push(other(part, Verdict::Differs, reason));
+            }
+        }
         let (tables, left_out) = match &self.again.tables {
             Ok(tables) => (tables.scores.as_slice(), tables.left_out.as_slice()),
             Err(_) => (Default::default(), Default::default()),

@@ -197,7 +197,9 @@ impl Verification {
             _ => false,
         };
         let differs = |other: &OtherCheck| other.verdict == Verdict::Differs;
-        match self.claims.iter().any(is_unverified) || self.others.iter().any(differs) {
+        // Results without a claim can lack a level too.
+        let is_short = self.asked.is_some() && self.levels.iter().any(|level| !level.reached);
+        match is_short || self.claims.iter().any(is_unverified) || self.others.iter().any(differs) {
             true => Outcome::Unverified,
             false => Outcome::Verified,
         }

@@ -8,9 +8,9 @@ use taceva_results::EvaluationReport;
 
 use crate::error::{BundleError, Damage};
 use crate::form;
-use crate::layout::{MANIFEST, MOST_BYTES, MOST_TABLE, MOST_TEXT};
+use crate::layout::{MANIFEST, MOST_BYTES, MOST_MANIFEST, MOST_TABLE};
 use crate::level::Level;
-use crate::manifest::{Manifest, SealedManifest};
+use crate::manifest::{Manifest, SealedManifest, StudyFiles};
 use crate::recomputation::Recomputation;
 use crate::source::Source;
 use crate::study_check::StudyCheck;
@@ -60,7 +60,7 @@ pub fn verify(request: &VerifyRequest) -> Result<Verification, BundleError> {
         Err(error) => return Err(error),
     };
     let read = source
-        .text(MANIFEST, MOST_TEXT)
+        .text(MANIFEST, MOST_MANIFEST)
         .and_then(|text| Manifest::parse(&text));
     let sealed = match read {
         Ok(sealed) => sealed,
@@ -69,6 +69,7 @@ pub fn verify(request: &VerifyRequest) -> Result<Verification, BundleError> {
     let manifest = &sealed.manifest;
     found.bundle = Some(facts(&sealed));
     found.remarks.extend(manifest.badge.clone());
+    found.remarks.extend(unchecked(manifest));
     let damage = form::files(&source, manifest)?;
     if !damage.is_empty() {
         return Ok(found.damaged_at(Level::Files, damage));
@@ -81,6 +82,12 @@ pub fn verify(request: &VerifyRequest) -> Result<Verification, BundleError> {
         Ok(reports) => reports,
         Err(damage) => return Ok(found.damaged_at(Level::Form, vec![damage])),
     };
+    for report in &reports {
+        let edits = report.provenance.edits.iter();
+        found
+            .remarks
+            .extend(edits.map(|edit| format!("Edited: {edit}.")));
+    }
     let damage = match too_long(&source, manifest) {
         Some(damage) => vec![damage],
         None => form::form(&source, manifest, &reports, request.jobs)?,
@@ -187,9 +194,29 @@ fn add_levels(found: &mut Verification, checked: &Checked, most: Level) {
     }
 }
 
+/// Remarks on texts and digests that nothing in the bundle can check.
+fn unchecked(manifest: &Manifest) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let own = env!("CARGO_PKG_VERSION");
+    if manifest.taceva != own {
+        remarks.push(format!(
+            "README.md, CITATION.cff and LICENSE were not compared: TacEva {} is said to have written them, and this is {own}.",
+            manifest.taceva
+        ));
+    }
+    let mut studies = manifest.studies.iter();
+    if !manifest.withheld.is_empty() && studies.any(|files| form::sample_table(files).is_none()) {
+        remarks.push(
+            "The digest of the samples was not computed again: their tables are withheld."
+                .to_owned(),
+        );
+    }
+    remarks
+}
+
 /// First file behind a study that is too long to read.
 fn too_long(source: &Source, manifest: &Manifest) -> Option<Damage> {
-    let names = manifest.studies.iter().flat_map(form::names);
+    let names = manifest.studies.iter().flat_map(StudyFiles::names);
     names
         .filter(|name| source.files().contains_key(*name))
         .find_map(|name| source.size(name, MOST_TABLE).err())
@@ -216,7 +243,7 @@ fn facts(sealed: &SealedManifest) -> BundleFacts {
 pub(crate) fn open_manifest(path: &Path) -> Result<(BundleFacts, Manifest), BundleError> {
     let source = Source::open(path, MOST_BYTES)?;
     let text = source
-        .text(MANIFEST, MOST_TEXT)
+        .text(MANIFEST, MOST_MANIFEST)
         .map_err(BundleError::Damaged)?;
     let sealed = Manifest::parse(&text).map_err(BundleError::Damaged)?;
     Ok((facts(&sealed), sealed.manifest))

@@ -68,7 +68,12 @@ impl Taken {
 
     /// For shards of one input: number of counted rows, and number of rows of the input.
     pub(crate) fn share(&self) -> Option<[usize; 2]> {
-        let own = self.rows.iter().map(|[begin, end]| end - begin).sum();
+        // A forged state may end a range before its beginning.
+        let counts = self
+            .rows
+            .iter()
+            .map(|[begin, end]| end.saturating_sub(*begin));
+        let own = counts.fold(0, usize::saturating_add);
         Some([own, self.of?])
     }
 
@@ -198,6 +203,16 @@ mod tests {
             taken("a", &[7, 1, 2, 0, 5, 5]).rows,
             [[0, 3], [5, 6], [7, 8]]
         );
+    }
+
+    #[test]
+    fn forged_ranges_have_a_share_without_a_panic() {
+        let forged = Taken {
+            input: "x".to_owned(),
+            rows: vec![[5, 2], [0, usize::MAX], [0, usize::MAX]],
+            of: Some(9),
+        };
+        assert_eq!(forged.share(), Some([usize::MAX, 9]));
     }
 
     #[test]

@@ -6,7 +6,7 @@ mod phase_rows;
 mod score;
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use taceva_dataset::{Dataset, RecordedSessions, frame_retries, frozen_frames};
 use taceva_files::{parent_of, replace};
@@ -78,10 +78,18 @@ pub(crate) fn assess(
         mut notes,
         states,
     } = scores_of(predicted.as_ref())?;
-    for (number, state) in states.iter().enumerate() {
+    let state_path = |number: usize| {
         let mut name = context.states.as_os_str().to_owned();
-        name.push(format!(".{number}.json"));
-        write_state(state, Path::new(&name))?;
+        name.push(format!(".{number:02}.json"));
+        PathBuf::from(name)
+    };
+    for (number, state) in states.iter().enumerate() {
+        write_state(state, &state_path(number))?;
+    }
+    // An interrupted run of another version may have left more.
+    let mut number = states.len();
+    while std::fs::remove_file(state_path(number)).is_ok() {
+        number += 1;
     }
     let mut others = Vec::new();
     for seed in scene.seeds.iter().skip(1) {

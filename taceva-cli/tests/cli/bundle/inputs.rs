@@ -5,7 +5,7 @@ use std::fs;
 use serde_json::Value;
 
 use super::forgery::manifest;
-use super::{BUNDLE, bench, of_verdict, verified};
+use super::{BUNDLE, bench, of_verdict, score, verified};
 use crate::support::Bench;
 
 /// A run of two phases.
@@ -69,9 +69,19 @@ fn texts_are_redacted_and_counted() {
     );
     assert_eq!(manifest(&bench, "b")["redacted"]["rig.toml"], 2);
     verified(&bench, "b", 0);
+    // What was scored is not redacted, and the command says so.
+    let text = fs::read_to_string(bench.path("truth.csv")).expect("written");
+    bench.write("truth.csv", &text.replace("\n7,p7,", "\n7,/home/lab/p7,"));
+    score(&bench, "pred.csv", "marked");
+    let ran = bench.run(
+        "bundle marked.json --state marked.state --truth truth.csv --pred pred.csv --draft --redact paths --out c",
+    );
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let words = "tables/truth.csv stays as it was sealed or scored, with 1 word";
+    assert!(ran.err.contains(words), "{}", ran.err);
     bench.write("notes.toml", "");
     bench.refused(
-        &format!("{BUNDLE} c --text notes.toml"),
+        &format!("{BUNDLE} d --text notes.toml"),
         3,
         "expected a file called scene.toml",
     );

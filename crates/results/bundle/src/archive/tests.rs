@@ -90,6 +90,50 @@ fn links_devices_and_paths_that_lead_out_are_refused() {
     for name in ["../x", "a/../../x", "/etc/x", "a//x"] {
         refused(&[plain(name, b"1")], "leads out of the bundle");
     }
+    let folder = Forged {
+        name: "x/",
+        kind: EntryType::Directory,
+        bytes: b"hidden",
+    };
+    refused(&[folder], "a folder with 6 bytes");
+    refused(
+        &[plain("a", b"1"), plain("a/b", b"2")],
+        "a file has the name of its folder",
+    );
+}
+
+#[test]
+fn files_and_bytes_behind_the_end_of_an_archive_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    forge(&at("one.tar.gz"), &[plain("a", b"1")]);
+    forge(&at("other.tar.gz"), &[plain("b", b"2")]);
+    let one = fs::read(at("one.tar.gz")).expect("there");
+    let other = fs::read(at("other.tar.gz")).expect("there");
+    let mut zeros = GzEncoder::new(Vec::new(), Compression::fast());
+    zeros.write_all(&[0; 512]).expect("into memory");
+    let zeros = zeros.finish().expect("into memory");
+    for (number, (behind, words)) in [
+        (other, Some("bytes after the end of the archive")),
+        (b"trailing".to_vec(), Some("no whole .tar.gz")),
+        (zeros, None),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let path = at("joined.tar.gz");
+        fs::write(&path, [one.clone(), behind].concat()).expect("room");
+        let into = at(&number.to_string());
+        fs::create_dir(&into).expect("made");
+        let outcome = unpack(&path, &into, u64::MAX).map_err(|error| error.to_string());
+        match words {
+            None => assert_eq!(outcome, Ok(())),
+            Some(words) => {
+                let why = outcome.expect_err("it must be refused");
+                assert!(why.contains(words), "{why}");
+            }
+        }
+    }
 }
 
 #[test]
@@ -99,6 +143,7 @@ fn names_that_come_twice_or_differ_in_case_alone_are_refused() {
         &[plain("a.json", b"1"), plain("A.json", b"2")],
         "but for case",
     );
+    refused(&[plain("a/1", b"1"), plain("A/2", b"2")], "but for case");
 }
 
 #[test]

@@ -161,7 +161,11 @@ impl Scores<'_> {
         };
         let mut evaluator = accumulate(&samples, &plan, self.jobs)?;
         let shares = bounded.shares();
-        let (subject, provenance) = (subject_of(self.dataset), provenance_of(self.dataset));
+        let (mut subject, provenance) = (subject_of(self.dataset), provenance_of(self.dataset));
+        // The report names this unit too.
+        if let Some((unit, _)) = self.phase_rows.measured_unit() {
+            subject.serial = unit;
+        }
         let state = StateFile::of(&mut evaluator, &subject, &provenance, bounded)?;
         let evaluation = evaluator.finish()?.with_bounded_shares(&shares);
         Ok(GroupScores { evaluation, state })

@@ -1,0 +1,38 @@
+//! Headers of datasets, which belong to the results that name their digests.
+
+use taceva_core::shown;
+use taceva_results::EvaluationReport;
+
+/// Digests of the datasets and recordings that `reports` name.
+pub(crate) fn known(reports: &[EvaluationReport]) -> Vec<&str> {
+    let mut known: Vec<&str> = Vec::new();
+    for report in reports {
+        let own = &report.provenance;
+        known.extend(own.dataset.as_deref());
+        let recordings = own.recordings.iter();
+        known.extend(recordings.map(|recording| recording.digest.as_str()));
+    }
+    known
+}
+
+/// Digest that the header `text` states; empty if it states none.
+///
+/// # Errors
+/// The reason why it is no TOML.
+pub(crate) fn digest(text: &str) -> Result<String, String> {
+    let table: toml::Table =
+        toml::from_str(text).map_err(|error| shown(error.message()).to_string())?;
+    let digest = table.get("digest").and_then(toml::Value::as_str);
+    Ok(digest.unwrap_or_default().to_owned())
+}
+
+/// The fault of a header of another dataset than those in `known`.
+pub(crate) fn fault(digest: &str, known: &[&str]) -> Option<String> {
+    (!known.contains(&digest)).then(|| {
+        format!(
+            "the dataset {} is not one of the results: {}",
+            shown(digest),
+            shown(&known.join(", "))
+        )
+    })
+}

@@ -1,0 +1,57 @@
+//! Subject and inputs of results, compared with those of their states.
+
+use taceva_results::{EvaluationReport, OPTIMISTIC, Provenance};
+
+/// Parts of `report` that name another subject or other inputs than its states, each with the reason.
+///
+/// States of a run hold the facts of its recording alone, so settings are compared where a state has them.
+pub(crate) fn differences(
+    report: &EvaluationReport,
+    state: &EvaluationReport,
+) -> Vec<(&'static str, String)> {
+    let mut found = Vec::new();
+    if report.subject != state.subject {
+        let [own, other] = [report, state].map(|report| {
+            let subject = &report.subject;
+            format!(
+                "{}, serial {}, gel {}, samples {}",
+                subject.sensor, subject.serial, subject.gel, subject.source
+            )
+        });
+        found.push(("subject", format!("{own}; the state has {other}")));
+    }
+    let (own, other) = (&report.provenance, &state.provenance);
+    let other_than = |part: &str| format!("results.json has another {part} than the state");
+    for (part, is_same) in [
+        ("dataset", own.dataset == other.dataset),
+        ("tables", own.tables == other.tables),
+        ("recordings", recordings(own) == recordings(other)),
+        (
+            "traceability",
+            own.traceability.len() == other.traceability.len()
+                && (own.traceability.iter()).all(|one| other.traceability.contains(one)),
+        ),
+        ("model", other.model.is_none() || own.model == other.model),
+        ("split", other.split.is_none() || own.split == other.split),
+        ("part", other.part.is_none() || own.part == other.part),
+        ("seed", other.seed.is_none() || own.seed == other.seed),
+    ] {
+        if !is_same {
+            found.push((part, other_than(part)));
+        }
+    }
+    let mut notes = other.notes.iter();
+    let is_hidden = |note: &&String| note.contains(OPTIMISTIC) && !own.notes.contains(note);
+    if let Some(note) = notes.find(is_hidden) {
+        found.push(("notes", format!("results.json lacks the note: {note}")));
+    }
+    found
+}
+
+/// Digests of the recordings, ascending: states may be merged in any order.
+fn recordings(provenance: &Provenance) -> Vec<&str> {
+    let recordings = provenance.recordings.iter();
+    let mut digests: Vec<&str> = recordings.map(|own| own.digest.as_str()).collect();
+    digests.sort_unstable();
+    digests
+}
