@@ -47,7 +47,8 @@ fn drop_state(bench: &Bench) {
 fn claims_that_are_left_out_repeated_or_of_other_files_are_damage() {
     let bench = made();
     let whole = manifest(&bench, "b");
-    let cases: [(&str, fn(&mut Value)); 4] = [
+    type Forgery = fn(&mut Value);
+    let cases: [(&str, Forgery); 4] = [
         ("is not claimed", |manifest| {
             manifest["claims"].as_array_mut().expect("claims").pop();
         }),
