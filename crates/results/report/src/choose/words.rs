@@ -187,7 +187,7 @@ pub(super) struct OtherUnit {
     pub(super) written: &'static str,
     /// Unit of the quantity.
     pub(super) unit: &'static str,
-    /// Factor and divisor, of which one is 1, so that decimal numbers stay exact.
+    /// Factor and divisor; one of them is 1, so that decimal numbers stay exact.
     pub(super) times: f64,
     pub(super) over: f64,
 }

@@ -81,10 +81,10 @@ impl Comparison {
     }
 }
 
-/// Answers of one metric and channel in which one study is better than others.
+/// Answers about one score in which one study is better than others.
 struct Won<'a> {
     winner: usize,
-    /// At least one.
+    /// Answers about the score; at least one.
     answers: Vec<&'a Answer>,
 }
 

@@ -129,7 +129,7 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Mark
     Some(html! { (name) " " (verdict) ", with " (value) (spread) "." (beside) })
 }
 
-/// Cell with a value.
+/// Cell whose value is known.
 struct Known<'a> {
     at: usize,
     cell: &'a ScoreCell,
