@@ -1,4 +1,4 @@
-//! TAC041: implausible depths: the distance of a camera or a robot instead of an indentation.
+//! TAC041: implausible depths, such as the distance to a camera or a robot.
 
 use taceva_core::Channel;
 
@@ -18,9 +18,9 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of depths for the check.
 const LEAST: usize = 3;
-/// Deepest plausible press of a gel, mm: the thickest gels sold have 10 mm.
+/// Deepest plausible press, mm. The thickest gels on sale have 10 mm.
 const DEEPEST_MM: f64 = 12.0;
-/// A depth that is never below this share of the greatest, and exceeds a length in mm, is a distance.
+/// Share of the greatest depth. Values that never fall below it, and exceed a length in mm, are distances.
 const NEVER_BELOW: f64 = 0.5;
 const DISTANCE_MM: f64 = 5.0;
 
