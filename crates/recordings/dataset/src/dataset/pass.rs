@@ -113,8 +113,8 @@ pub struct StreamReport {
 }
 
 impl Dataset {
-    /// Decodes the frame of each row, calls `work` with it on one of several threads, and calls `take` with the results in order on the calling
-    /// thread.
+    /// Decodes the frame of each row and calls `work` with it on one of several threads. Calls `take` with the results in
+    /// order on the calling thread.
     ///
     /// Memory holds at most a few frames for each thread. The result does not depend on the number of threads.
     ///
