@@ -43,7 +43,7 @@ const COUNT: SettingInfo = SettingInfo {
     about: "number of training samples whose mean is the prediction",
 };
 
-/// Numbers to try; more neighbours are plainer.
+/// Numbers of neighbours to try; more neighbours are plainer.
 const COUNTS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
 
 impl Neighbours {

@@ -9,7 +9,7 @@ use taceva_core::InputInfo;
 use crate::features::{DIFFERENCE, FeatureSpec, SIZE};
 use crate::settings::ModelSettings;
 
-/// Value of a setting that is to be chosen.
+/// Word for a setting that TacEva chooses.
 const CHOSEN: &str = "auto";
 
 /// Feature settings to be chosen.

@@ -39,7 +39,7 @@ pub(crate) struct Solution {
     pub(crate) plain: Vec<f64>,
 }
 
-/// Most refinement steps. Each gains as many digits as the decomposition has.
+/// Maximum number of refinement steps. Each step gains as many digits as the decomposition has.
 const ROUNDS: usize = 40;
 
 /// Finds the x of least ‖y − A x‖ for each column y of `targets`.

@@ -17,9 +17,9 @@ pub(crate) struct LearntChannels {
 
 #[derive(Clone, Debug, PartialEq)]
 enum LearntAs {
-    /// Learnt unchanged, at this position.
+    /// Channel learnt unchanged, at this position.
     Itself(usize),
-    /// Learnt as sine and cosine of an angle.
+    /// Angle learnt as sine and cosine.
     Angle {
         sine: usize,
         cosine: usize,

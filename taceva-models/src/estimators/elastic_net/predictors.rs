@@ -22,7 +22,7 @@ enum Layout {
     Columns(Mat<f64>),
 }
 
-/// Most features of a Gram matrix: 134 MB.
+/// Maximum number of features of a Gram matrix: 134 MB.
 const FEATURES_MAX: usize = 4096;
 
 impl Predictors {
@@ -108,7 +108,7 @@ impl<'a> Residual<'a> {
         residual
     }
 
-    /// Product with a feature.
+    /// Product of the residual with a feature.
     pub(super) fn along(&self, feature: usize) -> f64 {
         match &self.predictors.layout {
             Layout::Gram(_) => self.values[feature],

@@ -10,9 +10,9 @@ use crate::features::FeatureError;
 use crate::features::cell_features::CellFeatures;
 use crate::features::spec::FeatureSpec;
 
-/// Markers from which a cell is interpolated.
+/// Number of markers from which a cell is interpolated.
 const SPEAKERS: usize = 12;
-/// Nearest markers of a cell that are counted as seen or unseen.
+/// Number of nearest markers of a cell that are counted as seen or unseen.
 const NEAREST: usize = 4;
 /// Largest distance of an interpolated cell from the nearest marker, in spacings.
 const REACH: f64 = 1.5;
