@@ -1,8 +1,8 @@
 //! Coordinates of samples in their span, for no more samples than features.
 //!
-//! Rotating the features does not change ridge regression or the least-norm solution of least squares. Weights outside the span of the samples are
-//! 0. There are fewer span coordinates than samples. A library that needs more samples than features therefore gives the same result in these
-//! coordinates.
+//! Rotating the features does not change ridge regression or the least-norm solution of least squares. Weights outside the span of the samples
+//! are zero. There are fewer span coordinates than samples. A library that needs more samples than features therefore gives the same result in
+//! these coordinates.
 
 use crate::estimators::library::predictor::Weighted;
 
