@@ -115,7 +115,7 @@ impl Pictures {
         decoded.map_err(|mismatch| {
             let why = match mismatch {
                 Mismatch::Size(found) => format!(
-                    "the camera changed to frames of {found}, expected {} as it was opened",
+                    "the camera changed to frames of {found}, expected {} as at open",
                     self.sent
                 ),
                 Mismatch::Damaged(why) => format!("{why}; before, {}", losses()),

@@ -64,7 +64,7 @@ pub enum SplitError {
     )]
     NoBlocks,
     /// The shares are invalid.
-    #[error("fractions {given:?}: expected numbers from 0, the first above 0")]
+    #[error("fractions {given:?}: expected numbers of at least 0, the first above 0")]
     Fractions {
         /// Shares as given.
         given: [f64; 3],

@@ -190,8 +190,8 @@ fn draws(found: &MonteCarloResult, unit: &str) -> String {
         FormattedValue::number(found.mean, Some(found.symmetric)).phrase(&format!(" {unit}"));
     let tolerance = FormattedValue::number(found.tolerance, None).value;
     let verdict = match found.validated {
-        true => "it confirms the interval of first order",
-        false => "it does not confirm the interval of first order",
+        true => "it confirms the first-order interval",
+        false => "it does not confirm the first-order interval",
     };
     format!(
         "Monte Carlo, {} draws of seed {}: {value}; {verdict}, within {tolerance} {unit} and chance.",

@@ -8,7 +8,7 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC041",
     name: "implausible-depth",
-    looks_for: "depths greater than any gel is thick, or never near 0: a distance to the camera or a height of the robot instead of an \
+    looks_for: "depths above the thickness of any gel, or never near 0: a distance to the camera or a height of the robot instead of an \
         indentation",
     hint: "map the indentation as Pz, 0 at the first touch and positive into the gel; subtract the height of the surface with `offset` of \
         the column",
@@ -40,7 +40,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let usual = depths[depths.len() / 2];
     let message = if usual > DEEPEST_MM {
         format!(
-            "the median of Pz is {usual} mm, greater than any gel is thick: it may be the distance to the camera"
+            "the median of Pz is {usual} mm, more than the thickness of any gel: it may be the distance to the camera"
         )
     } else if least > NEVER_BELOW * greatest && least > DISTANCE_MM {
         format!(

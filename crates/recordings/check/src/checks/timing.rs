@@ -81,13 +81,13 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let boots = evidence.sessions.map_or(1, |sessions| sessions.boots);
     if backwards.len() >= boots {
         found.push(warn(
-            "samples are older than the one before them",
+            "samples are older than the previous sample",
             &backwards,
         ));
     }
     if is_of_one_clock && !repeated.is_empty() {
         found.push(warn(
-            "samples have the time of the one before them",
+            "samples have the same time as the previous sample",
             &repeated,
         ));
     }

@@ -171,7 +171,7 @@ fn info_of(views: &[&ViewInfo]) -> Result<FrameInfo, String> {
         info.width = info
             .width
             .checked_add(own.width)
-            .ok_or_else(|| format!("`{}` makes them too wide", other.name))?;
+            .ok_or_else(|| format!("`{}` makes the joint picture too wide", other.name))?;
     }
     Ok(info)
 }

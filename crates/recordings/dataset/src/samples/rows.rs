@@ -113,7 +113,7 @@ pub(super) fn assemble(
                 .number("spacing_mm", row)?
                 .map(|length| {
                     Nanometre::from_millimetres(length)
-                        .ok_or_else(|| format!("row {row}: {length} mm is no spacing"))
+                        .ok_or_else(|| format!("row {row}: {length} mm is not a valid spacing"))
                 })
                 .transpose()?,
             intensity: columns.number("intensity", row)?,

@@ -101,7 +101,7 @@ impl Correlations {
                         written,
                         "set",
                         BudgetProblem::Keys(format!(
-                            "`{one}` and `{other}` are of one set, but differ in their {what}"
+                            "`{one}` and `{other}` belong to the same set, but differ in their {what}"
                         )),
                     )
                 };

@@ -27,7 +27,7 @@ pub enum ConformityError {
         expected: &'static str,
     },
     /// Limits that exclude every value.
-    #[error("the limits are {least} and {most}, expected a lower one below an upper one")]
+    #[error("the limits are {least} and {most}, expected a lower limit below an upper limit")]
     Limits {
         /// Lower limit.
         least: f64,

@@ -4,7 +4,7 @@
 ///
 /// ```
 /// use taceva_metrology::curve::CurveUndefined;
-/// assert_eq!(CurveUndefined::EqualX.to_string(), "all x are equal, expected two different ones or more");
+/// assert_eq!(CurveUndefined::EqualX.to_string(), "all x are equal, expected at least two different values");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -21,7 +21,7 @@ pub enum CurveUndefined {
         least: usize,
     },
     /// All x are equal.
-    #[error("all x are equal, expected two different ones or more")]
+    #[error("all x are equal, expected at least two different values")]
     EqualX,
     /// Fewer different x than coefficients.
     #[error("{have} different x, expected {least} or more")]

@@ -127,7 +127,7 @@ impl fmt::Display for NdcReason {
         f.write_str(match self {
             NdcReason::NoVariation => "all readings are equal",
             NdcReason::NoGaugeVariation => "the gauge adds no variation",
-            NdcReason::Errors => "parts of errors differ by bias, not by what is measured",
+            NdcReason::Errors => "parts of errors differ by bias, not by the measured quantity",
         })
     }
 }
@@ -190,7 +190,7 @@ impl Band {
 /// ```
 /// use taceva_metrology::gauge::Flag;
 /// let flag = Flag::FewOperators { operators: 3 };
-/// assert_eq!(flag.to_string(), "reproducibility rests on 2 degrees of freedom, of 3 operators");
+/// assert_eq!(flag.to_string(), "reproducibility has only 2 degrees of freedom, from 3 operators");
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "flag", rename_all = "snake_case")]
@@ -232,7 +232,7 @@ impl fmt::Display for Flag {
                 let degrees = if freedom == 1 { "degree" } else { "degrees" };
                 write!(
                     f,
-                    "reproducibility rests on {freedom} {degrees} of freedom, of {operators} operators"
+                    "reproducibility has only {freedom} {degrees} of freedom, from {operators} operators"
                 )
             }
             Flag::NegativeComponent {
@@ -241,7 +241,7 @@ impl fmt::Display for Flag {
             } => {
                 write!(
                     f,
-                    "{component}: the estimate of the variance is {variance:.4e}, counted as 0"
+                    "{component}: the estimated variance is {variance:.4e}, counted as 0"
                 )
             }
             Flag::Pooled { p, above } => {

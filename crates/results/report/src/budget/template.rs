@@ -99,7 +99,7 @@ impl BudgetTemplate<'_> {
         if figure == "drift" {
             let slope = phrase(found.value, &format!("{}/h", self.unit));
             return Some(format!(
-                "slope {slope}; hours since the calibration are yours to state"
+                "slope {slope}; state the hours since the calibration"
             ));
         }
         let rows = found.n.map_or_else(String::new, |n| format!(", {n} rows"));

@@ -40,7 +40,7 @@ impl FilePlace<'_> {
     ) -> Result<(), SweepError> {
         for (at, value) in values.iter().enumerate() {
             if values[..at].contains(value) {
-                return Err(self.wrong(key, format!("`{key}`: {value} comes twice")));
+                return Err(self.wrong(key, format!("`{key}`: {value} is listed twice")));
             }
         }
         Ok(())
