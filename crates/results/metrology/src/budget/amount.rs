@@ -65,7 +65,7 @@ impl fmt::Display for Amount {
 }
 
 impl Amount {
-    /// The number in the wanted unit, finite.
+    /// Number in the expected unit, checked to be finite.
     pub(super) fn resolve(&self, wanted: Wanted) -> Result<f64, BudgetProblem> {
         let wrong = |expected: &str| BudgetProblem::Value {
             found: taceva_core::shown(&self.to_string()).to_string(),

@@ -1,4 +1,4 @@
-//! Errors of a budget file: line, key, what was found and what is expected.
+//! Errors of a budget file: line, key, content found and content expected.
 
 use std::fmt;
 
@@ -95,13 +95,13 @@ pub enum BudgetProblem {
     NotMeasured {
         /// Name of the figure.
         name: String,
-        /// Reason.
+        /// Reason why it has no value.
         reason: String,
     },
     /// Two sources with the same name, or that use the same figure.
     #[error("`{name}` is used twice, here and in line {other}")]
     Twice {
-        /// Name.
+        /// Name of the source or figure.
         name: String,
         /// Line of the first source.
         other: usize,

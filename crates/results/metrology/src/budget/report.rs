@@ -186,7 +186,7 @@ impl Missing {
 pub struct Traceability {
     /// Number of the certificate.
     pub number: String,
-    /// Laboratory.
+    /// Laboratory that issued the certificate.
     pub laboratory: String,
     /// Serial number of the instrument.
     pub serial: String,

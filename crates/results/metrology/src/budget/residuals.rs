@@ -28,7 +28,7 @@ pub struct Residuals {
     n_invalid: u64,
 }
 
-/// Variance components of the one-way random model by contact point, in the unit of the channel.
+/// Variance components of the random model with one factor, the contact point, in the unit of the channel.
 ///
 /// ```
 /// # use taceva_metrology::budget::{Evidence, Residuals};

@@ -83,8 +83,7 @@ impl Process {
         }
     }
 
-    /// Guard band that reaches the consumer's risk `target`: distance of the acceptance limits inwards from the limits. 0 if the risk is lower
-    /// without a guard band.
+    /// Guard band that reaches the consumer's risk `target`: inward distance of the acceptance limits. 0 if the risk is lower without a guard band.
     ///
     /// `None` if no possible guard band reaches the target.
     ///

@@ -31,7 +31,7 @@ impl std::fmt::Display for CovarianceOf {
     }
 }
 
-/// Value of a curve with the ends of a band, in the unit of y. Of two defined covariances, the one with the wider band is used.
+/// Value of a curve with the ends of a band, in the unit of y. If both covariances are defined, the wider band is used.
 ///
 /// ```
 /// use taceva_metrology::curve::{CovarianceOf, CurveFit, CurveRow};
@@ -44,7 +44,7 @@ impl std::fmt::Display for CovarianceOf {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Band {
-    /// y(x).
+    /// Value y(x) of the curve.
     pub value: f64,
     /// Lower end.
     pub low: f64,
@@ -58,7 +58,7 @@ pub struct Band {
     pub covariance: CovarianceOf,
 }
 
-/// Standard uncertainty of a coefficient. Of two defined covariances, the one with the greater uncertainty is used.
+/// Standard uncertainty of a coefficient. If both covariances are defined, the greater uncertainty is used.
 ///
 /// ```
 /// use taceva_metrology::curve::{CovarianceOf, CurveFit, CurveRow};

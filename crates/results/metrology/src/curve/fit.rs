@@ -19,7 +19,7 @@ use super::undefined::CurveUndefined;
 pub struct CurveRow {
     /// Reference value.
     pub x: f64,
-    /// Reading.
+    /// Reading, in its own unit.
     pub y: f64,
     /// Contact point, whose rows are correlated; `None` for an independent row.
     pub point: Option<u64>,

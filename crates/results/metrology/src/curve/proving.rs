@@ -68,7 +68,7 @@ pub struct ProvingSeries {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ProvingLevel {
-    /// Force.
+    /// Force of the level, in the unit of the reference.
     pub force: f64,
     /// X̄_r, mean of X1, X3 and X5, in the unit of the readings.
     pub mean: f64,

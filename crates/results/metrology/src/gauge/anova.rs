@@ -38,7 +38,7 @@ pub(super) struct Squares {
     total: Square,
 }
 
-/// Variance components before negative ones are replaced by 0.
+/// Variance components before negative values are replaced by 0.
 #[derive(Clone, Debug)]
 pub(super) struct Raw {
     pub(super) repeatability: Fraction,

@@ -138,7 +138,7 @@ fn whole(value: f64) -> u64 {
     whole
 }
 
-/// Components of an analysis of variance, negative ones counted as 0.
+/// Components of an analysis of variance; negative values become 0.
 fn by_anova(raw: &Raw) -> Vec<Estimate> {
     let repeatability = raw.repeatability.at_least_zero();
     let operator = raw.operator.at_least_zero();

@@ -307,7 +307,7 @@ pub struct GaugeReport {
     pub draws: u32,
     /// Seed of the draws.
     pub seed: u64,
-    /// Remarks.
+    /// Remarks on the study.
     pub flags: Vec<Flag>,
 }
 
