@@ -1,4 +1,4 @@
-//! Tests whether sensors or models differ: every pair and score, with intervals and in words.
+//! Tests whether sensors or models differ: every pair and score, with intervals, as data and as text.
 
 mod comparability;
 mod estimate;
@@ -61,7 +61,7 @@ pub struct Comparison {
 /// Comparison of one score between two studies.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// Metric.
+    /// Name of the metric.
     pub metric: String,
     /// Channel or plane.
     pub channel: String,
@@ -92,7 +92,7 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// Verdict in words with the names of the studies: `MagicTac better by …`.
+    /// Verdict as text with the names of the studies: `MagicTac better by …`.
     pub fn words(&self, names: &[String]) -> String {
         match &self.reason {
             Some(reason) => format!("no answer: {reason}"),

@@ -67,7 +67,7 @@ pub struct Study {
 pub struct Made {
     /// Name of the model: `ridge`.
     pub model: Option<String>,
-    /// Settings of the model by name, including chosen ones.
+    /// Settings of the model by name, including settings that the fit chose.
     pub settings: Vec<(String, String)>,
     /// Setting that the fit chose, and the criterion: `strength on the validation part`.
     pub chosen_by: Option<String>,
@@ -83,7 +83,7 @@ pub struct Made {
     pub part: Option<String>,
     /// Number of joined recordings; 0 for a single one.
     pub recordings: usize,
-    /// Cross-validation in words, if each sample was held out once: `5-fold cross-validation by point`.
+    /// Cross-validation as text, if each sample was held out once: `5-fold cross-validation by point`.
     pub folds: Option<String>,
     /// Groups that the split keeps together: the column `object`, or `block of time`; `None` for contact points.
     pub group: Option<String>,

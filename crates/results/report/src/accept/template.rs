@@ -34,9 +34,9 @@ r = 1.0
 coverage = 0.95
 "#;
 
-/// Limits that `study` meets, as a file for [`super::LimitsFile::read`]. Each score with a better direction gets one limit: a fifth worse than the
-/// value, or the worse end of its interval if that is farther away. The rule is `guarded`, or `simple` if the interval is missing or leaves no room
-/// for a guard band.
+/// Limits that `study` meets, as a file for [`super::LimitsFile::read`]. Each score with a better direction gets one limit. The limit is a fifth
+/// worse than the value, or at the worse end of its interval if that is farther away. The rule is `guarded`, or `simple` if the interval is missing
+/// or leaves no room for a guard band.
 ///
 /// ```
 /// use taceva_report::{LimitsFile, Study, accept, limits_template};

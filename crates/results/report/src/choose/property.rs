@@ -36,7 +36,7 @@ pub enum Property {
     Width,
     /// Lowest exact price of a ready sensor in a currency: `USD`.
     Price(&'static str),
-    /// A known seller: 1. Without one it is unknown.
+    /// Availability from a seller: 1 if a seller is known, otherwise unknown.
     Bought,
     /// Greatest indentation, in mm.
     GreatestDepth,
@@ -77,7 +77,7 @@ impl Property {
         }
     }
 
-    /// True for greatest depths and forces. Their values are the greatest tested ones, which may be below the limit of the gel.
+    /// True for greatest depths and forces. Their values are the greatest tested values, which may be below the limit of the gel.
     pub(super) fn is_reached(self) -> bool {
         matches!(self, Property::GreatestDepth | Property::GreatestForce)
     }

@@ -36,7 +36,7 @@ pub(crate) const QUESTIONS: [(&str, &str, &str); 10] = [
 pub struct Decision {
     /// Question: `Depth`; empty if it has no name.
     pub question: String,
-    /// Metric.
+    /// Name of the metric.
     pub metric: String,
     /// Channel or plane of the score.
     pub channel: String,
@@ -382,7 +382,7 @@ fn untested(
     }
 }
 
-/// Largest p value of the significant differences, in words.
+/// Largest p value of the significant differences, as text.
 fn p_words(p: f64) -> String {
     if p < 0.001 {
         "p < 0.001".to_owned()

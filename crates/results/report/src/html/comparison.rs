@@ -58,7 +58,7 @@ impl Comparison {
         }
     }
 
-    /// Significant differences by score, each with the better study and the worse ones.
+    /// Significant differences by score, each with the better study and the worse studies.
     fn won(&self) -> Vec<Won<'_>> {
         let mut all: Vec<Won<'_>> = Vec::new();
         for answer in &self.answers {

@@ -1,4 +1,4 @@
-//! Summary of the results in words.
+//! Text summary of the results.
 
 use maud::{Markup, html};
 use taceva_core::counted;
@@ -15,7 +15,7 @@ use crate::tie::{best, tie};
 use crate::training::{NO_VERDICT, is_demonstration};
 use taceva_results::{Score, not_measured};
 
-/// Subtitle.
+/// Subtitle of the page.
 pub(crate) fn lead(studies: &[Study]) -> Markup {
     html! { p.lead { (listed(&names(studies))) } (badge(studies)) }
 }
