@@ -106,7 +106,7 @@ pub struct Finding {
     pub name: &'static str,
     /// Severity of the finding.
     pub severity: Severity,
-    /// The finding in words, with the numbers that decided.
+    /// Text of the finding, with the deciding numbers.
     pub message: String,
     /// Names of the first few affected samples.
     pub samples: Vec<String>,

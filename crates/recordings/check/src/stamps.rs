@@ -121,7 +121,8 @@ pub(super) fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole.max(1) as f64
 }
 
-/// Rows with the same time as the previous row of their clock, if more than one in ten: stamps in whole seconds, or of a stopped clock.
+/// Rows with the same time as the previous row of their clock, if more than one in ten. The stamps are then whole seconds, or the clock has
+/// stopped.
 pub(super) fn repeated(table: &Table) -> Option<Vec<usize>> {
     const SHARE: usize = 10;
     let times = table.t_s();

@@ -117,7 +117,7 @@ struct Outliers {
     rows: Vec<usize>,
     /// Smallest outlier.
     least: f64,
-    /// Greatest value that is no outlier.
+    /// Greatest value below the outliers.
     next: f64,
 }
 

@@ -22,7 +22,7 @@ const LEAST: usize = 10;
 /// Length above which a step is a gap, in usual steps. Includes a tolerance for rounding.
 const GAP: f64 = 3.0;
 const ROUNDING: f64 = 1e-6;
-/// Maximum relative difference between the usual step and the mean of the steps that are no gaps, in a regular stream.
+/// Maximum relative difference, in a regular stream, between the usual step and the mean of the steps without gaps.
 const ALIKE: f64 = 0.05;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

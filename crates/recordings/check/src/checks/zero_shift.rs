@@ -24,7 +24,7 @@ const LEAST: usize = 8;
 const SHARE: f64 = 0.02;
 /// Minimum shift in standard errors of the shift; large because the position of a step is searched.
 const CLEAR: f64 = 6.0;
-/// Rounding of labels with few decimals, as a share of the greatest label. Such steps are no scatter.
+/// Rounding of labels with few decimals, as a share of the greatest label. Rounding does not count as scatter.
 const ROUNDING: f64 = 1e-4;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
