@@ -51,11 +51,11 @@ impl ChannelOrder {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[doc(hidden)]
 pub enum ImageKind {
-    /// PNG.
+    /// PNG image, lossless.
     Png,
-    /// JPEG.
+    /// JPEG image, lossy.
     Jpeg,
-    /// TIFF.
+    /// TIFF image.
     Tiff,
 }
 
@@ -203,8 +203,8 @@ fn unsupported(what: &str, found: &dyn std::fmt::Debug) -> String {
     format!("unsupported {what} type {found:?}; convert to gray or RGB")
 }
 
-/// True if a sequential JPEG codes each colour in a separate scan: its first scan has fewer components than its frame (ITU-T T.81, B.2.2 and
-/// B.2.3).
+/// True if a sequential JPEG codes each colour in a separate scan, so that its first scan has fewer components than its frame (ITU-T T.81, B.2.2
+/// and B.2.3).
 fn has_a_scan_a_component(bytes: &[u8]) -> bool {
     let mut of_frame = None;
     let mut rest = bytes.get(2..).unwrap_or(&[]);

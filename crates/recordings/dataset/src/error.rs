@@ -95,7 +95,7 @@ pub enum DatasetError {
         /// Format declared by the header.
         found: Version,
     },
-    /// File whose bytes differ from the recorded ones.
+    /// File whose bytes differ from the recorded bytes.
     #[error("{}: damaged: expected {expected}, found {found}", shown_path(path))]
     Digest {
         /// Path of the file.
@@ -254,7 +254,7 @@ impl DatasetError {
         }
     }
 
-    /// Error for a file at `path` whose bytes differ from the recorded ones.
+    /// Error for a file at `path` whose bytes differ from the recorded bytes.
     pub(crate) fn digest(path: &Path, expected: Digest, found: Digest) -> DatasetError {
         DatasetError::Digest {
             path: path.to_owned(),

@@ -58,7 +58,7 @@ pub fn reference_path(extension: &str) -> String {
     format!("{FRAMES}/reference.{extension}")
 }
 
-/// File of the next frame without contact after `before` earlier ones, relative to the dataset.
+/// File of the next frame without contact after `before` earlier frames, relative to the dataset.
 pub fn reference_path_anew(before: usize, extension: &str) -> String {
     match before {
         0 => reference_path(extension),

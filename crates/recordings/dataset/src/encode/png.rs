@@ -1,7 +1,7 @@
 //! PNG encoder for noisy pictures: the five filters of the format, then only Huffman codes.
 //!
 //! After filtering, a camera picture is mostly noise, without repetitions. The search for repetitions is the slow part of deflate. It finds only
-//! accidental ones and makes files a fifth larger for pictures of the simulated cameras. A uniform picture shrinks to an eighth at best.
+//! accidental repetitions and makes files a fifth larger for pictures of the simulated cameras. A uniform picture shrinks to an eighth at best.
 
 use miniz_oxide::deflate::core::{
     CompressionStrategy, CompressorOxide, TDEFLFlush, TDEFLStatus, compress_to_output,

@@ -171,7 +171,7 @@ impl SensorFacts {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FramesInfo {
-    /// Number of frames, without the one without contact.
+    /// Number of frames, not counting the reference frame.
     pub count: u64,
     /// Width, height and pixel format of every decoded frame.
     #[serde(flatten)]
