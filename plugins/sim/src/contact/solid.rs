@@ -26,7 +26,7 @@ enum Law {
 /// State of a flat board in a gel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BoardStand {
-    /// Depth.
+    /// Depth of the board in the gel, mm.
     pub depth_mm: f64,
     /// Normal force.
     pub force_n: f64,
