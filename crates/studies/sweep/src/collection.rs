@@ -51,7 +51,7 @@ pub fn collect(folder: &SweepFolder, list: &TaskList, anew: bool) -> Result<Coll
     Ok(collected)
 }
 
-/// Rejects an evaluation that differs from the one its task wrote. A missing evaluation is allowed, because the table does not need it.
+/// Rejects an evaluation that its task did not write. A missing evaluation is allowed, because the table does not need it.
 fn check_evaluation(folder: &SweepFolder, result: &TaskResult) -> Result<(), SweepError> {
     match folder.evaluation(&result.key).exists() {
         true => result.read_evaluation(folder).map(drop),

@@ -33,7 +33,7 @@ pub struct Submission {
     pub collect: PathBuf,
     /// Number of tasks.
     pub tasks: usize,
-    /// Number of jobs, excluding the one that collects.
+    /// Number of jobs, excluding the job that collects the results.
     pub jobs: usize,
 }
 
