@@ -169,11 +169,11 @@ pub enum NetworkError {
 /// Use of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleSet {
-    /// Training.
+    /// Training part.
     Training,
     /// Choice of the best epoch.
     Validation,
-    /// Prediction.
+    /// Pictures to predict.
     Prediction,
 }
 

@@ -10,7 +10,7 @@ pub(crate) const PANEL: usize = 16;
 /// Values aligned to a cache line, so that no vector of a panel crosses two.
 #[derive(Debug)]
 pub(crate) struct Aligned {
-    /// Values, after `skipped` unused ones.
+    /// Values, after `skipped` unused values.
     values: Vec<f32>,
     skipped: usize,
 }
