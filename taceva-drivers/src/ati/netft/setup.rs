@@ -1,4 +1,4 @@
-//! Settings of a box that decide what its readings mean: frame, filter, rate, range and bias.
+//! Settings of a box that determine the meaning of its readings: frame, filter, rate, range and bias.
 
 use std::collections::BTreeMap;
 

@@ -45,7 +45,7 @@ impl Leds {
     /// Requested colour.
     ///
     /// # Errors
-    /// `InvalidArgument` for a text that is no colour, and for a sensor without LEDs.
+    /// `InvalidArgument` for a text that is not a colour, and for a sensor without LEDs.
     pub(super) fn colour(&self) -> Result<Option<Colour>, DriverError> {
         let Some(text) = &self.wanted else {
             return Ok(None);
@@ -122,7 +122,7 @@ fn number([red, green, blue]: Colour) -> i32 {
     (red << 8) | (green << 4) | blue
 }
 
-/// Colour for a value of the zoom control, as in the argument; the number itself if it is no colour.
+/// Colour for a value of the zoom control, as in the argument; the number itself if it encodes no colour.
 fn words(value: i32) -> String {
     let colour = [value >> 8, (value >> 4) & MOST, value & MOST];
     match number(colour) == value && colour[0] <= MOST && value >= 0 {

@@ -25,7 +25,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(GrblFactory::new()?)));
 ///
 /// # Verification
 /// The driver passes its suite on an emulated machine on a pseudo-terminal. The emulated dialect follows GRBL's documents; no firmware was tested.
-/// **Not verified without the device**: the stopping time, and boards that reset differently.
+/// **Not verified without the device**: stopping times, and boards that reset differently.
 ///
 /// ```
 /// use taceva_core::Factory;
