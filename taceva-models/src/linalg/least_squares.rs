@@ -50,7 +50,7 @@ const ROUNDS: usize = 40;
 /// # Reference
 /// Å. Björck, BIT 7 (1967) 257, 322.
 /// # Errors
-/// [`ModelError`] if there are fewer rows than columns, or a column is a linear combination of earlier ones to within rounding.
+/// [`ModelError`] if there are fewer rows than columns, or a column is a linear combination of earlier columns to within rounding.
 pub(crate) fn least_squares(
     matrix: Wide<'_>,
     targets: &Mat<f64>,

@@ -121,7 +121,7 @@ pub enum SplitError {
     /// No sample has this value.
     #[error("split by-column: no sample has `{column}` = `{value}`, {suggestion}", column = taceva_core::shown(column), value = taceva_core::shown(value))]
     NoValue {
-        /// Column.
+        /// Name of the column.
         column: String,
         /// Value as given.
         value: String,

@@ -24,7 +24,7 @@ pub struct SplitSpec {
 pub enum SplitKind {
     /// Random by sample.
     Random,
-    /// By time: the first samples are trained on, the last ones tested.
+    /// By time: the first samples train, the last samples test.
     Chronological,
     /// Random by contact point. All presses at a point are in one part.
     #[default]

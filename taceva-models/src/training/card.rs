@@ -100,7 +100,7 @@ pub enum Form {
         /// Number of stored samples.
         samples: usize,
     },
-    /// Classification.
+    /// Model that predicts one of the training labels.
     Classes {
         /// Number of classes, summed over channels.
         classes: usize,
@@ -206,7 +206,7 @@ pub struct ValidationCard {
     /// Findings about similar neighbouring samples.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<String>,
-    /// Scores.
+    /// Scores of the cross-validation.
     pub scores: Vec<ValidationScore>,
 }
 

@@ -38,7 +38,7 @@ impl Sizes {
 /// Multiplications per second of the budget.
 const RATE: f64 = 1e9;
 
-/// Name of the small network; `DEEPER` names the residual ones.
+/// Name of the small network; `DEEPER` names the residual networks.
 pub(super) const NETWORK: &str = "cnn";
 pub(super) const DEEPER: [&str; 3] = ["resnet10", "resnet18", "resnet34"];
 

@@ -78,7 +78,7 @@ impl Predictors {
 pub(super) struct Target<'a> {
     /// Centred labels y of the samples.
     pub(super) labels: &'a [f64],
-    /// Xᵀy.
+    /// Products Xᵀy of features and labels.
     pub(super) products: &'a [f64],
 }
 

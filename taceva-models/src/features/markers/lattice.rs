@@ -38,7 +38,7 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// Finds the grid of `picture`: over all polarities and scales, the one with the most, clearest and most even spots.
+    /// Finds the grid of `picture`: over all polarities and scales, the grid with the most, clearest and most even spots.
     ///
     /// # Errors
     /// Number of spots found that form no grid.

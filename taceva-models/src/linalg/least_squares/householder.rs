@@ -46,7 +46,7 @@ impl Householder {
         }
     }
 
-    /// First column that is a linear combination of earlier ones to within rounding.
+    /// First column that is a linear combination of earlier columns to within rounding.
     pub(super) fn dependent(&self) -> Option<usize> {
         let rounding = self.packed.nrows() as f64 * f64::EPSILON;
         self.diagonal
