@@ -8,14 +8,14 @@ use taceva_core::{
     Deadline, DriverError, FrameInfo, FrameMut, Interrupt, Lighting, Sensor, SimulatedBench, Stamp,
 };
 
-/// Sensor outside a simulated bench whose frames are stamped by the clock of that bench.
+/// Sensor outside a simulated bench, whose frames get time stamps of the bench.
 ///
-/// Between two frames, at least as much time passes on the bench as on the sensor's clock. More passes if other devices kept the bench
-/// busy. The bench does not simulate the sensor, so its frames depend on presses only if the sensor is really pressed.
+/// Between two frames, at least as much time passes on the bench as on the sensor's clock. More passes if other devices keep the bench busy. The
+/// bench does not simulate the sensor, so its frames show presses only if the real sensor is pressed.
 pub struct OnBench {
     sensor: Box<dyn Sensor>,
     bench: Arc<dyn SimulatedBench>,
-    /// Times of the last frame, on the sensor's clock and on the bench's.
+    /// Times of the last frame, on the sensor's clock and on the clock of the bench.
     last: Option<[Duration; 2]>,
 }
 
@@ -81,7 +81,7 @@ mod tests {
         format: PixelFormat::Gray8,
     };
 
-    /// Sensor with frames at the remaining times.
+    /// Sensor that delivers frames at the remaining times.
     struct Timed(Vec<u64>);
 
     impl Sensor for Timed {
@@ -95,7 +95,7 @@ mod tests {
         }
     }
 
-    /// Bench that is only a clock.
+    /// Bench that only provides a clock.
     struct Clock(Mutex<Duration>);
 
     impl SimulatedBench for Clock {

@@ -71,7 +71,7 @@ impl ListedDevice {
     }
 }
 
-/// A driver with the known facts of its device. Unknown facts are absent.
+/// Driver with the known facts about its device. Unknown facts are absent.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ListedDriver {
     /// Key of the driver.
@@ -143,7 +143,7 @@ impl ListedSwitch {
 /// Argument of a driver.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ListedArgument {
-    /// Key of the argument.
+    /// Description of the accepted values.
     pub key: String,
     /// Accepted values, in words.
     pub takes: String,

@@ -11,17 +11,17 @@ use crate::switches::Switches;
 /// Drivers of a program, with one registry per kind.
 #[derive(Debug)]
 pub struct Drivers {
-    /// Tactile sensors.
+    /// Drivers of tactile sensors.
     pub sensors: Registry<dyn Sensor>,
-    /// Robots.
+    /// Drivers of robots.
     pub robots: Registry<dyn Robot>,
-    /// Force transducers.
+    /// Drivers of force transducers.
     pub forces: Registry<dyn ForceTransducer>,
-    /// Lightings.
+    /// Drivers of lightings.
     pub lightings: Registry<dyn Lighting>,
-    /// Changers.
+    /// Drivers of changers.
     pub changers: Registry<dyn Changer>,
-    /// Enabling switches.
+    /// Drivers of enabling switches.
     pub switches: Switches,
 }
 

@@ -48,8 +48,8 @@ impl Selector {
         found.map(|(_, value)| value.trim())
     }
 
-    /// Name of the simulated bench that the device would belong to, as [`Rig::bench`](taceva_core::Rig::bench) knows it. `None` if the
-    /// driver's key has no `/`.
+    /// Name of the simulated bench that the device belongs to, as used by [`Rig::bench`](taceva_core::Rig::bench). `None` if the driver's key has
+    /// no `/`.
     ///
     /// ```
     /// use taceva_drivers::Selector;

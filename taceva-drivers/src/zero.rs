@@ -14,7 +14,7 @@ pub(crate) struct HostZero {
     zero: Wrench,
     /// Measuring range of each force, N; `None` if unknown.
     ranges_n: Option<[f64; 3]>,
-    /// Greatest zero of a force, N; `None` for any within the range.
+    /// Greatest accepted zero of a force, N; `None` accepts any zero within the range.
     zero_max_n: Option<f64>,
 }
 
@@ -36,7 +36,7 @@ impl HostZero {
         }
     }
 
-    /// Creates a zero offset of 0, for forces with a range each, which the device states itself. Any zero within them is accepted.
+    /// Creates a zero offset of 0 for forces with separate ranges, which the device states. Any zero within the ranges is accepted.
     pub(crate) fn of_axes(driver: DriverKey, ranges_n: Option<[f64; 3]>) -> HostZero {
         HostZero {
             driver,

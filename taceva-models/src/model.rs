@@ -70,7 +70,7 @@ impl Model {
         Model::fit_learnt(input, angles, asked, progress)
     }
 
-    /// Fits the learnt channels of `input`. `asked` are the channels of predictions.
+    /// Fits the learnt channels of `input`; `asked` are the predicted channels.
     fn fit_learnt(
         input: FitInput<'_>,
         angles: Vec<AngleCard>,

@@ -16,9 +16,9 @@ pub struct SettingInfo {
     pub key: &'static str,
     /// Accepted values.
     pub accepts: &'static str,
-    /// Default.
+    /// Default value, as typed.
     pub default: &'static str,
-    /// Meaning.
+    /// Meaning of the setting.
     pub about: &'static str,
 }
 

@@ -29,11 +29,11 @@ pub(crate) struct BatchNorm {
 #[derive(Clone, Debug)]
 pub(crate) struct Moments {
     pub(crate) mean: Aligned,
-    /// 1 / √(variance + ε).
+    /// 1 / √(variance + ε) of each channel.
     pub(crate) inverse: Aligned,
-    /// gain · inverse.
+    /// Factor of each channel: gain · inverse.
     pub(crate) scale: Aligned,
-    /// bias − mean · scale.
+    /// Addend of each channel: bias − mean · scale.
     pub(crate) shift: Aligned,
 }
 
@@ -51,7 +51,7 @@ impl Moments {
 }
 
 impl BatchNorm {
-    /// Gain one, bias zero, running mean zero and variance one.
+    /// Normalisation with gain one, bias zero, running mean zero and variance one.
     pub(crate) fn new(channels: usize) -> BatchNorm {
         let ones = Aligned::of(&vec![1.0; channels]);
         BatchNorm {

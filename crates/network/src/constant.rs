@@ -1,4 +1,4 @@
-//! Run-time numbers as compile-time constants.
+//! Converts run-time numbers to compile-time constants.
 
 /// Evaluates `$call` with `$number` as the constant `$constant`. The call is compiled once for each of `$known`, so accumulators stay in registers.
 macro_rules! with_constant {

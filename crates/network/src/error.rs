@@ -9,7 +9,7 @@ pub enum NetworkError {
     /// The architecture is invalid.
     #[error("invalid network architecture: {reason}")]
     Architecture {
-        /// The fault.
+        /// Description of the fault.
         reason: String,
     },
     /// A tensor of the architecture is missing.
@@ -119,7 +119,7 @@ pub enum NetworkError {
         name: &'static str,
         /// Value found.
         found: String,
-        /// Values accepted.
+        /// Accepted values.
         expected: &'static str,
     },
     /// The loss is not finite. Training stopped before this step changed a weight.
@@ -137,7 +137,7 @@ pub enum NetworkError {
     /// The checkpoint belongs to another training run.
     #[error("the checkpoint belongs to another training run: {what}")]
     Checkpoint {
-        /// The difference.
+        /// Setting or number that differs.
         what: String,
     },
     /// A device failed.
@@ -169,11 +169,11 @@ pub enum NetworkError {
 /// Use of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleSet {
-    /// Training.
+    /// Training part.
     Training,
     /// Choice of the best epoch.
     Validation,
-    /// Prediction.
+    /// Pictures to predict.
     Prediction,
 }
 

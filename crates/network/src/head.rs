@@ -12,7 +12,7 @@ pub(crate) struct Head {
     pub(crate) pooling: Pooling,
     /// `[outputs, features]`.
     pub(crate) weights: Aligned,
-    /// `[outputs]`.
+    /// Bias of each output.
     pub(crate) bias: Aligned,
     /// Slot of the weights. The bias has the next slot.
     pub(crate) slot: usize,

@@ -8,7 +8,7 @@ use crate::labels::Labels;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Loss {
-    /// (output − label)².
+    /// Squared error, (output − label)².
     SquaredError,
     /// Half the squared distance up to `delta`; beyond it, delta · (|distance| − delta / 2).
     ///

@@ -12,11 +12,11 @@ use crate::update::Update;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Optimizer {
-    /// v ← momentum · v + g + decay · w, w ← w − rate · v.
+    /// Stochastic gradient descent: v ← momentum · v + g + decay · w, w ← w − rate · v.
     Sgd {
         /// Factor of the previous velocity, from 0 to below 1.
         momentum: f64,
-        /// Weight decay.
+        /// Factor of the weight decay, 0 for none.
         weight_decay: f64,
     },
     /// Adam with decoupled weight decay.
@@ -28,7 +28,7 @@ pub enum Optimizer {
         betas: (f64, f64),
         /// Addend to the root of the mean square.
         epsilon: f64,
-        /// Weight decay.
+        /// Factor of the weight decay, 0 for none.
         weight_decay: f64,
     },
 }

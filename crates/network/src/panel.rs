@@ -10,7 +10,7 @@ pub(crate) const PANEL: usize = 16;
 /// Values aligned to a cache line, so that no vector of a panel crosses two.
 #[derive(Debug)]
 pub(crate) struct Aligned {
-    /// Values, after `skipped` unused ones.
+    /// Values, after `skipped` unused values.
     values: Vec<f32>,
     skipped: usize,
 }
@@ -36,7 +36,7 @@ impl Aligned {
         Ok(Aligned::within(values, length))
     }
 
-    /// Takes `length` values of `values` from the first cache line on. `values` is a panel longer.
+    /// Uses `length` values of `values`, starting at the first cache line. `values` must be a panel longer.
     fn within(values: Vec<f32>, length: usize) -> Aligned {
         const LINE: usize = 64;
         let skipped = values.as_ptr().align_offset(LINE).min(PANEL);

@@ -6,9 +6,9 @@
 /// Pictures are stored as `[height, width, channels]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub struct Picture {
-    /// Rows.
+    /// Number of rows.
     pub height: usize,
-    /// Columns.
+    /// Number of columns.
     pub width: usize,
     /// Values per pixel.
     pub channels: usize,

@@ -8,7 +8,7 @@ use crate::loss::Loss;
 /// Pictures and their labels.
 #[derive(Clone, Copy, Debug)]
 pub struct Samples<'a> {
-    /// `[samples, height, width, channels]`.
+    /// Pictures, `[samples, height, width, channels]`.
     pub pictures: &'a [f32],
     /// Labels of each picture.
     pub labels: Labels<'a>,

@@ -10,7 +10,7 @@ pub enum Schedule {
     Constant,
     /// From the full rate to zero along half a cosine.
     Cosine,
-    /// Multiplied by `factor` after each `every` steps.
+    /// Rate multiplied by `factor` after every `every` steps.
     Step {
         /// Steps between changes.
         every: u64,

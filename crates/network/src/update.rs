@@ -1,6 +1,7 @@
 //! Consumers of gradients.
 
-/// Receives the gradient of each parameter as soon as it is computed, while in cache. The backward pass no longer needs the parameter's old value.
+/// Receives the gradient of each parameter as soon as it is computed, while it is in cache. The backward pass no longer needs the old value of the
+/// parameter.
 ///
 /// An optimiser updates the parameter; a test stores the gradient.
 pub(crate) trait Update {

@@ -1,4 +1,4 @@
-//! The bench: one unit of a sensor in a rig, for any number of presses.
+//! Bench: one sensor unit in a rig, for any number of presses.
 
 mod error;
 mod press;
@@ -16,8 +16,7 @@ use crate::rig::{Label, Touch, TransducerModel, search};
 use crate::specimen::GratingPose;
 use crate::unit::Unit;
 
-/// A unit of a sensor in a rig, with the noise of a seed. Results are pure functions of the arguments: order, threads and interruptions do not affect
-/// them.
+/// Sensor unit in a rig, with seeded noise. Results are pure functions of the arguments: order, threads and interruptions do not affect them.
 ///
 /// ```
 /// use taceva_sim::{Bench, Model, Press};
@@ -43,7 +42,7 @@ pub struct Bench {
 }
 
 impl Bench {
-    /// Creates the unit numbered `unit` of a sensor, with the noise of `seed`.
+    /// Creates unit number `unit` of a sensor, with noise from `seed`.
     pub fn new(parameters: Parameters, unit: u32, seed: u64) -> Bench {
         let random = Random::new(seed);
         Bench {
@@ -88,7 +87,7 @@ impl Bench {
         }
     }
 
-    /// First contact at the point of `press`, the same for each of its presses.
+    /// First contact at the point of `press`, identical for all presses at this point.
     ///
     /// # Errors
     /// [`PressError`] as for [`press`](Bench::press).
@@ -205,7 +204,7 @@ impl Bench {
         contact
     }
 
-    /// Reduces an indentation to the force limit. Returns true if a reduction was needed.
+    /// Reduces an indentation until the force limit holds. Returns true if a reduction was needed.
     fn limit(&self, indentation: &mut Indentation) -> bool {
         let limit_n = self.parameters.probing.force_max_n;
         let loading = |depth_mm: f64| Indentation {
@@ -237,5 +236,5 @@ impl Bench {
     }
 }
 
-/// Bisection steps of a depth, which reach far below a nanometre.
+/// Bisection steps for a depth; the final interval is far below a nanometre.
 const BISECTIONS: u32 = 30;

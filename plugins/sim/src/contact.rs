@@ -1,4 +1,4 @@
-//! A ball in a gel: forces from displacements.
+//! Contact of a ball with a gel: forces from displacements.
 //!
 //! All values are the truth of the bench, without noise. Depths and forces are positive into the gel and in compression. Tangential forces
 //! act on the gel, along the displacement of the ball.
@@ -29,19 +29,19 @@ pub struct Contact {
     pub position_mm: [f64; 2],
     /// Depth below first touch, along the axis of the sensor.
     pub depth_mm: f64,
-    /// Depth along the normal of the contact; the same on a flat gel.
+    /// Depth along the contact normal; equal to `depth_mm` on a flat gel.
     pub normal_depth_mm: f64,
-    /// Normal of the contact: x, y and upwards, out of the gel.
+    /// Contact normal: x, y and upwards, out of the gel.
     pub normal: [f64; 3],
     /// Direction of the displacement along the surface; zero without displacement.
     pub tangent: [f64; 3],
-    /// Displacement in which the surface sticks to the ball. Beyond it, the ball slides.
+    /// Displacement up to which the surface sticks to the ball. Beyond it, the ball slides.
     pub carried_mm: f64,
     /// Sliding distance of the ball over the surface.
     pub slip_mm: f64,
     /// Contact radius a.
     pub radius_mm: f64,
-    /// Radius of the zone without slip.
+    /// Radius of the zone without slip, mm.
     pub stick_radius_mm: f64,
     /// Radius of the ball.
     pub indenter_radius_mm: f64,
@@ -62,7 +62,7 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// True if ball and gel press on each other.
+    /// True if the ball presses on the gel.
     pub fn touches(&self) -> bool {
         self.normal_force_n > 0.0
     }

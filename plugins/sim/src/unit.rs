@@ -1,4 +1,4 @@
-//! One unit of a sensor: its differences from other units, and between places.
+//! One sensor unit: its differences from other units, and between places.
 //!
 //! A unit depends on the name of the sensor and the number of the unit, not on the seed of a run. It is the same gel in every run. Unit 0 has the
 //! nominal modulus and sag.
@@ -30,7 +30,7 @@ struct Relief {
     blisters: [Blister; BLISTERS],
 }
 
-/// A blister: a place at which the gel has detached from its plate.
+/// Blister: a place where the gel has detached from its plate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Blister {
     centre_mm: [f64; 2],

@@ -106,7 +106,7 @@ fn draws_that_contradict_the_first_order_give_the_interval_and_every_format_says
     bench.write("budget.toml", &confirmed);
     let text = bench.ok(words);
     assert!(
-        text.contains("it confirms the interval of first order"),
+        text.contains("it confirms the first-order interval"),
         "{text}"
     );
 }

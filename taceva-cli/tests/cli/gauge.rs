@@ -7,7 +7,7 @@ use taceva_report::FormattedValue;
 
 use tables::{AIAG, aiag, golden, rows_of, simulated_units};
 
-const OBLIGATORY: &str = "reproducibility rests on 2 degrees of freedom, of 3 operators";
+const OBLIGATORY: &str = "reproducibility has only 2 degrees of freedom, from 3 operators";
 
 /// Component of a report by its name.
 fn component<'r>(report: &'r Value, name: &str) -> &'r Value {

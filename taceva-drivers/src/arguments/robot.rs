@@ -26,7 +26,7 @@ pub(crate) fn robot_facts() -> [ArgSpec; 2] {
         fact(
             STOP,
             [0.0, 2_000.0],
-            "time that it still moves after it received a halt, ms, as measured",
+            "time from receiving a halt to standstill, ms, as measured",
         ),
         fact(
             REPEATABILITY,

@@ -8,7 +8,7 @@ use super::CAPTURE;
 use super::crop::Crop;
 use crate::source::{Mismatch, decode, frame_info};
 
-/// Strips trailing zeros and line ends, which some cameras append.
+/// Removes trailing zeros and line ends, which some cameras append.
 pub(super) fn whole(picture: &[u8]) -> &[u8] {
     let padding = |byte: &&u8| matches!(**byte, 0 | b'\r' | b'\n');
     let behind = picture.iter().rev().take_while(padding).count();
@@ -50,7 +50,7 @@ fn has_tables(picture: &[u8]) -> Option<bool> {
 #[derive(Clone, Debug)]
 pub(super) struct Pictures {
     driver: DriverKey,
-    /// Format of the first image; all others must have the same.
+    /// Format of the first image, which all other images must share.
     sent: FrameInfo,
     crop: Crop,
     /// Buffer for a whole image if it is cropped; empty otherwise.
@@ -87,12 +87,12 @@ impl Pictures {
         self.sent
     }
 
-    /// Format of the frames.
+    /// Format of the converted frames.
     pub(super) fn info(&self) -> FrameInfo {
         self.crop.of(self.sent)
     }
 
-    /// The unmodified file, if it decodes to the frame. `None` if the image is cropped or lacks Huffman tables.
+    /// Unmodified file, if it decodes to the frame. `None` if the image is cropped or lacks Huffman tables.
     pub(super) fn as_sent<'a>(&self, picture: &'a [u8]) -> Option<&'a [u8]> {
         let is_frame = self.room.is_empty() && has_tables(picture) != Some(false);
         is_frame.then(|| whole(picture))
@@ -115,7 +115,7 @@ impl Pictures {
         decoded.map_err(|mismatch| {
             let why = match mismatch {
                 Mismatch::Size(found) => format!(
-                    "the camera changed to frames of {found}, expected {} as it was opened",
+                    "the camera changed to frames of {found}, expected {} as at open",
                     self.sent
                 ),
                 Mismatch::Damaged(why) => format!("{why}; before, {}", losses()),

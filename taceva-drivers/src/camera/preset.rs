@@ -11,7 +11,7 @@ use super::crop::Crop;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Preset {
-    /// Name of the preset, which is that of its file.
+    /// Name of the preset and of its file.
     #[serde(skip)]
     pub(super) name: &'static str,
     pub(super) title: String,
@@ -21,7 +21,7 @@ pub(super) struct Preset {
     pub(super) card: Option<String>,
     /// Pixel format, if the camera has only one.
     pub(super) pixels: Option<String>,
-    /// Size of the camera's images.
+    /// Width and height of the camera's images, pixels.
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) rate_hz: f64,

@@ -7,13 +7,13 @@ use serde::Serialize;
 pub struct Diagnosis {
     /// Code of the check, stable across versions.
     pub code: &'static str,
-    /// State of the subject.
+    /// State of the examined subject.
     pub state: State,
     /// Subject of the check, such as `/dev/video0`.
     pub subject: String,
-    /// Observation, with control characters escaped.
+    /// Observation as text, with control characters escaped.
     pub detail: String,
-    /// Remedy; `None` if there is none.
+    /// Remedy; `None` if none is needed or known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remedy: Option<String>,
 }
@@ -24,7 +24,7 @@ pub struct Diagnosis {
 pub enum State {
     /// Present and usable.
     Good,
-    /// Absent, which matters only if it is needed.
+    /// Absent, which is a problem only if the device is needed.
     Absent,
     /// Present but not usable.
     Problem,

@@ -111,7 +111,7 @@ impl PortKind {
         shown(title.unwrap_or(self.noun))
     }
 
-    /// Selectors that open the file, in words; empty if no driver reads it.
+    /// Selectors that open the file, as text; empty if no driver reads it.
     fn opened(&self, machine: &Machine, name: &str, keys: &[&str]) -> String {
         let selectors: Vec<String> = drivers_of(self.class)
             .into_iter()

@@ -9,7 +9,7 @@ pub(super) struct User {
     id: u32,
     groups: BTreeSet<u32>,
     group_names: BTreeMap<u32, String>,
-    /// Groups that list the user, even if this session lacks them.
+    /// Groups that list the user as a member, even if this session lacks them.
     entitled: BTreeSet<u32>,
 }
 
@@ -51,7 +51,7 @@ impl User {
         Some(user)
     }
 
-    /// Remedy that lets the user read and write the device `path`; `None` if the user may already.
+    /// Remedy that gives the user access to the device `path`; `None` if the user already has access.
     pub(super) fn remedy(&self, path: &str, metadata: &Metadata) -> Option<String> {
         let owned = Ownership::of(metadata)?;
         const READ_WRITE: u32 = 0o6;

@@ -55,9 +55,9 @@ pub(super) enum Answer {
     Fault(String),
     /// The command is being executed.
     Busy,
-    /// Number that the machine was asked to echo.
+    /// Echo of a number that was sent to the machine.
     Mark(u32),
-    /// Capability and its presence.
+    /// Name of a capability, and true if the machine has it.
     Can(String, bool),
 }
 
@@ -183,7 +183,7 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         sent.map_err(|error| CommandError::Broken(error.to_string()))
     }
 
-    /// Discards received answers including faults, for a machine whose state shows that they are over.
+    /// Discards received answers including faults, for a machine whose state shows that they are outdated.
     #[cfg(feature = "grbl")]
     pub(super) fn forget(&mut self) {
         while self.answers.try_recv().is_ok() {}

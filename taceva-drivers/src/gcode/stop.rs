@@ -11,7 +11,7 @@ use super::link::Writer;
 pub(super) struct Stop {
     driver: DriverKey,
     is_halted: AtomicBool,
-    /// Set once the robot is dropped, when there is nothing left to stop.
+    /// True once the robot is dropped, when nothing is left to stop.
     is_gone: AtomicBool,
     writer: Writer,
     /// Command that the machine executes at once in any state.
@@ -34,7 +34,7 @@ impl Stop {
         self.is_halted.load(Ordering::Acquire)
     }
 
-    /// Releases the latch. The driver handles the machine.
+    /// Releases the latch in the driver. Sends nothing to the machine.
     pub(super) fn release(&self) {
         self.is_halted.store(false, Ordering::Release);
     }

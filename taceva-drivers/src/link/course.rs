@@ -6,9 +6,9 @@ use taceva_core::{Pose, Speed};
 
 /// Interval between velocities. Three in a row may be lost.
 pub(crate) const RENEWED: Duration = Duration::from_millis(50);
-/// Remaining time at which a straight line takes over, since only a line ends exactly at the target.
+/// Remaining time below which a straight line replaces velocities, because only a line ends exactly at the target.
 pub(crate) const LINE: Duration = Duration::from_millis(100);
-/// A path up to this duration is one line, because the change of motion takes time too.
+/// Shortest path driven by velocities. Shorter paths are one line, because a change of motion takes time too.
 const WORTH: Duration = Duration::from_millis(300);
 /// Tolerance of the tool's rotation, degrees.
 const TURNED_DEG: f64 = 0.01;

@@ -17,7 +17,7 @@ struct Inside<T> {
     newest: Option<Seen<T>>,
     posted: u64,
     ended: Option<Ending>,
-    /// True while a caller waits, and true if that caller is to be interrupted.
+    /// True while a caller waits; `is_interrupted` makes that caller return.
     is_waiting: bool,
     is_interrupted: bool,
 }
@@ -30,14 +30,14 @@ pub(crate) struct Seen<T> {
     pub(crate) at: Duration,
 }
 
-/// Reason for the end of a reader thread.
+/// Reason why a reader thread ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Ending {
     pub(crate) kind: ErrorKind,
     pub(crate) why: String,
 }
 
-/// Reason why no newer item came.
+/// Reason why no newer item arrived.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum NoNews {
     /// The timeout expired.
@@ -81,7 +81,7 @@ impl<T> Default for Mailbox<T> {
 }
 
 impl<T: Clone> Mailbox<T> {
-    /// Posts the last of `count` items that arrived together at time `at`. The earlier ones are outdated.
+    /// Posts the last of `count` items that arrived together at time `at`. Earlier items are outdated.
     pub(crate) fn post_last(&self, count: u64, what: T, at: Duration) {
         let mut inside = self.inside();
         inside.posted += count;

@@ -64,7 +64,7 @@ pub enum SourceError {
     Times {
         /// Path of the table.
         path: PathBuf,
-        /// Line of the fault, counted from 1; `None` if it has none.
+        /// Line of the fault, from 1; `None` if the fault has no line.
         line: Option<u64>,
         /// The fault and the expected value.
         problem: String,

@@ -26,8 +26,7 @@ use crate::training::regressor::ModelRegressor;
 /// Linear discriminants: predict each channel as one of its training values. Features are whitened by the scatter within values, and
 /// the value with the nearest mean is taken ([`Discriminant`]).
 ///
-/// For boards, kinds and levels. A channel with more than 256 values is rejected. No setting is chosen by error, so the validation
-/// part is only scored.
+/// For boards, kinds and levels. A channel with more than 256 values is rejected. No setting is chosen, so the validation part only gives an error.
 ///
 /// # Reference
 /// R. A. Fisher, Ann. Eugen. 7 (1936) 179; O. Ledoit, M. Wolf, J. Multivar. Anal. 88 (2004) 365, eqs. 9-14.
@@ -36,10 +35,10 @@ pub struct LinearDiscriminant {
     scale: FeatureScale,
 }
 
-/// Most classes of a channel.
+/// Maximum number of classes of a channel.
 pub(crate) const VALUES_MAX: usize = 256;
 
-/// Most features of a covariance matrix: 134 MB.
+/// Maximum number of features of a covariance matrix: 134 MB.
 const FEATURES_MAX: usize = 4096;
 
 impl LinearDiscriminant {

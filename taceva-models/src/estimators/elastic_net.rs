@@ -21,8 +21,8 @@ use crate::training::trials::{Trials, rows_of};
 
 /// Elastic net: minimises ½n⁻¹ Σ (y − b − wᵀx)² + λ (α‖w‖₁ + ½(1 − α)‖w‖²) for each channel, with an unpenalised intercept b.
 ///
-/// λ is the strength × the least λ at which every weight is 0. Each channel gets one of the 25 strengths 1, 10⁻¹ᐟ⁶ … 10⁻⁴: the
-/// strength of least squared error on the validation part, or on folds of the training part if there is none.
+/// λ is the strength × the least λ at which every weight is 0. Each channel gets one of the 25 strengths 1, 10⁻¹ᐟ⁶ … 10⁻⁴. The chosen strength has
+/// the least squared error on the validation part, or on folds of the training part if there is none.
 ///
 /// # Reference
 /// H. Zou, T. Hastie, J. R. Stat. Soc. B 67 (2005) 301; J. Friedman, T. Hastie, R. Tibshirani, J. Stat. Softw. 33 (2010) 1, sec. 2.2.

@@ -23,9 +23,9 @@ use crate::training::trials::{Trials, rows_of};
 
 /// k nearest neighbours: mean of the labels of the k nearest training samples, weighted by 1 / distance.
 ///
-/// Samples at the same distance as the k-th are included. If a sample equals training samples, only these count. Each channel gets one
-/// of the numbers 1, 2, 3, 5, 8, 13, 21, 34: the number of least squared error on the validation part, or on folds of the training
-/// part if there is none.
+/// Samples at the same distance as the k-th are included. If a sample equals training samples, only these count. Each channel gets one of the
+/// numbers 1, 2, 3, 5, 8, 13, 21, 34. The chosen number has the least squared error on the validation part, or on folds of the training part if
+/// there is none.
 ///
 /// # Reference
 /// T. M. Cover, P. E. Hart, IEEE Trans. Inf. Theory 13 (1967) 21; D. Shepard, ACM Nat. Conf. 23 (1968) 517 (weights).
@@ -43,7 +43,7 @@ const COUNT: SettingInfo = SettingInfo {
     about: "number of training samples whose mean is the prediction",
 };
 
-/// Numbers to try; more neighbours are plainer.
+/// Numbers of neighbours to try; more neighbours are plainer.
 const COUNTS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
 
 impl Neighbours {

@@ -18,9 +18,9 @@ use crate::training::trials::{FOLDS, folds, folds_of};
 
 /// Partial least squares of all channels at once.
 ///
-/// Each channel gets its own number of directions; with none it predicts the mean. The number has the least squared error on the
-/// validation part, or on left-out samples of the training part: up to ten groups in turn, more groups combined in ten folds,
-/// or ten runs of neighbouring samples. Single samples are not left out, because neighbours in time are similar.
+/// Each channel gets its own number of directions; with none it predicts the mean. The number has the least squared error on the validation part,
+/// or on left-out samples of the training part. Up to ten groups are left out in turn, and more groups are combined in ten folds. Without groups,
+/// ten runs of neighbouring samples are left out. Single samples are not left out, because neighbours in time are similar.
 ///
 /// # Reference
 /// S. de Jong, Chemometr. Intell. Lab. Syst. 18 (1993) 251 (SIMPLS).

@@ -10,7 +10,7 @@ struct Axis {
     cell: u32,
 }
 
-/// Pixels under one cell: whole ones, and partial ones at its two ends.
+/// Pixels under one cell: whole pixels, and partial pixels at both ends.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Span {
     whole: std::ops::Range<usize>,

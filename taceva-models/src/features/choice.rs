@@ -9,7 +9,7 @@ use taceva_core::InputInfo;
 use crate::features::{DIFFERENCE, FeatureSpec, SIZE};
 use crate::settings::ModelSettings;
 
-/// Value of a setting that is to be chosen.
+/// Word for a setting that TacEva chooses.
 const CHOSEN: &str = "auto";
 
 /// Feature settings to be chosen.
@@ -20,7 +20,7 @@ pub struct OpenFeatures {
 }
 
 impl OpenFeatures {
-    /// Splits `settings` into open ones and the rest. `None` if all are set.
+    /// Splits `settings` into open settings and the rest. `None` if all are set.
     pub fn of(settings: &ModelSettings) -> Option<(OpenFeatures, ModelSettings)> {
         let is_open = |key: &str| settings.get(key) == Some(CHOSEN);
         let open = OpenFeatures {
@@ -108,7 +108,7 @@ pub struct FeatureChoice {
 /// Features to which no model could be fitted.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FailedFeatures {
-    /// Features.
+    /// Specification of the features.
     pub features: FeatureSpec,
     /// Reason of the failure.
     pub reason: String,
@@ -117,7 +117,7 @@ pub struct FailedFeatures {
 /// Result of features that were tried.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FeatureTrial {
-    /// Features.
+    /// Specification of the features.
     pub features: FeatureSpec,
     /// Root mean square error relative to the standard deviation of labels, over the channels that vary.
     pub error: f64,

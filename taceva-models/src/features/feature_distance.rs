@@ -5,17 +5,17 @@ use taceva_core::{FeatureShape, Features, ModelError, Progress};
 use super::pca::Pca;
 use crate::linalg::invalid;
 
-/// Most training samples used, evenly spaced over the part.
+/// Maximum number of training samples used, evenly spaced over the part.
 const SAMPLES_MOST: usize = 256;
-/// Fewest training samples for a distance; fewer give no useful limit.
+/// Minimum number of training samples for a distance, because fewer give no useful limit.
 const SAMPLES_LEAST: usize = 20;
 /// Blocks of neighbouring samples that are held out in turn if there are no groups.
 const BLOCKS: usize = 8;
-/// Most directions.
+/// Maximum number of directions.
 const DIRECTIONS_MOST: usize = 16;
-/// Fewest samples per direction.
+/// Minimum number of samples per direction.
 const SAMPLES_PER_DIRECTION: usize = 4;
-/// Most cells along a side. Finer pictures are averaged first.
+/// Maximum number of cells along a side. Finer pictures are averaged first.
 const SIDE_MOST: usize = 32;
 /// Share of held-out training samples within the limit.
 const WITHIN: f64 = 0.99;

@@ -12,8 +12,8 @@ use super::spec::Color;
 pub enum FeatureKind {
     /// Brightness: the area average of pixels. Affected by light as much as by touch.
     Pixels,
-    /// Displacement of nearby markers from the untouched gel, and the share of unseen ones.
-    /// Insensitive to everything between markers, and to light.
+    /// Displacement of nearby markers from the untouched gel, and the share of unseen markers. Insensitive to light and to everything between
+    /// markers.
     Markers,
     /// Surface slopes, by the colours of three lamps. Insensitive to shear and to flat areas, such as the middle of a flat touch.
     Gradients,

@@ -79,7 +79,7 @@ impl CellFeatures for Pixels {
     }
 }
 
-/// Converts the sum of a cell. Below 2^48 for 65,535 rows and columns of 16 bits; frames in memory have fewer than 2^32 columns.
+/// Converts the sum of a cell. The sum is below 2^48 for 65,535 rows and columns of 16 bits; frames in memory have fewer than 2^32 columns.
 pub(super) fn signed(sum: u64) -> i64 {
     i64::try_from(sum).expect("a cell of a frame in memory sums to less than 2^63")
 }

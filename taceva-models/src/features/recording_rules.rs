@@ -1,5 +1,5 @@
-//! Feature settings that follow the frames of a recording: at most one cell per pixel, colour if frames have it, and the
-//! difference from a contact-free frame.
+//! Feature settings that depend on the frames of a recording: at most one cell per pixel, colour if available, and the difference from a
+//! contact-free frame.
 
 use taceva_core::FrameInfo;
 

@@ -9,7 +9,7 @@ use super::kinds::FeatureKind;
 use super::pixels::{LUMA, LUMA_SUM, mixes};
 use super::spec::{Color, FeatureSpec};
 
-/// Quantiles, %.
+/// Quantiles of the pixel values, %.
 const QUANTILES: [usize; 5] = [5, 25, 50, 75, 95];
 /// Values per cell and colour: mean, standard deviation and quantiles.
 const NUMBERS: usize = 2 + QUANTILES.len();

@@ -106,7 +106,7 @@ pub enum ModelFileError {
     Format {
         /// Path of the file.
         path: PathBuf,
-        /// Fault.
+        /// Fault of the content.
         source: FormatError,
     },
 }

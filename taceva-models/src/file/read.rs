@@ -102,7 +102,7 @@ impl Models {
     }
 }
 
-/// True if all entries of a card are consistent with its input, frames or signals.
+/// True if all entries of a card are consistent with its input: frames or signals.
 fn is_of_its_input(card: &ModelCard) -> bool {
     match (card.input, &card.spread) {
         (InputInfo::Frame(_), None) => card.features.channels.is_none(),

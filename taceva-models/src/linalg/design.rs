@@ -16,7 +16,7 @@ const BLOCK: usize = 256;
 /// Divisor of each centred feature.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum FeatureScale {
-    /// 1.
+    /// No scaling: divisor 1.
     None,
     /// Standard deviation over the training part; 1 if that is 0.
     #[default]
@@ -144,7 +144,7 @@ impl<'a> Design<'a> {
         block
     }
 
-    /// X `right`.
+    /// Product X `right`.
     pub(crate) fn times(&self, right: MatRef<'_, f64>) -> Mat<f64> {
         stacked(self.samples(), right.ncols(), |samples, product| {
             for slab in slabs(self.width()) {
@@ -155,7 +155,7 @@ impl<'a> Design<'a> {
         })
     }
 
-    /// Xᵀ `right`.
+    /// Product Xᵀ `right`.
     pub(crate) fn transpose_times(&self, right: MatRef<'_, f64>) -> Mat<f64> {
         stacked(self.width(), right.ncols(), |features, product| {
             for slab in slabs(self.samples()) {

@@ -39,7 +39,7 @@ pub(crate) struct Solution {
     pub(crate) plain: Vec<f64>,
 }
 
-/// Most refinement steps. Each gains as many digits as the decomposition has.
+/// Maximum number of refinement steps. Each step gains as many digits as the decomposition has.
 const ROUNDS: usize = 40;
 
 /// Finds the x of least ‖y − A x‖ for each column y of `targets`.
@@ -50,7 +50,7 @@ const ROUNDS: usize = 40;
 /// # Reference
 /// Å. Björck, BIT 7 (1967) 257, 322.
 /// # Errors
-/// [`ModelError`] if there are fewer rows than columns, or a column is a linear combination of earlier ones to within rounding.
+/// [`ModelError`] if there are fewer rows than columns, or a column is a linear combination of earlier columns to within rounding.
 pub(crate) fn least_squares(
     matrix: Wide<'_>,
     targets: &Mat<f64>,

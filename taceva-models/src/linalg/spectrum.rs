@@ -45,9 +45,9 @@ pub(crate) fn symmetric_eigen(matrix: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<
 pub(crate) struct Spectrum<'d, 'a> {
     design: &'d Design<'a>,
     side: Side,
-    /// Σ², ascending, at least 0.
+    /// Eigenvalues Σ², ascending, at least 0.
     eigenvalues: Vec<f64>,
-    /// U or V.
+    /// Eigenvectors U or V.
     vectors: Mat<f64>,
 }
 

@@ -11,15 +11,15 @@ pub(crate) struct LearntChannels {
     pub(crate) asked: Channels,
     /// Channels of the estimator.
     pub(crate) learnt: Channels,
-    /// Position of each predicted channel among the learnt ones.
+    /// Position of each predicted channel among the learnt channels.
     sources: Vec<LearntAs>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 enum LearntAs {
-    /// Learnt unchanged, at this position.
+    /// Channel learnt unchanged, at this position.
     Itself(usize),
-    /// Learnt as sine and cosine of an angle.
+    /// Angle learnt as sine and cosine.
     Angle {
         sine: usize,
         cosine: usize,
@@ -113,7 +113,7 @@ impl LearntChannels {
         answers.collect()
     }
 
-    /// Standard deviations of the predicted channels, from deviations and predictions of the learnt ones. To first order for angles.
+    /// Standard deviations of the predicted channels, from deviations and predictions of the learnt channels. First-order for angles.
     pub(crate) fn deviations(&self, deviations: &[f64], learnt: &[f64]) -> Vec<f64> {
         let width = self.learnt.len();
         let rows = deviations
@@ -138,7 +138,7 @@ impl LearntChannels {
         found.collect()
     }
 
-    /// Position of each predicted channel among the learnt ones. `None` for angles.
+    /// Position of each predicted channel among the learnt channels. `None` for angles.
     pub(crate) fn as_they_are(&self) -> impl Iterator<Item = Option<usize>> {
         self.sources.iter().map(|source| match source {
             LearntAs::Itself(at) => Some(*at),

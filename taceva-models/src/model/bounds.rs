@@ -28,7 +28,7 @@ pub struct LabelBounds(Vec<Option<ChannelBounds>>);
 struct ChannelBounds {
     least: f64,
     greatest: f64,
-    /// True if labels vary.
+    /// True if the labels vary.
     varies: bool,
 }
 

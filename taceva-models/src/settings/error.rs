@@ -44,7 +44,7 @@ pub enum SettingError {
     Device {
         /// Requested programming interface.
         kind: GpuKind,
-        /// Reason.
+        /// Reason why the device is not available.
         source: GpuError,
     },
     /// A plugin estimator rejects a setting.

@@ -64,7 +64,7 @@ pub enum SplitError {
     )]
     NoBlocks,
     /// The shares are invalid.
-    #[error("fractions {given:?}: expected numbers from 0, the first above 0")]
+    #[error("fractions {given:?}: expected numbers of at least 0, the first above 0")]
     Fractions {
         /// Shares as given.
         given: [f64; 3],
@@ -121,7 +121,7 @@ pub enum SplitError {
     /// No sample has this value.
     #[error("split by-column: no sample has `{column}` = `{value}`, {suggestion}", column = taceva_core::shown(column), value = taceva_core::shown(value))]
     NoValue {
-        /// Column.
+        /// Name of the column.
         column: String,
         /// Value as given.
         value: String,

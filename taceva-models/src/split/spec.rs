@@ -24,9 +24,9 @@ pub struct SplitSpec {
 pub enum SplitKind {
     /// Random by sample.
     Random,
-    /// By time: the first samples are trained on, the last ones tested.
+    /// By time: the first samples train, the last samples test.
     Chronological,
-    /// Random by contact point: all presses of a point are in one part.
+    /// Random by contact point. All presses at a point are in one part.
     #[default]
     ByPoint,
     /// By the values of a column.
@@ -214,7 +214,7 @@ fn pieces(text: &str, separator: char) -> Vec<&str> {
 /// Separators of values, and the escape character.
 const MARKS: [char; 3] = [',', ';', '\\'];
 
-/// Removes escapes from a value.
+/// Removes the escape characters from a value.
 fn letters(text: &str) -> String {
     let mut value = String::with_capacity(text.len());
     let mut rest = text.chars().peekable();

@@ -100,7 +100,7 @@ pub enum Form {
         /// Number of stored samples.
         samples: usize,
     },
-    /// Classification.
+    /// Model that predicts one of the training labels.
     Classes {
         /// Number of classes, summed over channels.
         classes: usize,
@@ -117,7 +117,7 @@ pub enum Form {
 /// A channel and its training labels.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChannelCard {
-    /// Name.
+    /// Name of the channel.
     pub name: String,
     /// Unit of predictions.
     pub unit: Unit,
@@ -125,7 +125,7 @@ pub struct ChannelCard {
     pub minimum: f64,
     /// Range of the training labels; 1 if they are constant.
     pub span: f64,
-    /// Mean training label: the best constant prediction, to which skill compares.
+    /// Mean training label: the best constant prediction, the reference of skill.
     pub mean: f64,
     /// True if all training labels are equal. The channel is then predicted as this label.
     pub constant_label: bool,
@@ -141,7 +141,7 @@ pub struct ChannelCard {
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AngleCard {
-    /// Name.
+    /// Name of the angle.
     pub name: String,
     /// Unit of predictions, degrees or radians.
     #[serde(default = "degree", skip_serializing_if = "is_degree")]
@@ -206,16 +206,16 @@ pub struct ValidationCard {
     /// Findings about similar neighbouring samples.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<String>,
-    /// Scores.
+    /// Scores of the cross-validation.
     pub scores: Vec<ValidationScore>,
 }
 
 /// Score of a cross-validation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ValidationScore {
-    /// Metric, such as `mae`.
+    /// Metric of the score, such as `mae`.
     pub metric: String,
-    /// Channel.
+    /// Channel of the score.
     pub channel: String,
     /// Value, in the unit of metric and channel.
     pub value: f64,
@@ -228,13 +228,13 @@ pub struct ValidationScore {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Source {
-    /// Real sensor.
+    /// A real sensor.
     Recorded,
-    /// Simulated sensor.
+    /// A simulated sensor.
     Simulated,
-    /// Synthetic numbers for a test.
+    /// Artificial numbers for a test.
     Synthetic,
-    /// Not recorded.
+    /// Origin not stated.
     #[default]
     Unknown,
 }

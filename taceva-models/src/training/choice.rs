@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use taceva_core::{ModelError, Regressor, TrainingSet};
 
-/// Criterion for choosing a setting.
+/// Criterion by which a setting was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ChosenBy {
@@ -24,7 +24,7 @@ pub enum ChosenBy {
 /// Choice for every channel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
-    /// Criterion.
+    /// Criterion of the choice.
     pub by: ChosenBy,
     /// Name of the chosen setting, such as `strength` or `components`.
     pub setting: Option<String>,

@@ -1,4 +1,4 @@
-//! Regressors of principal components. Unlike linear ones, they cannot be folded into weights of pixels.
+//! Regressors of principal components. Unlike linear regressors, they cannot be folded into weights of pixels.
 
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 

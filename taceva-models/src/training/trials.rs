@@ -9,7 +9,7 @@ use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
 use crate::training::problem::{Problem, Validation, joined, stacked};
 
-/// Most fits of a choice without a validation part.
+/// Maximum number of fits for a choice without a validation part.
 pub(crate) const FOLDS: usize = 10;
 
 /// All samples of a choice, and its rounds.

@@ -1,4 +1,4 @@
-//! Stages of a network, before they have weights.
+//! Plan of the stages of a network, without weights.
 
 use super::PlainLayer;
 use crate::convolution::Convolution;
@@ -6,7 +6,7 @@ use crate::max_pool;
 use crate::picture::Picture;
 use crate::planes::Layout;
 
-/// Layers that are computed together.
+/// Layers that are computed together as one stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StagePlan {
     /// A convolution of 7 × 7 with stride 2, then max pooling over 3 × 3 with stride 2.

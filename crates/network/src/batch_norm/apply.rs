@@ -8,7 +8,7 @@ use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};
 
-/// Pictures added to the normalised ones before ReLU.
+/// Pictures added to the normalised pictures before ReLU.
 #[derive(Clone, Copy)]
 pub(crate) enum Shortcut<'a> {
     Nothing,

@@ -12,7 +12,7 @@ use crate::simd::{Job, Vector};
 /// Mask of a gradient by ReLU. The gradient passes where the output was positive.
 #[derive(Clone, Copy)]
 pub(crate) enum Gate<'a> {
-    /// No mask: the gradient is masked already.
+    /// No mask, because the gradient is masked already.
     Open,
     /// Passes where the normalised picture was positive.
     Normalised,
@@ -27,9 +27,9 @@ pub(crate) struct GradientSums {
     pub(crate) bias: Aligned,
     /// Σ g · (x − mean) · inverse, the gradient of the gain.
     pub(crate) gain: Aligned,
-    /// Σ g / n.
+    /// Mean gradient: Σ g / n.
     pub(crate) mean: Aligned,
-    /// inverse² · Σ g · (x − mean) / n.
+    /// Slope over the centred values: inverse² · Σ g · (x − mean) / n.
     pub(crate) slope: Aligned,
 }
 

@@ -5,13 +5,13 @@ use std::ops::Range;
 /// Bias and operations for the sums of whole batches.
 #[derive(Clone, Copy)]
 pub(crate) enum Epilogue<'a> {
-    /// Bare sums.
+    /// Bare sums, without bias.
     Raw,
-    /// A bias, then ReLU.
+    /// Bias, then ReLU.
     BiasRelu(&'a [f32]),
-    /// A bias and pictures with the layout of the output, then ReLU.
+    /// Bias, then pictures with the layout of the output, then ReLU.
     BiasAddRelu(&'a [f32], &'a [f32]),
-    /// Only a bias.
+    /// Bias only.
     Bias(&'a [f32]),
 }
 

@@ -1,7 +1,7 @@
 //! Convolutions as matrix products: windows of pixels are gathered and multiplied by the kernels.
 //!
-//! burn's own convolutions are not used: with tensor cores they compute in TF32, and without them they go pixel by pixel. burn 0.21 also drops the
-//! gradient of pixels where a kernel is narrower than its stride (`conv_transpose2d_direct`).
+//! burn's own convolutions are not used. With tensor cores they compute in TF32, and without them they go pixel by pixel. In burn 0.21 they also
+//! drop the gradient of pixels where a kernel is narrower than its stride (`conv_transpose2d_direct`).
 
 use burn_tensor::Tensor;
 use burn_tensor::backend::Backend;

@@ -25,7 +25,7 @@ struct DeviceEngine<B: Backend> {
     /// Folded weights for prediction, built at the first prediction after a step.
     prediction: Option<Prediction<B>>,
     moments: Vec<Tensor<B, 1>>,
-    /// Last step, for the error about weights that are not finite.
+    /// Last step, for the error about infinite or NaN weights.
     last: u64,
     /// Error of a failed step. The weights may be half updated, so every further step returns this error.
     failed: Option<NetworkError>,

@@ -21,7 +21,7 @@ pub enum GpuError {
         kind: GpuKind,
         /// Requirements of this kind.
         looked_for: &'static str,
-        /// Result of the search.
+        /// Devices found in the search, or the reason for finding none.
         found: String,
     },
 }

@@ -33,7 +33,7 @@ enum Layer<B: Backend> {
     },
 }
 
-/// A convolution and its normalisation. Fields are indices of their tensors among the trained ones and the running moments.
+/// A convolution and its normalisation. Fields are indices of their tensors among the trained tensors and the running moments.
 #[derive(Clone, Debug)]
 pub(crate) struct Normed<B: Backend> {
     pub(crate) convolution: Convolution<B>,

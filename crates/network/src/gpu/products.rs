@@ -1,7 +1,7 @@
 //! Matrix products in single precision.
 //!
-//! Here every product is computed by ordinary units in f32. burn would choose the fastest algorithm: on NVIDIA GPUs tensor cores, which round both
-//! factors to TF32 (eleven bits).
+//! All products are computed by ordinary units in f32. Left to itself, burn chooses the fastest algorithm. On NVIDIA GPUs, that is tensor cores,
+//! which round both factors to TF32 (eleven bits).
 
 use burn_cubecl::cubecl::server::ComputeServer;
 use burn_cubecl::ops::numeric::empty_device_contiguous_dtype;

@@ -1,4 +1,4 @@
-//! Gradients. Each output passes its whole gradient to its source pixel.
+//! Backward pass: each output passes its whole gradient to its source pixel.
 
 use rayon::prelude::*;
 

@@ -1,4 +1,4 @@
-//! The forward pass.
+//! Forward pass of fused max pooling.
 
 use rayon::prelude::*;
 

@@ -11,13 +11,13 @@ use crate::update::Update;
 /// Loss of some samples and its gradient by each parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradients {
-    /// Loss.
+    /// Loss of the samples.
     pub loss: f64,
     /// Gradients under the names of their parameters, sorted.
     pub tensors: Vec<NamedTensor>,
 }
 
-/// Stores every gradient.
+/// Update that stores every gradient.
 struct Keep(Vec<Vec<f32>>);
 
 impl Update for Keep {

@@ -11,7 +11,7 @@ use crate::stage::Stage;
 /// A tensor with its name. Residual networks use torchvision's names, such as `layer1.0.conv1.weight`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedTensor {
-    /// Name.
+    /// Name of the tensor.
     pub name: String,
     /// Dimensions; `[outputs, inputs, kernel rows, kernel columns]` for a convolution.
     pub shape: Vec<usize>,

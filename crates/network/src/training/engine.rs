@@ -59,7 +59,7 @@ pub struct Batch<'a> {
 /// State of a training, independent of a device.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
-    /// Network.
+    /// Network with its present weights.
     pub network: Network,
     /// Optimiser state.
     pub moments: Moments,

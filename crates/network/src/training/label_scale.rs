@@ -8,9 +8,9 @@ use crate::error::NetworkError;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LabelScaling {
-    /// To 0..1.
+    /// Scaled by the range, to 0..1.
     MinMax,
-    /// To a mean of 0 and a standard deviation of 1.
+    /// Standardised, to a mean of 0 and a standard deviation of 1.
     Standard,
     /// No scaling.
     None,

@@ -11,13 +11,13 @@ use crate::schedule::Schedule;
 /// Training settings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Recipe {
-    /// Passes over the training samples.
+    /// Number of passes over the training samples.
     pub epochs: u64,
-    /// Samples per step: at least 2.
+    /// Number of samples per step, at least 2.
     pub batch: usize,
     /// Update rule of the weights.
     pub optimizer: Optimizer,
-    /// Full learning rate.
+    /// Full learning rate, which the schedule multiplies.
     pub rate: f64,
     /// Ratio of each step's rate to the full rate.
     pub schedule: Schedule,
@@ -27,7 +27,7 @@ pub struct Recipe {
     pub scaling: LabelScaling,
     /// Random changes of pictures before each step.
     pub augmentation: Augmentation,
-    /// Epochs without a lower validation loss after which training stops. `None` never stops early.
+    /// Number of epochs without a lower validation loss after which training stops. `None` never stops early.
     pub patience: Option<u64>,
     /// Seed of all random numbers.
     pub seed: u64,

@@ -1,4 +1,4 @@
-//! Checks of a recording with one picture for each sample, or several.
+//! Entry point of the checks, for recordings with one or several pictures per sample.
 
 use taceva_core::Progress;
 use taceva_dataset::Dataset;
@@ -8,7 +8,7 @@ use crate::finding::CheckReport;
 use crate::run::{CheckRequest, check_seen};
 use crate::views::check_views;
 
-/// Checks `dataset` for defects; if samples have several pictures, in the pictures of each view.
+/// Checks `dataset` for defects. With several pictures per sample, checks the pictures of each view.
 ///
 /// # Errors
 /// [`EvaluateError`] if a code does not exist, the split cannot be made, or a frame is damaged.

@@ -1,4 +1,4 @@
-//! Every check: one file each, a pure function of the [`Evidence`](crate::Evidence) with a stable code.
+//! All checks, one per file. Each is a pure function of the [`Evidence`](crate::Evidence) with a stable code.
 
 mod angle_jumps;
 pub(crate) mod blank;
@@ -44,7 +44,7 @@ mod zero_shift;
 
 use crate::finding::Check;
 
-/// Every check, in the order of its code.
+/// All checks, in the order of their codes.
 pub static ALL: [&Check; 41] = [
     &units::CHECK,
     &duplicate_frames::CHECK,

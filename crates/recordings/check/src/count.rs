@@ -1,4 +1,4 @@
-//! Counts as numbers of double precision.
+//! Conversion of counts to double precision.
 
 #[expect(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
 pub(crate) fn count(number: usize) -> f64 {

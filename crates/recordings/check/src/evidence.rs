@@ -8,16 +8,16 @@ use crate::signal_facts::SignalFacts;
 use crate::tiles::Tiles;
 use taceva_dataset::RecordedSessions;
 
-/// A recording as checks see it.
+/// Data of a recording that checks read.
 #[derive(Debug)]
 pub struct Evidence<'a> {
     /// The header of the recording.
     pub header: &'a Header,
-    /// The labels.
+    /// Labels of the recording.
     pub table: &'a Table,
-    /// Division of the recording into parts.
+    /// Division of the recording into parts, if any.
     pub divided: Option<&'a Divided>,
-    /// Division whose test part an evaluation scores: the folds of the default split together, or `divided`.
+    /// Division whose test part an evaluation scores: all folds of the default split, or `divided`.
     pub scored: Option<&'a Divided>,
     /// Statistics of each row's frame; empty if no check reads frames.
     pub frames: &'a [Option<FrameFacts>],
@@ -25,14 +25,14 @@ pub struct Evidence<'a> {
     pub reference: Option<&'a FrameFacts>,
     /// Statistics of every taxel; `None` if there is none, or no check reads signals.
     pub signals: Option<&'a SignalFacts>,
-    /// The rows whose pictures decode although they are damaged inside, with the damage.
+    /// Rows whose pictures can be decoded although they are damaged, with the damage.
     pub damaged: &'a [(usize, String)],
-    /// The sessions on a real rig in which it was recorded, if any.
+    /// Sessions on a real rig that made the recording, if any.
     pub sessions: Option<&'a RecordedSessions>,
 }
 
 impl Evidence<'_> {
-    /// Index of the channel of the load: the normal force, or else the depth.
+    /// Index of the load channel: the normal force, otherwise the depth.
     pub(crate) fn load(&self) -> Option<usize> {
         let channels = self.table.channels();
         ["Fz", "Pz"]
@@ -47,7 +47,7 @@ impl Evidence<'_> {
         rows.collect()
     }
 
-    /// The row, the tiles and the load of each picture. The load is the absolute value of the channel at index `load`, in its unit.
+    /// Row, tiles and load of each picture. The load is the absolute value of the channel at index `load`, in its unit.
     pub(crate) fn loaded_pictures(&self, load: usize) -> Vec<(usize, &Tiles, f64)> {
         let column = self.table.truth(load);
         let frames = self.frames.iter().enumerate();
@@ -67,20 +67,20 @@ impl Evidence<'_> {
 pub struct FrameFacts {
     /// Mean of red, green and blue; for gray the same value three times.
     pub mean: [f64; 3],
-    /// Share of numbers at full scale.
+    /// Share of values at full scale.
     pub full: f64,
-    /// Share of numbers at zero.
+    /// Share of values at zero.
     pub zero: f64,
-    /// True if every pixel has the same values.
+    /// True if all pixels are equal.
     pub is_flat: bool,
     /// Mean absolute difference from the frame without contact, if there is one of the same size.
     pub distance: Option<f64>,
-    /// Mean light of tiles, each an eighth of the width wide.
+    /// Mean brightness of square tiles, an eighth of the width wide.
     pub tiles: Tiles,
 }
 
 impl FrameFacts {
-    /// The facts of `frame`, compared with the frame without contact.
+    /// Statistics of `frame`, compared with the frame without contact.
     pub fn of(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
         let format = frame.info().format;
         match format.bytes_per_sample() {
@@ -90,7 +90,7 @@ impl FrameFacts {
     }
 }
 
-/// Facts of 8-bit frames by histogram: one pass, without arithmetic for each pixel.
+/// Statistics of 8-bit frames from a histogram: one pass, without arithmetic for each pixel.
 fn facts_of_bytes(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
     let depth = frame.info().format.samples();
     let mut histograms = vec![[0_u64; 256]; depth];

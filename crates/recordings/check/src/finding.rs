@@ -11,7 +11,7 @@ use crate::evidence::Evidence;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// Worth knowing.
+    /// Useful information.
     Note,
     /// Numbers computed from the data may mislead.
     Warning,
@@ -32,15 +32,15 @@ impl fmt::Display for Severity {
 /// One check. The code never changes its meaning.
 #[derive(Debug)]
 pub struct Check {
-    /// Stable, for scripts: `TAC001`.
+    /// Stable code for scripts, such as `TAC001`.
     pub code: &'static str,
-    /// The check in words: `units-by-magnitude`.
+    /// Name of the check, such as `units-by-magnitude`.
     pub name: &'static str,
     /// The defect, in one line.
     pub looks_for: &'static str,
     /// Remedy for a finding.
     pub hint: &'static str,
-    /// The field of every sample that the check reads besides labels: frames, signals, or nothing.
+    /// Field that the check reads besides labels: frames, signals, or none.
     pub reads: Option<Field>,
     /// Runs the check.
     pub(crate) find: fn(&Evidence<'_>) -> Vec<Found>,
@@ -53,12 +53,12 @@ pub(crate) struct Found {
     pub(crate) message: String,
     pub(crate) samples: Vec<String>,
     pub(crate) count: usize,
-    /// False if there is nothing to mend.
+    /// False if there is nothing to fix.
     pub(crate) has_hint: bool,
 }
 
 impl Found {
-    /// Maximum samples named in a finding; the rest are counted.
+    /// Maximum number of samples named in a finding; the others are counted.
     const NAMED: usize = 5;
 
     /// A finding about the recording as a whole.
@@ -106,13 +106,13 @@ pub struct Finding {
     pub name: &'static str,
     /// Severity of the finding.
     pub severity: Severity,
-    /// The finding in words, with the numbers that decided.
+    /// Text of the finding, with the deciding numbers.
     pub message: String,
-    /// The first few samples concerned.
+    /// Names of the first few affected samples.
     pub samples: Vec<String>,
-    /// Number of samples concerned; 0 for the recording as a whole.
+    /// Number of affected samples; 0 for the recording as a whole.
     pub count: usize,
-    /// Remedy; empty if there is nothing to mend.
+    /// Remedy; empty if there is nothing to fix.
     pub hint: &'static str,
 }
 
@@ -133,15 +133,15 @@ impl Finding {
 /// All findings in one recording.
 #[derive(Clone, Debug, Serialize)]
 pub struct CheckReport {
-    /// The schema of this report.
+    /// Schema of this report.
     pub schema: &'static str,
-    /// The digest of the dataset.
+    /// Digest of the dataset.
     pub dataset: String,
     /// Number of samples of the dataset.
     pub samples: usize,
     /// Number of frames decoded.
     pub frames_decoded: u64,
-    /// The codes of the checks that ran.
+    /// Codes of the checks that ran.
     pub looked_for: Vec<&'static str>,
     /// Findings, worst first.
     pub findings: Vec<Finding>,
@@ -151,7 +151,7 @@ pub struct CheckReport {
 }
 
 impl CheckReport {
-    /// The worst severity found.
+    /// Worst severity of all findings.
     pub fn worst(&self) -> Option<Severity> {
         self.findings.iter().map(|finding| finding.severity).max()
     }

@@ -1,4 +1,4 @@
-//! Gathers the evidence, runs every check on it, and reports.
+//! Runs the checks: gathers the evidence, applies every check, and builds the report.
 
 use std::num::NonZeroUsize;
 use taceva_core::shown;
@@ -14,20 +14,20 @@ use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Plan;
 use taceva_evaluate::{Divided, require_samples, scored_by_default};
 
-/// Request of checks.
+/// Options of a run of checks.
 #[derive(Clone, Debug)]
 pub struct CheckRequest {
-    /// Codes or names of checks; empty for all.
+    /// Codes or names of the checks to run; empty for all.
     pub only: Vec<String>,
     /// The split to check for leakage, in text form.
     pub split: Option<String>,
-    /// The seed of the split.
+    /// Seed of the split.
     pub seed: u64,
-    /// Threads.
+    /// Number of threads.
     pub jobs: NonZeroUsize,
 }
 
-/// The steps of [`check`](fn@crate::check); reads no frame.
+/// Steps of [`check`](fn@crate::check). Reads no frame.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for a code that does not exist.
@@ -155,7 +155,7 @@ pub(crate) fn check_seen(
     })
 }
 
-/// True if one of `wanted` reads `field` of every sample of `dataset`, which has it.
+/// True if any of `wanted` reads `field` for every sample, and `dataset` has this field.
 fn reads(dataset: &Dataset, wanted: &[&Check], field: Field) -> bool {
     let of_all = |check: &&&Check| check.code == blank::CHECK.code;
     let mut checks = wanted.iter();
@@ -198,7 +198,7 @@ fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, EvaluateError> {
     Ok((kept, skipped))
 }
 
-/// The rows whose pictures decode although they are damaged inside, with the damage.
+/// Rows whose pictures can be decoded although they are damaged, with the damage.
 fn damaged(
     dataset: &Dataset,
     jobs: NonZeroUsize,

@@ -13,44 +13,44 @@ use crate::count::count;
 /// Statistics of every taxel of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalFacts {
-    /// The grid and the unit.
+    /// Grid and unit of the taxels.
     pub info: SignalInfo,
-    /// Names of the numbers, place first.
+    /// Names of the values, place first.
     pub names: Vec<String>,
-    /// The facts of each number, place first.
+    /// Statistics of each value, place first.
     pub taxels: Vec<TaxelFacts>,
-    /// Samples read.
+    /// Number of samples read.
     pub samples: u64,
-    /// Rows whose numbers are all exactly 0, if other rows are not.
+    /// Rows whose values are all exactly 0, if other rows are not.
     pub zero_rows: Vec<usize>,
-    /// The rows that are marked as without contact.
+    /// Rows declared as without contact.
     pub rest_rows: Vec<usize>,
-    /// The mean over those rows; `None` if there is none.
+    /// Mean over the rows without contact; `None` without such rows.
     pub rest: Option<Signals>,
-    /// Mean absolute difference of each row from that mean, in the unit of the signals; empty if there is none.
+    /// Mean absolute difference of each row from `rest`, in the unit of the signals; empty without `rest`.
     pub distance: Vec<f64>,
 }
 
 /// Statistics of one taxel.
 ///
 /// # Units
-/// The unit of the signals.
+/// Unit of the signals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TaxelFacts {
-    /// The least value, and its count.
+    /// Least value, and its count.
     pub least: (f32, u64),
-    /// The second least value, and its count.
+    /// Second least value, and its count.
     pub above_least: Option<(f32, u64)>,
-    /// The greatest value, and its count.
+    /// Greatest value, and its count.
     pub greatest: (f32, u64),
-    /// The second greatest value, and its count.
+    /// Second greatest value, and its count.
     pub below_greatest: Option<(f32, u64)>,
-    /// A digest of all values in order; equal for equal taxels.
+    /// Digest of all values in order; equal for equal taxels.
     pub series: u64,
 }
 
 impl SignalFacts {
-    /// The facts of `dataset`; `None` if it has no signals.
+    /// Computes the statistics of `dataset`; `None` without signals.
     pub(crate) fn of(
         dataset: &Dataset,
         progress: &dyn Progress,
@@ -140,13 +140,13 @@ impl TaxelFacts {
     }
 }
 
-/// The digest of a series with one more value; −0 equals 0.
+/// Digest of a series after one more value; −0 counts as 0.
 fn next_in_series(series: u64, value: f32) -> u64 {
     let value = if value.abs() <= 0.0 { 0.0 } else { value };
     fnv_1a_after(series, &value.to_bits().to_le_bytes())
 }
 
-/// Counts `value` if it is the extreme value or next to it; `beyond` is true if its first argument is more extreme.
+/// Counts `value` if it is the extreme value or the second one. `beyond` returns true if its first argument is more extreme.
 fn extend(
     value: f32,
     end: &mut (f32, u64),

@@ -1,4 +1,4 @@
-//! Consecutive rows in time, such as frames of a stream.
+//! Consecutive rows in time, such as the frames of a stream.
 
 use std::collections::BTreeMap;
 
@@ -10,17 +10,17 @@ use crate::evidence::Evidence;
 /// Minimum number of samples for any statement about steps.
 const LEAST: usize = 10;
 
-/// A step from a row to the next of the same contact, sensor and table.
+/// Step from one row to the next row of the same contact, sensor and table.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
-    /// The row before the step; with several units in one table not always the previous row.
+    /// Row before the step. With several units in one table, not always the previous row.
     pub(super) from: usize,
-    /// The row after the step.
+    /// Row after the step.
     pub(super) to: usize,
     pub(super) seconds: f64,
 }
 
-/// The steps of a stream.
+/// Steps of a stream.
 #[derive(Debug)]
 pub(super) struct Stream {
     pub(super) steps: Vec<Step>,
@@ -29,7 +29,7 @@ pub(super) struct Stream {
 }
 
 impl Stream {
-    /// The stream of a recording; `None` for single pictures, single presses, few samples, or no times.
+    /// Stream of a recording; `None` for single pictures, single presses, few samples, or missing times.
     pub(super) fn of(evidence: &Evidence<'_>) -> Option<Stream> {
         if is_of_presses(evidence) {
             return None;
@@ -58,7 +58,7 @@ impl Stream {
         (forward.len() >= LEAST && usual_s <= STREAM_S).then_some(Stream { steps, usual_s })
     }
 
-    /// Runs of steps in which each begins where the previous one ends.
+    /// Runs of adjacent steps.
     pub(super) fn runs(&self) -> Vec<Vec<Step>> {
         let mut runs: Vec<Vec<Step>> = Vec::new();
         let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
@@ -73,7 +73,7 @@ impl Stream {
         runs
     }
 
-    /// A stream of one run with these steps, s.
+    /// Stream of one run with these steps, s.
     #[cfg(test)]
     pub(super) fn of_seconds(seconds: &[f64]) -> Stream {
         let steps = seconds.iter().zip(0..);
@@ -86,7 +86,7 @@ impl Stream {
     }
 }
 
-/// True for a recording made press by press, whose pictures are single.
+/// True for a recording of single presses with one picture each.
 pub(super) fn is_of_presses(evidence: &Evidence<'_>) -> bool {
     let header = evidence.header;
     header.stream.is_none() && header.presses.values().any(|count| *count > 0)
@@ -103,7 +103,7 @@ pub(super) fn by_clock(table: &Table, rows: impl Iterator<Item = usize>) -> Vec<
     .collect()
 }
 
-/// Pairs of consecutive rows of one unit among `rows`, in the order of their times, whatever their tables.
+/// Pairs of consecutive rows of one unit among `rows`, ordered by time across tables.
 pub(super) fn by_time(table: &Table, rows: &[usize]) -> Vec<(usize, usize)> {
     let (units, times) = (table.unit_id(), table.t_s());
     let seconds = |row: usize| times[row].unwrap_or(f64::NEG_INFINITY);
@@ -121,8 +121,8 @@ pub(super) fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole.max(1) as f64
 }
 
-/// The rows with the same time as the previous row of their clock, if they exceed one in ten: stamps of whole seconds, or of a stopped
-/// clock.
+/// Rows with the same time as the previous row of their clock, if more than one in ten. The stamps are then whole seconds, or the clock has
+/// stopped.
 pub(super) fn repeated(table: &Table) -> Option<Vec<usize>> {
     const SHARE: usize = 10;
     let times = table.t_s();

@@ -1,4 +1,4 @@
-//! Mean light of the tiles of a picture: shows differences between pictures without the noise of single pixels.
+//! Mean brightness of the tiles of a picture, for comparing pictures without pixel noise.
 
 use taceva_core::Frame;
 
@@ -7,16 +7,16 @@ use crate::count::count;
 /// Number of tiles across the width of a picture.
 const ACROSS: usize = 8;
 
-/// Mean light of square tiles, row by row, as shares of the full scale.
+/// Mean brightness of square tiles, row by row, as shares of full scale.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tiles {
-    /// Number of tiles in a row.
+    /// Number of tiles per row.
     across: usize,
     means: Vec<f32>,
 }
 
 impl Tiles {
-    /// The tiles of `frame`, each an eighth of its width, all colours together.
+    /// Tiles of `frame`, each an eighth of its width, averaged over all colours.
     pub(crate) fn of(frame: &Frame) -> Tiles {
         let info = frame.info();
         let (width, height) = (info.width as usize, info.height as usize);
@@ -64,7 +64,7 @@ impl Tiles {
         }
     }
 
-    /// The mean of the tiles of several pictures; `None` for no picture, or pictures of different sizes.
+    /// Mean tiles of several pictures; `None` for no picture, or different sizes.
     pub(crate) fn mean<'a>(all: impl IntoIterator<Item = &'a Tiles>) -> Option<Tiles> {
         let mut all = all.into_iter();
         let first = all.next()?;
@@ -89,7 +89,7 @@ impl Tiles {
         })
     }
 
-    /// Mean absolute difference of the tiles, as a share of the full scale; infinite if their number differs.
+    /// Mean absolute difference of the tiles, as a share of full scale; infinite if the numbers of tiles differ.
     pub(crate) fn distance(&self, other: &Tiles) -> f64 {
         if !self.is_like(other) {
             return f64::INFINITY;
@@ -98,7 +98,7 @@ impl Tiles {
         sum / count(self.means.len().max(1))
     }
 
-    /// Greatest absolute difference of two tiles at one place, as a share of the full scale; infinite if their number differs.
+    /// Greatest absolute difference of two tiles at one place, as a share of full scale; infinite if the numbers of tiles differ.
     pub(crate) fn greatest(&self, other: &Tiles) -> f64 {
         if !self.is_like(other) {
             return f64::INFINITY;

@@ -1,27 +1,26 @@
-//! Pictures that look like an untouched gel, whatever their labels are.
+//! Finds pictures of an untouched gel by their content, whatever their labels are.
 
 use crate::evidence::Evidence;
 use crate::tiles::Tiles;
 
-/// Share of the greatest load up to which a picture is a candidate for an untouched one.
+/// Share of the greatest load up to which a picture may show an untouched gel.
 const LOW: f64 = 0.1;
-/// Maximum number of candidate centres of the densest group of pictures, and of pictures compared with each.
+/// Maximum number of candidate centres of the densest group, and of pictures compared with each.
 const CANDIDATES: usize = 200;
 const BESIDE: usize = 1000;
-/// Minimum size of the group: a number of pictures, and one in `SHARE` of all.
+/// Minimum number of pictures in the group. `SHARE` is their minimum frequency.
 const LEAST: usize = 8;
 const SHARE: usize = 20;
-/// Radius of the group, as a multiple of the radius of its core.
+/// Radius of the group, in core radii.
 const REACH: f64 = 2.5;
-/// Maximum share of all pictures in the group: beyond it, pictures do not show contact.
+/// Maximum share of all pictures in the group. In a larger group, pictures do not show contact.
 const MOST: f64 = 0.75;
-/// Minimum number of separate visits to the group: one held contact is not rest.
+/// Minimum number of separate visits to the group, because a single held contact is not rest.
 const VISITS: usize = 4;
 
-/// The rows of the densest group of similar pictures around one with a low load; empty if there is no such group.
+/// Rows of the densest group of similar pictures around a picture with a low load; empty without such a group.
 ///
-/// Labels only choose the candidates. A force that is zeroed again gives some untouched pictures a load, and they still belong to the
-/// group.
+/// Labels only select the candidates. After a force was zeroed again, some untouched pictures have a load and still belong to the group.
 pub(crate) fn look_alikes(evidence: &Evidence<'_>) -> Vec<usize> {
     let Some(load) = evidence.load() else {
         return Vec::new();

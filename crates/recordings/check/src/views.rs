@@ -1,4 +1,4 @@
-//! Findings of a recording whose samples have several pictures, for each view.
+//! Checks of recordings with several pictures per sample, view by view.
 
 use taceva_core::Progress;
 use taceva_dataset::Dataset;
@@ -9,7 +9,7 @@ use crate::run::{CheckRequest, check_seen};
 
 /// Checks the labels of `dataset`, and the pictures of each of its views.
 ///
-/// A finding that occurs without any picture and in every view is about labels and is reported once; any other names its views.
+/// A finding that occurs without pictures and in every view concerns labels and is reported once. Any other finding names its views.
 pub(crate) fn check_views(
     dataset: &Dataset,
     request: &CheckRequest,

@@ -1,4 +1,4 @@
-//! Explanation for a path without a dataset.
+//! Explains why a path contains no dataset.
 
 use std::fs;
 use std::path::Path;
@@ -7,9 +7,9 @@ use crate::layout;
 use crate::shell::shell_word;
 use crate::text::{first_names, shown_path};
 
-/// Names in the folder of a run: the file of its plans, which identifies it, and the folder of its recordings.
+/// Names in the folder of a run: the plan file, which identifies a run, and the folder of recordings.
 const RUN: [&str; 2] = ["plans.json", "recordings"];
-/// Maximum names listed; the others are counted.
+/// Maximum number of listed names; the others are counted.
 const LISTED: usize = 8;
 
 /// Describes the content of `path`, which has no header, and names the datasets inside it.
@@ -51,7 +51,7 @@ fn is_run(path: &Path) -> bool {
     RUN.iter().all(|name| path.join(name).exists())
 }
 
-/// The datasets in the folder at `path`, sorted by name.
+/// Datasets in the folder at `path`, sorted by name.
 fn datasets(path: &Path) -> Vec<String> {
     let entries = fs::read_dir(path).into_iter().flatten().flatten();
     let whole = entries.filter(|entry| entry.path().join(layout::HEADER).is_file());

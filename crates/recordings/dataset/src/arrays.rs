@@ -6,12 +6,12 @@ use taceva_core::{Frame, FrameInfo};
 use crate::dataset::{Dataset, Pass};
 use crate::error::DatasetError;
 
-/// The pixels of one frame.
+/// Pixels of one frame.
 ///
 /// # Shapes
 /// Height × width × channels, in standard (row-major) layout; one channel for gray, three for red, green and blue.
 /// # Units
-/// Steps of the camera: 0 to 255, or 0 to 65,535.
+/// Camera steps: 0 to 255, or 0 to 65,535.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -32,12 +32,12 @@ pub enum FrameArray {
     U16(Array3<u16>),
 }
 
-/// The pixels of several frames of one size.
+/// Pixels of several frames of the same size.
 ///
 /// # Shapes
 /// Frames × height × width × channels, in standard (row-major) layout; one channel for gray, three for red, green and blue.
 /// # Units
-/// Steps of the camera: 0 to 255, or 0 to 65,535.
+/// Camera steps: 0 to 255, or 0 to 65,535.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -72,7 +72,7 @@ impl From<Frame> for FrameArray {
 }
 
 impl FrameArrays {
-    /// `frames` of `info` in one array, each copied once; `None` if one of them has another size or format.
+    /// Copies `frames` of `info` into one array; `None` if a frame has another size or format.
     ///
     /// ```
     /// use taceva_core::{FrameInfo, PixelFormat};
@@ -91,7 +91,7 @@ impl FrameArrays {
 }
 
 impl Dataset {
-    /// The frame of a row as an array, verified and decoded; `None` if the row has none.
+    /// Frame of a row as an array, verified and decoded; `None` if the row has no frame.
     ///
     /// # Errors
     /// As [`frame`](Dataset::frame).
@@ -112,8 +112,7 @@ impl Dataset {
         Ok(self.frame(row)?.map(FrameArray::from))
     }
 
-    /// The frames of the rows of `pass` as one array, in that order, verified and decoded on its threads. All of them are in memory at
-    /// once, so the number of rows must fit.
+    /// Frames of the rows of `pass` as one array, in the same order, verified and decoded on several threads. All frames must fit into memory.
     ///
     /// # Errors
     /// As [`map_frames`](Dataset::map_frames), also for the first row without a frame; [`DatasetError::Request`] if the dataset has no
@@ -152,19 +151,19 @@ impl Dataset {
     }
 }
 
-/// Height, width and channels.
+/// Height, width and number of channels.
 fn shape(info: FrameInfo) -> [usize; 3] {
     // Cannot overflow: a frame of that size is in memory.
     let [height, width] = [info.height, info.width].map(|side| side as usize);
     [height, width, info.format.samples()]
 }
 
-/// Array of this shape with `values` in order; empty if their number does not fit.
+/// Array of this shape with `values` in order; empty if the number of values does not fit.
 fn of_len<T: Clone + Default>(shape: [usize; 3], values: Vec<T>) -> Array3<T> {
     Array3::from_shape_vec(shape, values).unwrap_or_default()
 }
 
-/// The numbers of consecutive frames of one size.
+/// Pixel values of consecutive frames of the same size.
 struct Pixels {
     info: FrameInfo,
     frames: usize,

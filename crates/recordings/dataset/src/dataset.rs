@@ -57,21 +57,21 @@ pub struct Dataset {
     folder: HeldFolder,
     header: Header,
     table: Table,
-    /// The first frame of each pack that was read.
+    /// First frame of each pack read so far.
     firsts: Mutex<BTreeMap<String, Arc<Frame>>>,
-    /// The file of signals, once a row of it was requested.
+    /// Reader of the signals file; `None` before the first request.
     signals: Mutex<Option<Arc<SignalsReader>>>,
-    /// The joined recordings, in the order of their rows; empty for a single recording.
+    /// Joined recordings, in row order; empty for a single recording.
     joined: Vec<JoinedRecording>,
-    /// Indices of the chosen views; empty if a row has one picture or no view was chosen.
+    /// Indices of the selected views; empty if a row has one picture or no view was selected.
     seen: Vec<usize>,
 }
 
 impl Dataset {
-    /// Opens the recording at `path`. The table is verified and loaded; frames are verified as they are read.
+    /// Opens the recording at `path`. Verifies and loads the table; frames are verified when read.
     ///
     /// # Errors
-    /// [`DatasetError::NoDataset`] if there is none or the recording was not closed; [`DatasetError::Version`] if it is newer;
+    /// [`DatasetError::NoDataset`] if there is none or the recording was not closed; [`DatasetError::Version`] if its format is newer;
     /// [`DatasetError::Digest`] or [`DatasetError::Damaged`] if it was changed; [`DatasetError::Io`].
     pub fn open(path: &Path) -> Result<Dataset, DatasetError> {
         let folder = HeldFolder::open(path)?;
@@ -93,7 +93,7 @@ impl Dataset {
         Ok(dataset)
     }
 
-    /// A single recording without a chosen view, before any of its files is read.
+    /// Single recording without a selected view, before any of its files is read.
     fn of(folder: HeldFolder, header: Header, table: Table) -> Dataset {
         Dataset {
             folder,
@@ -106,30 +106,30 @@ impl Dataset {
         }
     }
 
-    /// The folder; for joined recordings that of the first.
+    /// Folder of the recording; the first folder for joined recordings.
     pub fn path(&self) -> &Path {
         self.folder.path()
     }
 
-    /// The facts of the recording as a whole.
+    /// Facts about the recording as a whole.
     pub fn header(&self) -> &Header {
         &self.header
     }
 
-    /// The labels.
+    /// Table of the labels.
     pub fn table(&self) -> &Table {
         &self.table
     }
 
-    /// The digest of everything that affects a number computed from this dataset.
+    /// Digest of everything that affects a number computed from this dataset.
     pub fn digest(&self) -> Digest {
         self.header.digest
     }
 
-    /// Digests of the files that an import read, in the form of `sha256sum`. `None` for a recording, or if none were stored.
+    /// Digests of the imported source files, in the format of `sha256sum`. `None` for a recording, or if none were stored.
     ///
     /// # Errors
-    /// [`DatasetError::Digest`] if the list was changed; [`DatasetError::Io`].
+    /// [`DatasetError::Digest`] if the stored list was changed; [`DatasetError::Io`].
     pub fn source_sums(&self) -> Result<Option<String>, DatasetError> {
         let Some(info) = self.header.sources else {
             return Ok(None);
@@ -143,7 +143,7 @@ impl Dataset {
         utf8(&path, bytes).map(Some)
     }
 
-    /// The rows in order, for a pass over all of them.
+    /// Indices of all rows, in order.
     pub fn all_rows(&self) -> Vec<usize> {
         (0..self.table.rows()).collect()
     }

@@ -1,4 +1,4 @@
-//! Decoder of PNG, JPEG and TIFF files to frames.
+//! Decodes PNG, JPEG and TIFF files to frames.
 
 mod tiff;
 
@@ -17,7 +17,7 @@ use crate::decoder_panic::guarded;
 use crate::jpeg::check_whole;
 use crate::limits;
 
-/// Order of the colours of a pixel in the image files.
+/// Order of the colours within a pixel of an image file.
 ///
 /// ```
 /// use taceva_dataset::ChannelOrder;
@@ -30,9 +30,9 @@ use crate::limits;
 pub enum ChannelOrder {
     /// Red, green, blue: the standard of image files.
     Rgb,
-    /// Blue, green, red: written by a program that did not convert its pixels to the standard order. Decoded frames are red, green, blue.
+    /// Blue, green, red: written by programs that skip the conversion to standard order. Decoded frames are red, green, blue.
     Bgr,
-    /// One number for each pixel.
+    /// One value per pixel.
     Gray,
 }
 
@@ -47,15 +47,15 @@ impl ChannelOrder {
     }
 }
 
-/// The file formats of stored frames.
+/// File formats of stored frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[doc(hidden)]
 pub enum ImageKind {
-    /// PNG.
+    /// PNG image, lossless.
     Png,
-    /// JPEG.
+    /// JPEG image, lossy.
     Jpeg,
-    /// TIFF.
+    /// TIFF image.
     Tiff,
 }
 
@@ -63,11 +63,11 @@ const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 const PNG_END: &[u8] = b"\0\0\0\0IEND\xaeB`\x82";
 const JPEG_SIGNATURE: &[u8] = b"\xff\xd8\xff";
 const JPEG_END: &[u8] = b"\xff\xd9";
-/// The signatures of either byte order, and of BigTIFF, which may exceed 4 GiB.
+/// File signatures of TIFF in both byte orders, and of BigTIFF, which may exceed 4 GiB.
 const TIFF_SIGNATURES: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
 
 impl ImageKind {
-    /// The kind by the signature of `bytes`; the file name is ignored.
+    /// Format by the signature of `bytes`. The file name is ignored.
     pub fn of(bytes: &[u8]) -> Option<ImageKind> {
         if bytes.starts_with(PNG_SIGNATURE) {
             Some(ImageKind::Png)
@@ -80,7 +80,7 @@ impl ImageKind {
         }
     }
 
-    /// The usual extension of its files.
+    /// Usual file extension of the format.
     pub const fn extension(self) -> &'static str {
         match self {
             ImageKind::Png => "png",
@@ -89,7 +89,7 @@ impl ImageKind {
         }
     }
 
-    /// True if `extension` is usual for files of this kind.
+    /// True if `extension` is usual for this format.
     pub fn has_extension(self, extension: &str) -> bool {
         let known: &[&str] = match self {
             ImageKind::Png => &["png"],
@@ -104,9 +104,8 @@ impl ImageKind {
 
 /// Decodes the image file `bytes`, whose colours are stored in `order`.
 ///
-/// 8 and 16 bit, gray and RGB are kept. PNG palettes and fewer bits become 8-bit RGB or gray. An alpha channel is dropped if it is opaque
-/// everywhere, and rejected otherwise. A file without its end marker is rejected as truncated, even if a decoder would fill the rest with
-/// gray.
+/// Keeps 8 and 16 bits, gray and RGB. PNG palettes and fewer bits become 8-bit RGB or gray. An alpha channel is dropped if opaque everywhere,
+/// otherwise rejected. A file without its end marker is rejected as truncated, even if a decoder would fill the rest with gray.
 pub fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), String> {
     let kind = kind_of_whole(bytes)?;
     let (info, pixels) = guarded(|| match kind {
@@ -120,8 +119,8 @@ pub fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), S
     Ok((kind, frame))
 }
 
-/// Checks that an image file of `kind` that decodes is complete. PNG decoders check every part, TIFF decoders check every strip, but JPEG
-/// decoders fill missing parts with gray.
+/// Checks that a decodable image file of `kind` is complete. PNG and TIFF decoders check this themselves; JPEG decoders fill missing parts with
+/// gray.
 pub fn check_to_the_end(bytes: &[u8], kind: ImageKind) -> Result<(), String> {
     match kind {
         ImageKind::Png | ImageKind::Tiff => Ok(()),
@@ -130,7 +129,7 @@ pub fn check_to_the_end(bytes: &[u8], kind: ImageKind) -> Result<(), String> {
     }
 }
 
-/// The kind of an image file that is complete.
+/// Format of a complete image file.
 pub(crate) fn kind_of_whole(bytes: &[u8]) -> Result<ImageKind, String> {
     let kind = ImageKind::of(bytes)
         .ok_or("neither PNG nor JPEG nor TIFF: its first bytes are those of another format")?;
@@ -199,13 +198,13 @@ fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     Ok((info, pixels))
 }
 
-/// Message for a type of pixels or colours that is neither gray nor RGB.
+/// Error message for a pixel or colour type that is neither gray nor RGB.
 fn unsupported(what: &str, found: &dyn std::fmt::Debug) -> String {
     format!("unsupported {what} type {found:?}; convert to gray or RGB")
 }
 
-/// True if a sequential JPEG codes each colour in its own scan: its first scan has fewer components than its frame (ITU-T T.81, B.2.2 and
-/// B.2.3).
+/// True if a sequential JPEG codes each colour in a separate scan, so that its first scan has fewer components than its frame (ITU-T T.81, B.2.2
+/// and B.2.3).
 fn has_a_scan_a_component(bytes: &[u8]) -> bool {
     let mut of_frame = None;
     let mut rest = bytes.get(2..).unwrap_or(&[]);
@@ -292,7 +291,7 @@ fn most_of(file: &[u8]) -> usize {
     usize::try_from(limits::decoded_bytes(file.len())).unwrap_or(usize::MAX)
 }
 
-/// The decoded size of the image in `file`, bytes.
+/// Decoded size of the image in `file`, bytes.
 ///
 /// # Errors
 /// A message if it exceeds [`most_of`] the file.
@@ -316,7 +315,7 @@ fn little_endian(mut pixels: Vec<u8>) -> Vec<u8> {
     pixels
 }
 
-/// Pixels of `PIXEL` bytes without their last `ALPHA` ones, which must all be opaque.
+/// Removes the last `ALPHA` bytes of each pixel of `PIXEL` bytes, which must all be opaque.
 fn without_alpha<const PIXEL: usize, const ALPHA: usize>(pixels: &[u8]) -> Result<Vec<u8>, String> {
     let mut colours = Vec::with_capacity(pixels.len() / PIXEL * (PIXEL - ALPHA));
     for pixel in pixels.chunks_exact(PIXEL) {
@@ -329,7 +328,7 @@ fn without_alpha<const PIXEL: usize, const ALPHA: usize>(pixels: &[u8]) -> Resul
     Ok(colours)
 }
 
-/// The pixels with their colours in standard order; a message if `order` does not fit them.
+/// Pixels with their colours in standard order, or an error message if `order` does not fit.
 fn in_order(info: FrameInfo, mut pixels: Vec<u8>, order: ChannelOrder) -> Result<Vec<u8>, String> {
     let is_gray = info.format.samples() == 1;
     if is_gray != (order == ChannelOrder::Gray) {

@@ -1,6 +1,6 @@
-//! Panics of third-party decoders, converted to errors.
+//! Converts panics of third-party decoders to errors.
 
-/// The value of `decode`. If it panics, the error contains the message of the panic, and nothing is printed.
+/// Returns the value of `decode`. A panic becomes an error with its message, and nothing is printed.
 pub fn guarded<T>(decode: impl FnOnce() -> T) -> Result<T, String> {
     taceva_core::contained(decode).map_err(|message| format!("the decoder panicked: {message}"))
 }

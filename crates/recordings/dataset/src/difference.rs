@@ -1,15 +1,15 @@
-//! Differences of frames: equal parts become zero, which compresses well.
+//! Differences between frames, whose equal parts become zero and compress well.
 
 use taceva_core::{Frame, FrameError};
 
 use crate::digest::{Digest, PartsDigest};
 
-/// `frame` minus `first`, number by number, wrapping; both are of one kind.
+/// `frame` minus `first`, value by value, wrapping. Both must have the same size and format.
 pub(crate) fn less(frame: &Frame, first: &Frame) -> Result<Frame, FrameError> {
     mixed(frame, first, u8::wrapping_sub, u16::wrapping_sub)
 }
 
-/// The frame whose [`less`] is `difference`.
+/// Inverse of [`less`]: restores the frame from its `difference` to `first`.
 pub(crate) fn plus(difference: &Frame, first: &Frame) -> Result<Frame, FrameError> {
     mixed(difference, first, u8::wrapping_add, u16::wrapping_add)
 }
@@ -34,7 +34,8 @@ fn mixed(
     Frame::new(frame.info(), mixed)
 }
 
-/// The digest of a difference stored as `bytes` to the frame with digest `first`: with another frame the same bytes are another picture.
+/// Digest of a difference stored as `bytes`, relative to the frame with digest `first`. The same bytes with another first frame are another
+/// picture.
 pub(crate) fn digest(first: Digest, bytes: &[u8]) -> Digest {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.difference/1");

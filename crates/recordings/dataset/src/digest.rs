@@ -20,7 +20,7 @@ use sha2::{Digest as _, Sha256};
 pub struct Digest([u8; 32]);
 
 impl Digest {
-    /// The digest of `bytes`.
+    /// Digest of `bytes`.
     ///
     /// ```
     /// use taceva_dataset::Digest;
@@ -32,7 +32,7 @@ impl Digest {
         Digest(Sha256::digest(bytes).into())
     }
 
-    /// The digest of the rest of `reader`.
+    /// Digest of the remaining bytes of `reader`.
     ///
     /// # Errors
     /// Errors of `reader`.
@@ -47,13 +47,13 @@ impl Digest {
         }
     }
 
-    /// The 32 bytes.
+    /// Bytes of the digest.
     pub fn as_bytes(&self) -> &[u8; 32] {
         &self.0
     }
 }
 
-/// Digests a sequence of parts with their lengths, so that different sequences give different digests.
+/// Digest of a sequence of parts with their lengths, so that different sequences give different digests.
 #[derive(Clone, Debug, Default)]
 #[doc(hidden)]
 pub struct PartsDigest(Sha256);
@@ -70,7 +70,7 @@ impl PartsDigest {
         self.0.update(bytes);
     }
 
-    /// The digest of all parts.
+    /// Digest of all parts.
     pub fn finish(self) -> Digest {
         Digest(self.0.finalize().into())
     }
@@ -89,7 +89,7 @@ impl fmt::Debug for Digest {
     }
 }
 
-/// A text that is not a digest.
+/// Error for a text that is not a digest.
 ///
 /// ```
 /// use taceva_dataset::{Digest, DigestError};

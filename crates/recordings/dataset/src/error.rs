@@ -1,4 +1,4 @@
-//! Errors of recordings, tables and maps.
+//! Errors of reading and writing recordings, tables and maps.
 
 mod place;
 
@@ -15,7 +15,7 @@ use crate::view_names::wanted_view;
 
 pub use place::Place;
 
-/// Error of data on disk; each variant states the content found, its location, and the accepted form.
+/// Error of data on disk. Each variant states the content found, its location, and the accepted form.
 ///
 /// ```
 /// use taceva_core::ErrorKind;
@@ -30,131 +30,131 @@ pub use place::Place;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DatasetError {
-    /// An error of the operating system.
+    /// Error of the operating system.
     #[error("cannot {doing} {}: {source}", shown_path(path))]
     Io {
-        /// The operation: `read`, `create`, `make durable`, …
+        /// Operation that failed: `read`, `create`, `make durable`, …
         doing: &'static str,
-        /// The file or folder.
+        /// Path of the file or folder.
         path: PathBuf,
-        /// The error of the system.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// A text file with invalid content: a map, a header, a table of sessions.
+    /// Text file with invalid content: a map, a header, or a table of sessions.
     #[error("{place}: {problem}")]
     Text {
-        /// Location.
+        /// Location of the fault.
         place: Place,
-        /// The fault, and the accepted form.
+        /// Fault, and the accepted form.
         problem: String,
     },
-    /// A path that is not followed.
+    /// Path that may not be followed.
     #[error("`{}`: {problem}", shown(written))]
     Path {
-        /// The path as written.
+        /// Path as written.
         written: String,
-        /// Reason why it is not followed.
+        /// Reason why it is rejected.
         problem: String,
     },
-    /// An image, or an array of images, that is damaged, too large or unlike the others.
+    /// Image, or array of images, that is damaged, too large or unlike the others.
     #[error("{}: {problem}", shown_path(path))]
     Image {
-        /// The image.
+        /// Path of the image.
         path: PathBuf,
-        /// The fault, and the accepted form.
+        /// Fault, and the accepted form.
         problem: String,
     },
-    /// A target that exists already; it is not overwritten.
+    /// Existing target, which is not overwritten.
     #[error(
         "{} exists already; choose another place or remove it",
         shown_path(path)
     )]
     TargetExists {
-        /// The existing path.
+        /// Path of the target.
         path: PathBuf,
     },
-    /// A folder that another process is writing.
+    /// Folder that another process is writing.
     #[error("{} is being written by another process", shown_path(path))]
     Busy {
-        /// The folder.
+        /// Path of the folder.
         path: PathBuf,
     },
-    /// A folder that is no dataset.
+    /// Folder that is not a dataset.
     #[error("{} is no dataset: {problem}", shown_path(path))]
     NoDataset {
-        /// The folder.
+        /// Path of the folder.
         path: PathBuf,
-        /// The missing part.
+        /// Missing part of a dataset.
         problem: String,
     },
-    /// A dataset of a format that this version cannot read.
+    /// Dataset of a format that this version cannot read.
     #[error("{}: format {found} {}", shown_path(path), unreadable(*found))]
     Version {
-        /// The header.
+        /// Path of the header.
         path: PathBuf,
-        /// The format it declares.
+        /// Format declared by the header.
         found: Version,
     },
-    /// A file whose bytes differ from those recorded.
+    /// File whose bytes differ from the recorded bytes.
     #[error("{}: damaged: expected {expected}, found {found}", shown_path(path))]
     Digest {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The digest that was recorded.
+        /// Recorded digest.
         expected: Digest,
-        /// The digest of the present bytes.
+        /// Digest of the present bytes.
         found: Digest,
     },
-    /// A header that was changed after it was sealed.
+    /// Header that was changed after it was sealed.
     #[error("{}: {source}", shown_path(path))]
     Seal {
-        /// The header.
+        /// Path of the header.
         path: PathBuf,
-        /// The fault.
+        /// Fault of the seal.
         source: SealError,
     },
-    /// A file of a dataset that contradicts itself or its header.
+    /// File of a dataset that contradicts itself or its header.
     #[error("{}: damaged: {problem}", shown_path(path))]
     Damaged {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The contradiction.
+        /// Contradiction found.
         problem: String,
     },
-    /// A journal with damage before its end: the later records were acknowledged and must not be cut.
+    /// Journal that is damaged before its end. Later records were acknowledged and must not be cut.
     #[error("{}: damaged at byte {offset}: {problem}", shown_path(path))]
     Journal {
-        /// The journal.
+        /// Path of the journal.
         path: PathBuf,
         /// Offset of the damaged record, bytes.
         offset: u64,
-        /// The fault.
+        /// Fault of the record.
         problem: String,
     },
-    /// A sample that cannot be recorded.
+    /// Sample that cannot be recorded.
     #[error("sample `{}`: {problem}", shown(id))]
     Sample {
-        /// The sample.
+        /// Name of the sample.
         id: String,
-        /// The reason.
+        /// Reason why it is rejected.
         problem: String,
     },
-    /// A request for something that the dataset lacks.
+    /// Request for something that the dataset lacks.
     #[error("{}: {problem}", shown_path(path))]
     Request {
-        /// The dataset.
+        /// Path of the dataset.
         path: PathBuf,
-        /// The request, and the available alternatives.
+        /// Request, and the available alternatives.
         problem: String,
     },
-    /// A view of pictures that does not exist, or none named although samples have several pictures.
+    /// View that does not exist, or no view although samples have several pictures.
     #[error("{}: {}", shown_path(path), wanted_view(asked.as_deref(), known))]
     View {
-        /// The dataset.
+        /// Path of the dataset.
         path: PathBuf,
-        /// The requested view; `None` if none was named.
+        /// Requested view; `None` if none was named.
         asked: Option<String>,
-        /// The existing views.
+        /// Existing views.
         known: Vec<String>,
     },
     /// Two recordings that cannot be joined.
@@ -164,28 +164,28 @@ pub enum DatasetError {
         shown_path(other)
     )]
     Unlike {
-        /// The first.
+        /// Path of the first recording.
         one: PathBuf,
-        /// The other.
+        /// Path of the second recording.
         other: PathBuf,
-        /// The key in which they differ, with the value of each, or the fact that they are the same.
+        /// Key that differs, with both values, or the statement that both are the same recording.
         problem: String,
     },
-    /// The work was cancelled; no partial output is left.
+    /// Operation that was cancelled; no partial output is left.
     #[error("stopped on request")]
     Cancelled,
-    /// A sample that the sink rejected.
+    /// Sample that the sink rejected.
     #[error("row {row}: {source}")]
     Sink {
-        /// The row of the dataset, from 0.
+        /// Row of the dataset, from 0.
         row: usize,
-        /// The error of the sink.
+        /// Error of the sink.
         source: SinkError,
     },
 }
 
 impl DatasetError {
-    /// The kind of the error, from the closed list that all crates share.
+    /// Kind of the error, from the closed list that all crates share.
     pub fn kind(&self) -> ErrorKind {
         match self {
             DatasetError::Io { source, .. } => match source.kind() {
@@ -214,7 +214,7 @@ impl DatasetError {
         }
     }
 
-    /// The path `written`, which is not followed.
+    /// Error for the rejected path `written`.
     pub fn path(written: impl Into<String>, problem: impl Into<String>) -> DatasetError {
         DatasetError::Path {
             written: written.into(),
@@ -222,7 +222,7 @@ impl DatasetError {
         }
     }
 
-    /// A fault of the image at `path`.
+    /// Error for a fault of the image at `path`.
     pub fn image(path: &Path, problem: impl Into<String>) -> DatasetError {
         DatasetError::Image {
             path: path.to_owned(),
@@ -230,7 +230,7 @@ impl DatasetError {
         }
     }
 
-    /// A contradiction in the file at `path`, which belongs to a dataset.
+    /// Error for a contradiction in the file at `path` of a dataset.
     pub fn damaged(path: &Path, problem: impl Into<String>) -> DatasetError {
         DatasetError::Damaged {
             path: path.to_owned(),
@@ -238,7 +238,7 @@ impl DatasetError {
         }
     }
 
-    /// A request for something that the dataset at `path` lacks.
+    /// Error for a request that the dataset at `path` cannot fulfil.
     pub fn request(path: &Path, problem: impl Into<String>) -> DatasetError {
         DatasetError::Request {
             path: path.to_owned(),
@@ -246,7 +246,7 @@ impl DatasetError {
         }
     }
 
-    /// The sample `id`, which cannot be recorded.
+    /// Error for the sample `id`, which cannot be recorded.
     pub fn sample(id: &str, problem: impl Into<String>) -> DatasetError {
         DatasetError::Sample {
             id: id.to_owned(),
@@ -254,7 +254,7 @@ impl DatasetError {
         }
     }
 
-    /// A difference between the bytes of the file at `path` and those recorded.
+    /// Error for a file at `path` whose bytes differ from the recorded bytes.
     pub(crate) fn digest(path: &Path, expected: Digest, found: Digest) -> DatasetError {
         DatasetError::Digest {
             path: path.to_owned(),
@@ -263,7 +263,7 @@ impl DatasetError {
         }
     }
 
-    /// An error of the operating system while `doing` something to `path`.
+    /// Error of the operating system during the operation `doing` on `path`.
     pub fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> DatasetError {
         let path = path.to_owned();
         move |source| DatasetError::Io {
@@ -274,7 +274,7 @@ impl DatasetError {
     }
 }
 
-/// The reason why a format is not supported, with the remedy.
+/// Reason why a format is not supported, with the remedy.
 fn unreadable(found: Version) -> String {
     match found.is_earlier() {
         true => "was written by TacEva before 0.2.0; create the dataset again: taceva import FOLDER --map MAP.toml --out DATASET, or \

@@ -1,4 +1,4 @@
-//! Checked opening of foreign files, and durable writing of our own.
+//! Checked opening of input files, and durable writing of output files.
 
 use std::fs::{self, File, Metadata};
 use std::io::{ErrorKind, Read, Write};
@@ -10,9 +10,9 @@ use taceva_files::sync_folder;
 use crate::absence::quoted;
 use crate::error::DatasetError;
 
-/// Opens the regular file at `path` of at most `cap` bytes; also returns its size.
+/// Opens the regular file at `path`, of at most `cap` bytes, and returns its size too.
 ///
-/// The kind is checked before opening, since opening a FIFO would block.
+/// The file type is checked before opening, because opening a FIFO would block.
 pub fn open_regular(path: &Path, cap: u64) -> Result<(File, u64), DatasetError> {
     let metadata = fs::metadata(path).map_err(DatasetError::io("read", path))?;
     check_regular(path, &metadata, cap)?;
@@ -44,7 +44,7 @@ pub(crate) fn check_regular(
     Ok(())
 }
 
-/// The bytes of the regular file at `path`.
+/// Bytes of the regular file at `path`.
 pub fn read_capped(path: &Path, cap: u64) -> Result<Vec<u8>, DatasetError> {
     let (file, length) = open_regular(path, cap)?;
     let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
@@ -54,7 +54,7 @@ pub fn read_capped(path: &Path, cap: u64) -> Result<Vec<u8>, DatasetError> {
     Ok(bytes)
 }
 
-/// Checks that the text of a relative path stays inside its folder.
+/// Checks that a relative path stays inside its folder.
 pub fn check_relative(written: &str) -> Result<(), &'static str> {
     if written.is_empty() {
         return Err("empty, expected a path relative to the folder");
@@ -86,7 +86,7 @@ pub(crate) fn create_anew(path: &Path) -> Result<File, DatasetError> {
     created.map_err(DatasetError::io("create", path))
 }
 
-/// Refuses a symbolic link at a name of a recording: its target would be written, cut or read instead.
+/// Rejects a symbolic link in place of a file of a recording, because its target would be written, cut or read instead.
 pub(crate) fn refuse_link(path: &Path) -> Result<(), DatasetError> {
     let Ok(target) = fs::read_link(path) else {
         return Ok(());
@@ -104,7 +104,7 @@ pub(crate) fn refuse_link(path: &Path) -> Result<(), DatasetError> {
     ))
 }
 
-/// Writes a new file and returns once its bytes are on the disk. Its name is durable only after `make_names_durable`.
+/// Writes a new file and returns once its bytes are on disk. The name is durable only after `make_names_durable`.
 pub fn write_durable(path: &Path, bytes: &[u8]) -> Result<(), DatasetError> {
     let mut file = create_anew(path)?;
     file.write_all(bytes)

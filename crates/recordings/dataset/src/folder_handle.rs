@@ -1,4 +1,4 @@
-//! The open folder of a dataset, which keeps reading the same files even if its name changes.
+//! Open folder of a dataset, which keeps reading the same files even if the folder is renamed.
 
 use std::fs::{File, TryLockError};
 use std::io::{self, Read};
@@ -12,20 +12,20 @@ use crate::file::is_same;
 use crate::layout;
 use crate::replacement::settle;
 
-/// Number of attempts to open a folder that is being replaced, and the pause before each.
+/// Number of attempts to open a folder while it is replaced, `PAUSE` apart.
 const ATTEMPTS: u32 = 200;
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// A folder with a shared lock: a process that replaces the dataset keeps the old one until the lock is released.
+/// Folder with a shared lock. A process that replaces the dataset keeps the old one until the lock is released.
 #[derive(Debug)]
 pub(crate) struct HeldFolder {
     path: PathBuf,
-    /// `None` if there is no folder.
+    /// Handle of the folder; `None` if there is no folder.
     handle: Option<File>,
 }
 
 impl HeldFolder {
-    /// Opens and locks the folder at `path`, if there is one, after cleaning up an interrupted replacement.
+    /// Opens and locks the folder at `path`, if any, after cleaning up an interrupted replacement.
     pub(crate) fn open(path: &Path) -> Result<HeldFolder, DatasetError> {
         settle(path)?;
         for attempt in 0..ATTEMPTS {
@@ -93,7 +93,7 @@ impl HeldFolder {
         handle.is_some_and(|handle| is_there(handle, name))
     }
 
-    /// Opens the regular file `relative` to this folder, of at most `cap` bytes; also returns its size.
+    /// Opens the regular file `relative` in this folder, of at most `cap` bytes, and returns its size too.
     pub(crate) fn file(&self, relative: &str, cap: u64) -> Result<(File, u64), DatasetError> {
         let path = self.path.join(relative);
         let wrong = DatasetError::io("open", &path);
@@ -107,7 +107,7 @@ impl HeldFolder {
         Ok((file, metadata.len()))
     }
 
-    /// The bytes of the regular file `relative` to this folder.
+    /// Bytes of the regular file `relative` in this folder.
     pub(crate) fn read(&self, relative: &str, cap: u64) -> Result<Vec<u8>, DatasetError> {
         let (file, length) = self.file(relative, cap)?;
         let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or(0));
@@ -118,7 +118,7 @@ impl HeldFolder {
     }
 }
 
-/// Opens for reading; never waits for the writer of a FIFO.
+/// Opens a file for reading without waiting for the writer of a FIFO.
 fn open_in(folder: &File, relative: &str) -> io::Result<File> {
     let flags = OFlags::RDONLY | OFlags::CLOEXEC | OFlags::NONBLOCK;
     Ok(File::from(openat(folder, relative, flags, Mode::empty())?))

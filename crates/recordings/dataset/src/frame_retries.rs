@@ -1,10 +1,10 @@
-//! Counts of retried and of frozen frames, stored beside a recording so that an interrupted run still reports them.
+//! Counts of retried and frozen frames, stored beside a recording so that a resumed run still reports them.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Suffixes of the files, after the name of the recording.
+/// File-name suffixes after the name of the recording.
 const RETRIED: &str = ".retried";
 const FROZEN: &str = ".frozen";
 
@@ -24,12 +24,12 @@ pub fn add_frozen_frames(path: &Path, count: u64) -> io::Result<()> {
     add(&place(path, FROZEN), count)
 }
 
-/// Number of retried frames of the recording at `path`; 0 if there is no count, as for a recording that was moved.
+/// Number of retried frames of the recording at `path`; 0 without a stored count, as for a moved recording.
 pub fn frame_retries(path: &Path) -> u64 {
     read(&place(path, RETRIED))
 }
 
-/// Number of frozen frames of the recording at `path`, whose presses were broken off; 0 if there is no count.
+/// Number of frozen frames of the recording at `path`, each of which broke off a press; 0 without a stored count.
 pub fn frozen_frames(path: &Path) -> u64 {
     read(&place(path, FROZEN))
 }

@@ -1,4 +1,4 @@
-//! `dataset.toml`: the facts of a recording as a whole.
+//! `dataset.toml`: facts about the recording as a whole.
 
 mod class_mapping;
 mod column_mapping;
@@ -81,7 +81,7 @@ impl ChannelInfo {
     }
 }
 
-/// The content of `dataset.toml`.
+/// Content of `dataset.toml`.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
@@ -103,63 +103,63 @@ impl ChannelInfo {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Header {
-    /// The version of the format of the folder.
+    /// Version of the folder format.
     pub format: Version,
     /// Origin of the samples: measured, simulated or synthetic.
     pub source: Source,
-    /// The clock that stamped the samples, which defines the origin of `t_s`.
+    /// Clock that stamped the samples, which defines the origin of `t_s`.
     pub clock: Clock,
     /// UTC day on which the recording began; `None` if nothing was measured, or for an import.
     pub recorded_on: Option<Date>,
-    /// The sensor.
+    /// Facts about the sensor.
     pub sensor: SensorFacts,
-    /// The sensing area, if known.
+    /// Sensing area, if known.
     pub footprint: Option<Footprint>,
     /// Settings of camera, transducer (`force_…`) and robot (`robot_…`), read back, by name: `exposure_ms` is `15.7`; empty if unknown.
     pub settings: BTreeMap<String, String>,
-    /// Instruments of the labels with their certificates; empty if none is stated.
+    /// Instruments that measured the labels, with their certificates; empty if none is stated.
     pub traceability: Vec<Traceability>,
-    /// The channels measured besides the frames, each with its unit.
+    /// Channels measured besides the frames, with their units.
     pub channels: Channels,
-    /// The names of the text columns kept for splits.
+    /// Names of the text columns kept for splits.
     pub attributes: Vec<String>,
-    /// Columns of the imported table that no key of its map names; empty for a recording.
+    /// Columns of the imported table that the map does not name; empty for a recording.
     pub unmentioned_columns: Vec<String>,
-    /// Source of each label, by every map that rows were imported with; empty for a recording.
+    /// Source column of each label, from all imports; empty for a recording.
     pub columns: Vec<MappedColumn>,
-    /// Joins of tables, by every map that rows were imported with; empty for a recording.
+    /// Joined tables, from all imports; empty for a recording.
     pub joins: Vec<MappedJoin>,
-    /// Source of pictures and conversion to pixels, by every map that rows were imported with; empty for a recording.
+    /// Source of the pictures and conversion to pixels, from all imports; empty for a recording.
     pub pictures: Vec<MappedPictures>,
-    /// The closed lists of classes, by every map that rows were imported with; empty for a recording.
+    /// Closed lists of classes, from all imports; empty for a recording.
     pub classes: Vec<MappedClass>,
-    /// Channels that are the parts of one rotation: a rotation vector x, y, z or a quaternion x, y, z, w.
+    /// Channels that together are one rotation: a rotation vector x, y, z or a quaternion x, y, z, w.
     pub rotations: Vec<Vec<String>>,
-    /// Data that an import left out; empty for a recording.
+    /// Data that the import left out; empty for a recording.
     pub left_out: LeftOut,
-    /// Warnings of the imports of the rows; empty for a recording.
+    /// Warnings of all imports; empty for a recording.
     pub warnings: Vec<String>,
-    /// Properties that all frames share; `None` if there are no frames.
+    /// Properties shared by all frames; `None` without frames.
     pub frames: Option<FramesInfo>,
-    /// Frames of each view, if samples have several pictures; `frames` then belongs to the chosen views.
+    /// Frames of each view, if samples have several pictures. `frames` then describes the selected views.
     pub views: Vec<ViewInfo>,
     /// Number of presses by outcome, including those without a sample; empty without a protocol.
     pub presses: BTreeMap<PressOutcome, u64>,
-    /// Losses of a recorded stream; `None` for other recordings.
+    /// Frame losses of a recorded stream; `None` for other recordings.
     pub stream: Option<StreamFacts>,
-    /// Predictions that a model made during the recording, which are no labels; `None` if there are none.
+    /// Predictions that a model made during the recording, which are not labels; `None` without predictions.
     pub predictions: Option<LivePredictions>,
-    /// Properties of the taxels, and the digests of their file; `None` if there are no taxels.
+    /// Properties of the taxels, and the digests of their file; `None` without taxels.
     pub signals: Option<SignalsInfo>,
-    /// The states of the recording before each addition of rows, oldest first; empty if none were added.
+    /// States of the recording before each addition of rows, oldest first; empty if no rows were added.
     pub extended: Vec<Extension>,
-    /// The list of files that an import read; `None` of a recording.
+    /// List of imported source files; `None` for a recording.
     pub sources: Option<SourcesInfo>,
     /// Number of rows and digests of `samples.parquet`.
     pub table: TableInfo,
-    /// The digest of the dataset: of its table, its frames and its signals.
+    /// Digest of the dataset: of its table, frames and signals.
     pub digest: Digest,
-    /// State of the seal, with the accepted edits of the header.
+    /// State of the seal, with accepted edits of the header.
     pub seal: Opened,
 }
 
@@ -214,13 +214,13 @@ struct Written {
     classes: Vec<MappedClass>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     traceability: Vec<Traceability>,
-    /// Edits that were accepted before rows were added; parsed with the seal.
+    /// Edits accepted before rows were added; parsed with the seal.
     #[serde(default, skip_deserializing, skip_serializing_if = "Vec::is_empty")]
     history: Vec<Edit>,
 }
 
 impl Header {
-    /// The header of the dataset in `folder`.
+    /// Header of the dataset in `folder`.
     pub(crate) fn read(folder: &HeldFolder) -> Result<Header, DatasetError> {
         let bytes = folder.read(layout::HEADER, limits::TOML_BYTES)?;
         Header::parse(&folder.path().join(layout::HEADER), bytes)
@@ -297,7 +297,7 @@ impl Header {
         })
     }
 
-    /// The facts that were known before the first sample.
+    /// Facts known before the first sample.
     pub fn recording_facts(&self) -> RecordingFacts {
         RecordingFacts {
             source: self.source,
@@ -310,7 +310,7 @@ impl Header {
         }
     }
 
-    /// The mappings of all maps.
+    /// Mappings of all imports.
     pub fn mapping(&self) -> Mapping {
         Mapping {
             columns: self.columns.clone(),
@@ -321,12 +321,12 @@ impl Header {
         }
     }
 
-    /// The text of the header, sealed.
+    /// Text of the header with its seal.
     pub(crate) fn to_toml(&self) -> String {
         toml_text::seal(&self.body()).expect("what was just written is TOML")
     }
 
-    /// The text of the header without its seal.
+    /// Text of the header without its seal.
     fn body(&self) -> String {
         let written = Written {
             format: self.format,

@@ -1,11 +1,11 @@
-//! The journal of a recording: an appended record survives a power cut once the append has returned.
+//! Journal of a recording. Once an append has returned, the record survives a power cut.
 //!
 //! A record is `length: u32 · kind: u8 · sequence: u64 · header check: 8 bytes · payload · chain: 32 bytes`, numbers little-endian. The
 //! header check is the beginning of a SHA-256 over the 13 bytes before it, so that a length is verified before it is used. The chain is the
 //! SHA-256 of the previous chain, the header and the payload. It detects missing, changed or moved records.
 //!
-//! A record is made durable before the next is begun, so only the last can be torn. A torn tail is cut when the journal is opened. Damage
-//! before further records is an error, because those were acknowledged.
+//! Each record is durable before the next begins, so only the last can be torn. A torn tail is cut when the journal is opened. Damage before later
+//! records is an error, because those were acknowledged.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Write};
@@ -21,19 +21,19 @@ use crate::limits;
 const HEADER: usize = 4 + 1 + 8 + 8;
 const CHAIN: usize = 32;
 
-/// Content of a record.
+/// Content of a journal record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub(crate) enum RecordKind {
-    /// The facts of the recording: the first record, and no other.
+    /// Facts about the recording: always and only the first record.
     Start = 1,
-    /// One sample.
+    /// Single sample.
     Sample = 2,
-    /// The frame without contact.
+    /// Frame without contact.
     Reference = 3,
     /// All samples of one press.
     Press = 4,
-    /// Frames of a stream that arrived together.
+    /// Frames of a stream that were stored together.
     Stream = 5,
 }
 
@@ -58,7 +58,7 @@ pub(crate) struct JournalRecord {
     pub(crate) payload: Vec<u8>,
 }
 
-/// An append-only file of records.
+/// Append-only file of records.
 #[derive(Debug)]
 pub(crate) struct Journal {
     file: File,
@@ -68,16 +68,16 @@ pub(crate) struct Journal {
     has_failed: bool,
 }
 
-/// Records found when a journal was opened.
+/// Records found when opening a journal.
 #[derive(Debug, Default)]
 pub(crate) struct Recovered {
     pub(crate) records: Vec<JournalRecord>,
-    /// Size of a torn last record that was cut, bytes.
+    /// Size of a torn last record that was cut, bytes; 0 if none.
     pub(crate) cut_bytes: u64,
 }
 
 impl Journal {
-    /// Creates a journal that is durable with its first record.
+    /// Creates a journal with its first record, which is durable on return.
     pub(crate) fn create(path: &Path, start: &[u8]) -> Result<Journal, DatasetError> {
         let file = OpenOptions::new()
             .append(true)
@@ -136,7 +136,7 @@ impl Journal {
 
     /// Appends a record and returns its sequence number once it is durable.
     ///
-    /// After an error the state of the file is unknown until it is reopened, so every later append fails, too.
+    /// After an error, the state of the file is unknown until it is reopened, so every later append fails too.
     pub(crate) fn append(&mut self, kind: RecordKind, payload: &[u8]) -> Result<u64, DatasetError> {
         if self.has_failed {
             let earlier = io::Error::other("an earlier write failed; reopen the recording");
@@ -191,7 +191,7 @@ fn chained(before: &[u8; CHAIN], header: &[u8; HEADER], payload: &[u8]) -> [u8; 
         .into()
 }
 
-/// The complete records of a journal, and their size in bytes.
+/// Complete records of a journal, and their size in bytes.
 struct Scanned {
     records: Vec<JournalRecord>,
     chain: [u8; CHAIN],
@@ -247,7 +247,7 @@ fn scan(bytes: &[u8]) -> Result<Scanned, (usize, &'static str)> {
     Ok(scanned)
 }
 
-/// The header at `at` and the length in it, if its check matches.
+/// Header at `at` with the payload length, if its check matches.
 fn header_at(bytes: &[u8], at: usize) -> Option<([u8; HEADER], usize)> {
     let found: [u8; HEADER] = bytes.get(at..at + HEADER)?.try_into().ok()?;
     let length = u32::from_le_bytes(found[..4].try_into().ok()?);
@@ -256,7 +256,7 @@ fn header_at(bytes: &[u8], at: usize) -> Option<([u8; HEADER], usize)> {
     holds.then_some((found, length as usize))
 }
 
-/// True if a record header exists anywhere from `from`: the bytes before it are then no torn tail.
+/// True if there is a record header anywhere after `from`. The bytes before it are then damaged, not a torn tail.
 fn has_record_behind(bytes: &[u8], from: usize) -> bool {
     (from..bytes.len()).any(|at| {
         // Cheap tests first: the check is a SHA-256.

@@ -14,8 +14,8 @@ use segments::Reader;
 /// Reads the JPEG `bytes` to its end marker; later bytes are ignored.
 ///
 /// # Errors
-/// A message: entropy-coded data that ends early or late, has an unknown code or impossible values; a restart marker that is missing,
-/// misplaced or out of order; scans that make no complete picture; a truncated or inconsistent segment.
+/// A message about the fault. Entropy-coded data may end early or late, or have an unknown code or impossible values. Restart markers may be
+/// missing, misplaced or out of order. Scans may leave the picture incomplete, and a segment may be truncated or inconsistent.
 pub(crate) fn check_whole(bytes: &[u8]) -> Result<(), String> {
     Reader::new(bytes).read_all()
 }

@@ -21,15 +21,15 @@ pub const ALL: [&str; 7] = [
     JOURNAL,
 ];
 
-/// Maximum frames in one folder: some file systems slow down above a few thousand.
+/// Maximum number of frames in one folder, because some file systems slow down above a few thousand.
 const FRAMES_A_FOLDER: usize = 1_000;
 
-/// The folder of frame `number`, relative to the dataset.
+/// Folder of frame `number`, relative to the dataset.
 pub fn frame_folder(number: usize) -> String {
     format!("{FRAMES}/{:04}", number / FRAMES_A_FOLDER)
 }
 
-/// `path`, a file or a folder of frames, in the folder of the view; `path` itself without a view.
+/// `path`, a file or folder of frames, inside the folder of the view; `path` itself without a view.
 pub fn in_view(view: Option<&str>, path: &str) -> String {
     match (view, path.strip_prefix(FRAMES)) {
         (Some(view), Some(rest)) => format!("{FRAMES}/{view}{rest}"),
@@ -37,28 +37,28 @@ pub fn in_view(view: Option<&str>, path: &str) -> String {
     }
 }
 
-/// The file of frame `number`, relative to the dataset.
+/// File of frame `number`, relative to the dataset.
 pub fn frame_path(number: usize, extension: &str) -> String {
     format!("{}/{number:06}.{extension}", frame_folder(number))
 }
 
-/// The pack `number`, relative to the dataset.
+/// File of pack `number`, relative to the dataset.
 pub fn pack_path(number: usize) -> String {
     format!("{FRAMES}/{number:04}.pack")
 }
 
-/// The number of the pack at `path`; `None` if it is no pack.
+/// Number of the pack at `path`; `None` if the file is not a pack.
 pub fn pack_number(path: &str) -> Option<usize> {
     let name = path.strip_prefix(FRAMES)?.strip_prefix('/')?;
     name.strip_suffix(".pack")?.parse().ok()
 }
 
-/// The file of the frame without contact, relative to the dataset.
+/// File of the frame without contact, relative to the dataset.
 pub fn reference_path(extension: &str) -> String {
     format!("{FRAMES}/reference.{extension}")
 }
 
-/// The file of the frame without contact after `before` earlier ones, relative to the dataset.
+/// File of the next frame without contact after `before` earlier frames, relative to the dataset.
 pub fn reference_path_anew(before: usize, extension: &str) -> String {
     match before {
         0 => reference_path(extension),
@@ -66,7 +66,7 @@ pub fn reference_path_anew(before: usize, extension: &str) -> String {
     }
 }
 
-/// The folders of the frames with these numbers, relative to the dataset.
+/// Folders of the frames with these numbers, relative to the dataset.
 pub fn frame_folders(numbers: Range<usize>) -> impl Iterator<Item = String> {
     let end = match numbers.is_empty() {
         true => numbers.start,

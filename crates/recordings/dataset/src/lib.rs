@@ -63,7 +63,7 @@ pub use table::{FrameEntry, Row, RowFrame, Table, ViewFrames};
 pub use toml_file::read_toml;
 pub use version::Version;
 
-/// Parts that the importer shares with the reader and the recorder. Their interface is not stable.
+/// Parts that the importer shares with the reader and the recorder. The interface is not stable.
 #[doc(hidden)]
 pub mod internal {
     pub use crate::absence::{is_foreign_folder, quoted};

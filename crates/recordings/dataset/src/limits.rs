@@ -1,20 +1,20 @@
-//! Limits of foreign input. A larger file is rejected before anything is allocated for it.
+//! Limits of input files. A larger file is rejected before memory is allocated for it.
 
-/// Maximum map, header or other TOML file, bytes.
+/// Maximum size of a map, header or other TOML file, bytes.
 pub const TOML_BYTES: u64 = 1 << 20;
-/// Maximum list of the files that an import read, bytes.
+/// Maximum size of the list of imported source files, bytes.
 pub const SOURCES_BYTES: u64 = 256 << 20;
-/// Maximum table as text, bytes; cells are found by 32-bit offsets.
+/// Maximum size of a table as text, bytes; cells have 32-bit offsets.
 pub const TABLE_BYTES: u64 = u32::MAX as u64 - 1;
-/// Maximum columns of a table.
+/// Maximum number of columns of a table.
 pub const TABLE_COLUMNS: usize = 4_096;
-/// Maximum image file, bytes.
+/// Maximum size of an image file, bytes.
 pub const IMAGE_BYTES: u64 = 256 << 20;
-/// Size of a pack from which no further frame is appended, bytes.
+/// Size of a pack above which no further frame is appended, bytes.
 pub const PACK_BYTES: u64 = 1 << 30;
-/// Maximum pixels along one side of an image.
+/// Maximum side of an image, pixels.
 pub const IMAGE_SIDE: u32 = 16_384;
-/// Maximum decoded image, bytes.
+/// Maximum size of a decoded image, bytes.
 pub const DECODED_BYTES: u64 = 256 << 20;
 /// Decoded size that is allowed for every image, bytes. A larger image may take [`DECODED_RATIO`] times the size of its file.
 const DECODED_LEAST: u64 = 32 << 20;
@@ -27,11 +27,11 @@ pub fn decoded_bytes(stored: usize) -> u64 {
     own.clamp(DECODED_LEAST, DECODED_BYTES)
 }
 
-/// Maximum payload of one record of a journal, bytes.
+/// Maximum payload of a journal record, bytes.
 pub const RECORD_BYTES: u32 = 1 << 20;
-/// Maximum rows of a dataset.
+/// Maximum number of rows of a dataset.
 pub const ROWS: u64 = 1 << 28;
-/// Maximum files visited when unnamed images are counted.
+/// Maximum number of files visited when counting unused images.
 pub const WALKED_FILES: u64 = 1 << 20;
-/// Maximum JSON file, bytes; it takes several times as much in memory.
+/// Maximum size of a JSON file, bytes; parsing needs several times as much memory.
 pub const JSON_BYTES: u64 = 256 << 20;

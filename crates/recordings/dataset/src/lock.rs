@@ -1,4 +1,4 @@
-//! Lock of a folder for one writing process.
+//! Exclusive lock of a folder for one writing process.
 
 use std::fs::{File, TryLockError};
 use std::path::Path;
@@ -6,12 +6,11 @@ use std::time::Duration;
 
 use crate::error::DatasetError;
 
-/// Number of attempts to lock a folder, and the pause after each: a newly forked process holds the locks of its parent until it executes
-/// its own program.
+/// Number of attempts to lock a folder. A newly forked process holds the locks of its parent until it executes its own program.
 const ATTEMPTS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(5);
 
-/// Locks a folder for this process; the system releases the lock when the process ends.
+/// Locks a folder for this process. The system releases the lock when the process ends.
 pub(crate) fn lock_folder(path: &Path) -> Result<File, DatasetError> {
     let folder = File::open(path).map_err(DatasetError::io("open", path))?;
     for _ in 0..ATTEMPTS {

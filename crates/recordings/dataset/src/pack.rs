@@ -15,7 +15,7 @@ use crate::file::{make_names_durable, refuse_link};
 use crate::layout;
 use crate::limits;
 
-/// Bytes of a frame in a pack; written `@OFFSET+LENGTH` after the path of the pack, and `-first` after that for a difference.
+/// Byte range of a frame in a pack, written `@OFFSET+LENGTH` after the path of the pack, and then `-first` for a difference.
 ///
 /// ```
 /// use taceva_dataset::{Digest, FrameEntry};
@@ -28,19 +28,19 @@ use crate::limits;
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span {
-    /// Offset, bytes.
+    /// Offset of the first byte.
     pub offset: u64,
     /// Length, bytes.
     pub length: u32,
-    /// True for the difference to the first frame of the pack.
+    /// True if the picture is the difference to the first frame of the pack.
     pub is_difference: bool,
 }
 
-/// Suffix of a difference.
+/// Suffix of the byte range of a difference.
 const DIFFERENCE: &str = "-first";
 
 impl Span {
-    /// Offset of the end.
+    /// Offset after the last byte.
     pub(crate) fn end(self) -> u64 {
         self.offset.saturating_add(u64::from(self.length))
     }
@@ -70,7 +70,7 @@ impl FromStr for Span {
     }
 }
 
-/// The bytes of the frame at `span` of the pack `file`, which is at `path`.
+/// Bytes of the frame at `span` in the pack `file`, which is at `path`.
 pub(crate) fn read_span(mut file: File, path: &Path, span: Span) -> Result<Vec<u8>, DatasetError> {
     if u64::from(span.length) > limits::IMAGE_BYTES {
         return Err(DatasetError::path(
@@ -91,17 +91,17 @@ pub(crate) fn read_span(mut file: File, path: &Path, span: Span) -> Result<Vec<u
     Ok(bytes)
 }
 
-/// Position of the next frame.
+/// Position at which the next frame is appended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct PackEnd {
-    /// The number of the pack, from 0.
+    /// Number of the pack, from 0.
     pub(crate) number: usize,
-    /// Number of bytes in it.
+    /// Number of bytes in the pack.
     pub(crate) length: u64,
 }
 
 impl PackEnd {
-    /// The end after a frame at `path`, if that is in a pack and after this end.
+    /// Position after a frame at `path`, if the frame is in a pack and behind this position.
     pub(crate) fn behind(self, path: &str, span: Option<Span>) -> PackEnd {
         let found = layout::pack_number(path).zip(span);
         found.map_or(self, |(number, span)| {
@@ -117,7 +117,7 @@ impl PackEnd {
     }
 }
 
-/// A pack for appending frames.
+/// Pack to which frames are appended.
 #[derive(Debug)]
 pub(crate) struct PackWriter {
     folder: PathBuf,
@@ -126,7 +126,7 @@ pub(crate) struct PackWriter {
 }
 
 impl PackWriter {
-    /// Continues at `end` in the dataset at `folder`; its name is durable on return.
+    /// Opens the pack at `end` in the dataset at `folder`. The file name is durable on return.
     pub(crate) fn open(folder: &Path, end: PackEnd) -> Result<PackWriter, DatasetError> {
         let path = folder.join(layout::pack_path(end.number));
         refuse_link(&path)?;
@@ -182,7 +182,7 @@ impl PackWriter {
         Ok(())
     }
 
-    /// Position of the next frame.
+    /// Position at which the next frame is appended.
     pub(crate) fn end(&self) -> PackEnd {
         self.end
     }
@@ -196,7 +196,7 @@ impl PackWriter {
     }
 }
 
-/// Cuts unacknowledged bytes after `end` in the packs of the dataset at `folder`.
+/// Cuts unacknowledged bytes behind `end` in the packs of the dataset at `folder`.
 pub(crate) fn cut_behind(folder: &Path, end: PackEnd) -> Result<(), DatasetError> {
     let path = folder.join(layout::pack_path(end.number));
     refuse_link(&path)?;

@@ -1,11 +1,11 @@
-//! Parallel work whose results arrive in order, with bounded memory.
+//! Parallel work with ordered results and bounded memory.
 
 use std::num::NonZeroUsize;
 use std::sync::mpsc::{channel, sync_channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-/// Number of results that a worker may be ahead of the one awaited.
+/// Number of results that a worker may compute before they are taken.
 const AHEAD: usize = 4;
 
 /// Number of cores of this machine.
@@ -15,9 +15,8 @@ pub fn all_cores() -> NonZeroUsize {
 
 /// Calls `work` on `0..count` from `jobs` threads, and `take` with each result in order on the calling thread.
 ///
-/// Worker `k` does items `k`, `k + jobs`, … and returns them through its own bounded queue, so no sorting is needed. The first error in
-/// order is returned, whatever the number of threads. If the system starts fewer threads than `jobs`, those do everything; if it starts
-/// none, the calling thread does.
+/// Worker `k` computes items `k`, `k + jobs`, … and returns them through its own bounded queue, so no sorting is needed. The first error in order
+/// is returned, for any number of threads. If fewer threads than `jobs` start, they do all the work; without any, the calling thread does.
 pub fn ordered_map<T: Send, E>(
     count: usize,
     jobs: NonZeroUsize,
@@ -61,7 +60,7 @@ pub fn ordered_map<T: Send, E>(
     })
 }
 
-/// Calls `work` on each part in its own thread, or in the calling one if the system starts none; results are in the order of the parts.
+/// Calls `work` on each part in its own thread, or in the calling thread if none can be started. Results have the order of the parts.
 pub fn each_part<P: Send, T: Send>(parts: Vec<P>, work: impl Fn(P) -> T + Sync) -> Vec<T> {
     let work = &work;
     let parts: Vec<_> = parts

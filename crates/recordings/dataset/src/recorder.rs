@@ -1,4 +1,4 @@
-//! Recorder: each sample is durable before it counts.
+//! Recorder, which acknowledges each sample only when it is durable.
 
 use std::collections::{BTreeMap, HashSet};
 use std::fs::{self, File};
@@ -50,18 +50,18 @@ pub use stream::Streamed;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RecordingSpec {
-    /// Sensor, clock, source and footprint.
+    /// Facts about sensor, clock, source and footprint.
     pub facts: RecordingFacts,
-    /// The channels of the truth of each sample.
+    /// Channels of the truth of each sample.
     pub channels: Channels,
-    /// The taxels of the sensor, if it has any: then every sample must have their signals.
+    /// Taxels of the sensor; if any, every sample must have their signals.
     pub signals: Option<SignalsSpec>,
-    /// The original form of frames that were reduced before recording.
+    /// Original form of frames that were reduced before recording.
     pub reduced: Option<ReducedFrames>,
 }
 
 impl RecordingSpec {
-    /// A recording with `facts`, whose samples have a truth for each of `channels`.
+    /// Recording with `facts`, whose samples have a truth for each of `channels`.
     pub fn new(facts: RecordingFacts, channels: Channels) -> RecordingSpec {
         RecordingSpec {
             facts,
@@ -71,7 +71,7 @@ impl RecordingSpec {
         }
     }
 
-    /// The same recording for a sensor with taxels: every sample must have their signals.
+    /// The same recording for a sensor with taxels. Every sample must have their signals.
     #[must_use]
     pub fn with_signals(self, signals: SignalsSpec) -> RecordingSpec {
         RecordingSpec {
@@ -90,7 +90,7 @@ impl RecordingSpec {
     }
 }
 
-/// Writes samples as they arrive. A killed process or a power cut loses at most the sample that was not yet acknowledged.
+/// Writes samples as they arrive. A killed process or a power cut loses at most the unacknowledged sample.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, Clock, Readings, Sample};
@@ -119,19 +119,19 @@ pub struct Recorder {
     stream: Option<StreamFacts>,
     predictions: Option<PredictedTable>,
     frame_info: Option<FrameInfo>,
-    /// The original form of frames that were reduced before recording.
+    /// Original form of frames that were reduced before recording.
     reduced: Option<ReducedFrames>,
     reference: Option<ReferenceInfo>,
     cut_bytes: u64,
-    /// The pack for new frames, once there is one.
+    /// Pack for new frames; `None` before the first frame.
     pack: Option<PackWriter>,
-    /// End of the last frame in the journal.
+    /// End of the last frame that the journal names.
     pack_end: PackEnd,
-    /// The first frame of the pack, and its digest.
+    /// First frame of the pack, and its digest.
     first: Option<(Digest, Frame)>,
     /// Number of frames without contact recorded so far.
     references: usize,
-    /// The file of signals, which is rewritten from the journal when a recording is resumed.
+    /// Signals file, which is rewritten from the journal when a recording is resumed.
     signals: Option<SignalsWriter>,
 }
 
@@ -151,7 +151,7 @@ impl Recorder {
         Recorder::new(path, lock, journal, spec.clone())
     }
 
-    /// Resumes a recording that was not closed; a torn record is cut.
+    /// Resumes a recording that was not closed. A torn last record is cut.
     ///
     /// # Errors
     /// [`DatasetError::NoDataset`] if nothing was recorded there; [`DatasetError::TargetExists`] if it was closed;
@@ -185,7 +185,7 @@ impl Recorder {
         Ok(recorder)
     }
 
-    /// Resumes the recording at `path`, or begins it if nothing was recorded there yet.
+    /// Resumes the recording at `path`, or begins it if nothing was recorded there.
     ///
     /// # Errors
     /// As [`create`](Recorder::create) and [`resume`](Recorder::resume); [`DatasetError::Request`] if the recording differs from `spec`.
@@ -249,12 +249,12 @@ impl Recorder {
         })
     }
 
-    /// True if a sample of this name is recorded.
+    /// True if a sample with this name is recorded.
     pub fn has(&self, id: &str) -> bool {
         self.finished.contains(id)
     }
 
-    /// The samples recorded so far, in order.
+    /// Samples recorded so far, in order.
     pub fn table(&self) -> &Table {
         &self.table
     }
@@ -267,9 +267,8 @@ impl Recorder {
     /// Records a sample and returns its number in the journal, from 1, once it is durable. Predictions are not recorded.
     ///
     /// # Errors
-    /// [`DatasetError::Sample`] if its name is empty or taken, a number is not finite, there are more values than channels, its signals do
-    /// not match the taxels of the recording, or its frame is unlike the first. [`DatasetError::Io`], after which the recording must be
-    /// resumed.
+    /// [`DatasetError::Sample`] if the name is empty or taken, a number is not finite, there are more values than channels, the signals do not
+    /// match the taxels, or the frame is unlike the first. [`DatasetError::Io`], after which the recording must be resumed.
     pub fn append(&mut self, sample: &Sample) -> Result<u64, DatasetError> {
         self.check(sample)?;
         let entries = self.write_frames(std::slice::from_ref(sample))?;
@@ -285,10 +284,10 @@ impl Recorder {
         self.reference.is_some()
     }
 
-    /// Records the frame without contact; the last one is used.
+    /// Records a frame without contact. The last one recorded is used.
     ///
     /// # Errors
-    /// [`DatasetError::Sample`] if it is unlike the other frames; [`DatasetError::Io`].
+    /// [`DatasetError::Sample`] if the frame is unlike the other frames; [`DatasetError::Io`].
     pub fn append_reference(&mut self, frame: &Frame) -> Result<u64, DatasetError> {
         self.check_frame("reference", frame)?;
         // The previous one keeps its file: the journal names it until this one is durable.
@@ -306,7 +305,7 @@ impl Recorder {
         Ok(sequence)
     }
 
-    /// Adds a durable sample to the table and the file of signals.
+    /// Adds a durable sample to the table and to the signals file.
     fn take(
         &mut self,
         row: Row,
@@ -366,12 +365,12 @@ impl Recorder {
     }
 }
 
-/// Path of the file called `name` until the recording is closed.
+/// Path of the file `name` before the recording is closed.
 fn partial(folder: &Path, name: &str) -> PathBuf {
     folder.join(format!("{name}.partial"))
 }
 
-/// The numbers of the taxels of a sample, if it has any.
+/// Signal values of a sample, if any.
 fn signals_of(sample: &Sample) -> Option<&[f32]> {
     sample.signals.as_ref().map(Signals::values)
 }

@@ -1,7 +1,8 @@
 //! Replacement of a dataset by a new version, and recovery after an interruption.
 //!
-//! The new dataset is complete and durable beside its target before names are exchanged. Readers therefore see the old one or the new one. A file
-//! system that cannot exchange names needs two renames. A reader between them finds the old dataset, and restores it if the writer is dead.
+//! The new dataset is complete and durable beside its target before the two names are exchanged. Readers therefore see either the old or the new
+//! dataset. A file system that cannot exchange names needs two renames. A reader between them finds the old dataset under its hidden name, and
+//! restores it if the writer is dead.
 
 use std::ffi::OsString;
 use std::fs;
@@ -19,7 +20,7 @@ pub fn settle(target: &Path) -> Result<(), DatasetError> {
     taceva_files::settle(target).map_err(DatasetError::io("put back", target))
 }
 
-/// A name in the folder at `path` that belongs to no dataset or recording.
+/// Name in the folder at `path` that belongs to no dataset or recording.
 pub(crate) fn foreign_entry(path: &Path) -> Option<OsString> {
     let mut names = fs::read_dir(path)
         .ok()?

@@ -1,4 +1,4 @@
-//! `samples.parquet`: a table as a file, with one column for each column of the table.
+//! `samples.parquet`: the table as a file, with one column per table column.
 
 mod read;
 mod rows;

@@ -1,4 +1,4 @@
-//! Sensor facts in a separate file, for tables of numbers, which do not contain them.
+//! Sensor facts in a separate file, for tables of numbers, which lack them.
 
 use std::path::Path;
 
@@ -32,17 +32,17 @@ use crate::toml_file::{parse_toml, read_toml_text, toml_error};
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct SensorFile {
-    /// The sensor model.
+    /// Name of the sensor model.
     pub model: Option<String>,
-    /// The serial number of the unit.
+    /// Serial number of the unit.
     pub serial: Option<String>,
-    /// The id of the gel.
+    /// Id of the gel.
     pub gel: Option<String>,
     /// True if ambient light cannot reach the camera.
     pub opaque: Option<bool>,
-    /// The scene that others are compared with.
+    /// Light scene that others are compared with.
     pub reference_scene: Option<String>,
-    /// The sensing area.
+    /// Sensing area of the sensor.
     pub footprint: Option<taceva_core::Footprint>,
     /// Width and height of its pictures, pixels.
     pub frame_size: Option<[u32; 2]>,

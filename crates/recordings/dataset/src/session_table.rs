@@ -1,4 +1,4 @@
-//! The table of the sessions of a recording on a real rig; each session adds a row before its first press.
+//! Table of the sessions of a recording on a real rig. Each session adds a row before its first press.
 
 use std::fs::File;
 use std::io;
@@ -8,23 +8,23 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{DatasetError, Place};
 
-/// The beginning of a session, one row of the table. Lengths are in mm and forces in N, in the frame of the sensor.
+/// Start of a session, one row of the table. Lengths are in mm and forces in N, in the frame of the sensor.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Session {
-    /// The boot of the machine whose clock stamps the samples of the session; empty if unknown.
+    /// Boot id of the machine whose clock stamps the samples; empty if unknown.
     pub boot_id: String,
-    /// Time of the beginning by that clock, s.
+    /// Time of the session start on that clock, s.
     pub begun_s: f64,
-    /// The unit of the sensor.
+    /// Name of the sensor unit.
     pub unit: String,
     /// The specimen of the gentle touch.
     pub specimen: String,
-    /// Height at which the gel began, mm.
+    /// Height at which the gel surface was found, mm.
     pub height_mm: f64,
-    /// Depth of the touch, mm.
+    /// Depth of the gentle touch, mm.
     pub depth_mm: f64,
-    /// Normal force of the touch, N.
+    /// Normal force of the gentle touch, N.
     #[serde(rename = "Fz_N")]
     pub fz_n: f64,
     /// Load at rest along x, N.
@@ -40,7 +40,7 @@ pub struct Session {
     pub x_felt: bool,
     /// True if a push along y was measured.
     pub y_felt: bool,
-    /// True if the picture changed.
+    /// True if the touch changed the picture.
     pub picture_changed: bool,
     /// Time from a force to the halt of the robot, ms.
     pub reaction_ms: f64,
@@ -54,7 +54,7 @@ pub struct Session {
     pub fz_u_n: Option<f64>,
 }
 
-/// The table of sessions beside a recording.
+/// Table of sessions beside a recording.
 #[doc(hidden)]
 #[derive(Debug)]
 pub struct SessionTable {
@@ -89,12 +89,12 @@ impl SessionTable {
         Ok(SessionTable { path, rows })
     }
 
-    /// The rows, the first session first.
+    /// Rows of the table, the first session first.
     pub fn rows(&self) -> &[Session] {
         &self.rows
     }
 
-    /// Adds a session; durable on return.
+    /// Adds a session, which is durable on return.
     ///
     /// # Errors
     /// Errors of the file system.
@@ -108,7 +108,7 @@ impl SessionTable {
     }
 }
 
-/// The sessions on a real rig in which a recording was made.
+/// Sessions on a real rig that made a recording.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecordedSessions {
@@ -119,7 +119,7 @@ pub struct RecordedSessions {
 }
 
 impl RecordedSessions {
-    /// The sessions of the recording at `path`; `None` without a table beside it.
+    /// Sessions of the recording at `path`; `None` without a table beside it.
     pub fn of(path: &Path) -> Option<RecordedSessions> {
         let rows = SessionTable::of(path).ok()?.rows;
         let note = note(&rows)?;
@@ -133,7 +133,7 @@ impl RecordedSessions {
     }
 }
 
-/// A sentence for reports; `None` without rows, as for a recording that was moved without its table.
+/// Sentence for reports; `None` without rows, as for a recording that was moved without its table.
 fn note(rows: &[Session]) -> Option<String> {
     let first = rows.first()?;
     let spread = |of: fn(&Session) -> f64| {

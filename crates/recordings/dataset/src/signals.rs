@@ -1,4 +1,4 @@
-//! `signals.parquet`: the numbers of taxels, one FLOAT column for each number of a sample, beside the table of labels.
+//! `signals.parquet`: taxel values in one FLOAT column per value of a sample, beside the table of labels.
 
 mod read;
 mod spec;
@@ -11,10 +11,10 @@ pub(crate) use spec::WrittenSignals;
 pub use spec::{SignalsInfo, SignalsSpec};
 pub use write::SignalsWriter;
 
-/// Number of values of a row group: 4 MiB, whatever the number of taxels.
+/// Number of values in a row group: 4 MiB, for any number of taxels.
 const GROUP_VALUES: usize = 1 << 20;
 
-/// Number of rows of a row group of samples of `length` values.
+/// Number of rows in a row group, for samples of `length` values.
 fn rows_of_group(length: usize) -> usize {
     (GROUP_VALUES / length.max(1)).max(1)
 }

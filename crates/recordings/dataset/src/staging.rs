@@ -1,4 +1,4 @@
-//! A folder that appears atomically.
+//! Folder that appears under its final name in one step.
 
 use std::fs;
 use std::io;
@@ -11,19 +11,19 @@ use crate::file::make_names_durable;
 use crate::replacement;
 use crate::text::shown;
 
-/// Allowed content of the target.
+/// Content that a target may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[doc(hidden)]
 pub enum Place {
-    /// Nothing.
+    /// Nothing may exist at the target.
     Free,
-    /// Nothing, or a dataset, which is replaced at the end.
+    /// The target may be a dataset, which is replaced at the end.
     OfDataset,
 }
 
-/// A folder beside the target, renamed into place once everything in it is durable and removed if that never happens.
+/// Folder beside the target, which is renamed to the target once all content is durable. An unfinished folder is removed.
 ///
-/// Only one process at a time stages a target, so that no rows of another process are lost.
+/// Only one process at a time can stage a target, so that no rows of another process are lost.
 #[derive(Debug)]
 #[doc(hidden)]
 pub struct StagedFolder {
@@ -52,18 +52,18 @@ impl StagedFolder {
         }
     }
 
-    /// Path for writing.
+    /// Path to write to.
     pub fn path(&self) -> &Path {
         self.staged.path()
     }
 
-    /// Creates a folder inside.
+    /// Creates a folder inside the staged folder.
     pub fn create_folder(&self, relative: &str) -> Result<(), DatasetError> {
         let path = self.path().join(relative);
         fs::create_dir(&path).map_err(DatasetError::io("create", &path))
     }
 
-    /// Creates a folder inside, unless it exists already.
+    /// Creates a folder inside the staged folder, unless it exists.
     pub fn ensure_folder(&self, relative: &str) -> Result<(), DatasetError> {
         match self.create_folder(relative) {
             Err(DatasetError::Io { source, .. })
@@ -89,7 +89,7 @@ impl StagedFolder {
     }
 }
 
-/// Checks that the content of `target` may be replaced. Only complete datasets without foreign files are replaced.
+/// Checks that the content of `target` may be replaced. Only complete datasets without other files are replaced.
 pub fn check_place(target: &Path, place: Place) -> Result<(), DatasetError> {
     let refused = |problem: String| Err(DatasetError::request(target, problem));
     if fs::symlink_metadata(target).is_err() {

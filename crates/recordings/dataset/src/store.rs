@@ -1,4 +1,4 @@
-//! The last step of every dataset: writing its table, and its header with the digests of table, frames and signals.
+//! Final step of every dataset: writes its table, and its header with the digests of table, frames and signals.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -26,29 +26,29 @@ pub struct Beside {
     pub presses: BTreeMap<PressOutcome, u64>,
     /// Frames of each view, if samples have several pictures.
     pub views: Vec<ViewInfo>,
-    /// Columns that no key of an import names.
+    /// Columns that the map of an import does not name.
     pub unmentioned_columns: Vec<String>,
-    /// The mappings of all maps.
+    /// Mappings of all imports.
     pub mapping: Mapping,
-    /// Data that an import left out.
+    /// Data that the import left out.
     pub left_out: LeftOut,
-    /// Warnings of an import.
+    /// Warnings of the imports.
     pub warnings: Vec<String>,
-    /// Losses of a stream.
+    /// Frame losses of a stream.
     pub stream: Option<StreamFacts>,
-    /// Predictions of a model; their file is already written.
+    /// Predictions of a model, whose file is already written.
     pub predictions: Option<LivePredictions>,
-    /// Signals; their file is already written.
+    /// Signals, whose file is already written.
     pub signals: Option<SignalsInfo>,
-    /// The list of files that an import read, which is written already.
+    /// List of imported source files, which is already written.
     pub sources: Option<SourcesInfo>,
-    /// The states of the recording before each addition of rows.
+    /// States of the recording before each addition of rows.
     pub extended: Vec<Extension>,
-    /// Edits of the header that were accepted before rows were added.
+    /// Edits of the header accepted before rows were added.
     pub history: Vec<Edit>,
 }
 
-/// Writes the table and the header to the given files and syncs them, except their names.
+/// Writes the table and the header to the given files and syncs them, but not their names.
 pub fn write_table_and_header(
     samples: &Path,
     header: &Path,

@@ -1,4 +1,4 @@
-//! The labels of a recording in memory, column by column.
+//! Labels of a recording in memory, column by column.
 
 mod cells;
 mod fields;
@@ -58,12 +58,12 @@ pub struct Table {
     attribute_names: Vec<String>,
     attributes: Vec<Vec<Option<String>>>,
     frames: Vec<Option<FrameEntry>>,
-    /// The pictures of rows with several pictures.
+    /// Pictures of rows with several pictures.
     views: Vec<ViewFrames>,
 }
 
 impl Table {
-    /// Fixed names of columns on disk, in order, without channels and attributes.
+    /// Reserved column names on disk, in order, without channels and attributes.
     ///
     /// ```
     /// use taceva_dataset::Table;
@@ -71,7 +71,7 @@ impl Table {
     /// ```
     pub const NAMES: [&'static str; 19] = RESERVED;
 
-    /// A table without rows.
+    /// Table without rows.
     pub fn new(channels: Channels, attribute_names: Vec<String>) -> Table {
         Table {
             truth: vec![Column::default(); channels.len()],
@@ -123,10 +123,10 @@ impl Table {
         }
     }
 
-    /// Adds an attribute.
+    /// Adds an attribute column.
     ///
     /// # Panics
-    /// If there is not a text for each row.
+    /// If there is not one text for each row.
     pub fn push_attribute(&mut self, name: String, texts: Vec<Option<String>>) {
         assert_eq!(texts.len(), self.rows(), "a text a row");
         self.attribute_names.push(name);
@@ -138,112 +138,112 @@ impl Table {
         self.sample.len()
     }
 
-    /// The channels of the truth.
+    /// Channels of the truth.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
 
-    /// The values of the channel at `position`, measured by the reference instruments.
+    /// Values of the channel at `position`, measured by the reference instruments.
     pub fn truth(&self, position: usize) -> &Column {
         &self.truth[position]
     }
 
-    /// The name of each row.
+    /// Name of each row.
     pub fn samples(&self) -> &[String] {
         &self.sample
     }
 
-    /// The contact point of each row.
+    /// Contact point of each row.
     pub fn point_id(&self) -> &[Option<String>] {
         &self.point_id
     }
 
-    /// The sensor unit of each row.
+    /// Sensor unit of each row.
     pub fn unit_id(&self) -> &[Option<String>] {
         &self.unit_id
     }
 
-    /// The scene of each row.
+    /// Light scene of each row.
     pub fn scene(&self) -> &[Option<String>] {
         &self.scene
     }
 
-    /// The depth level of each row within its point.
+    /// Depth step of each row within its point.
     pub fn depth_step(&self) -> &[Option<u32>] {
         &self.depth_step
     }
 
-    /// The number of the repeat of each row.
+    /// Number of the repeat of each row.
     pub fn repeat(&self) -> &[Option<u32>] {
         &self.repeat
     }
 
-    /// The phase of each row: load or unload.
+    /// Phase of each row: load or unload.
     pub fn phase(&self) -> &[Option<Phase>] {
         &self.phase
     }
 
-    /// The limit of the gel that stopped the tip before its target, of each row.
+    /// For each row, the gel limit that stopped the tip before its target.
     pub fn limited_by(&self) -> &[Option<Limit>] {
         &self.limited_by
     }
 
-    /// Standard uncertainty of the height from which the depth of each row counts, mm.
+    /// Standard uncertainty of the height from which the depth of each row is measured, mm.
     pub fn zero_u_mm(&self) -> &[Option<f64>] {
         &self.zero_u_mm
     }
 
-    /// The table of the lab from which each row was imported, relative to its folder.
+    /// Imported table of each row, relative to the lab's folder.
     pub fn source_table(&self) -> &[Option<String>] {
         &self.source_table
     }
 
-    /// The row of each sample in that table, from 0.
+    /// Row number of each sample in that table, from 0.
     pub fn source_row(&self) -> &[Option<u32>] {
         &self.source_row
     }
 
-    /// The original picture of each sample in the folder of its lab, such as `clip.mp4#12`.
+    /// Original picture of each sample in the lab's folder, such as `clip.mp4#12`.
     pub fn source_frame(&self) -> &[Option<String>] {
         &self.source_frame
     }
 
-    /// The declared part of each row.
+    /// Part of each row, as declared by the recording.
     pub fn part(&self) -> &[Option<String>] {
         &self.part
     }
 
-    /// The time of each row, s.
+    /// Time of each row, s.
     pub fn t_s(&self) -> &[Option<f64>] {
         &self.t_s
     }
 
-    /// The relief of the grating touched by each row.
+    /// Relief of the grating touched in each row.
     pub fn kind(&self) -> &[Option<GratingKind>] {
         &self.kind
     }
 
-    /// The spacing of that grating.
+    /// Spacing of that grating.
     pub fn spacing(&self) -> &[Option<Nanometre>] {
         &self.spacing
     }
 
-    /// The mean luma of each row's full-size frame, in steps of an 8-bit camera.
+    /// Mean luma of the full-size frame of each row, in steps of an 8-bit camera.
     pub fn intensity(&self) -> &[Option<f64>] {
         &self.intensity
     }
 
-    /// The frame of each row.
+    /// Frame of each row.
     pub fn frames(&self) -> &[Option<FrameEntry>] {
         &self.frames
     }
 
-    /// The names of the text columns kept for splits.
+    /// Names of the text columns kept for splits.
     pub fn attribute_names(&self) -> &[String] {
         &self.attribute_names
     }
 
-    /// The text column called `name`.
+    /// Text column called `name`.
     pub fn attribute(&self, name: &str) -> Option<&[Option<String>]> {
         let position = self
             .attribute_names
@@ -252,7 +252,7 @@ impl Table {
         Some(&self.attributes[position])
     }
 
-    /// The column called `name` as text, whatever its type: an id, an attribute, a count, a phase or a number.
+    /// Column called `name` as text, for any type: id, attribute, count, phase or number.
     pub fn as_text(&self, name: &str) -> Option<Vec<Option<String>>> {
         let named = self
             .columns()
@@ -261,7 +261,7 @@ impl Table {
         Some((0..self.rows()).map(|row| named.cells.text(row)).collect())
     }
 
-    /// The fields of at least one row.
+    /// Fields of at least one row.
     pub fn fields(&self) -> FieldSet {
         let carried = [
             (Field::Frame, self.frames.iter().any(Option::is_some)),
@@ -287,7 +287,7 @@ impl Table {
             .collect()
     }
 
-    /// The sample of a row, with the given frame and the fields in `fields`.
+    /// Sample of a row, with the fields in `fields` and the given frame.
     pub fn sample(&self, row: usize, fields: FieldSet, frame: Option<Frame>) -> Sample {
         let wanted = |field| fields.contains(field);
         let text = |field, column: &[Option<String>]| {
@@ -327,7 +327,7 @@ impl Table {
         sample
     }
 
-    /// The digest of the content of the table, whatever its storage and the location of its frames.
+    /// Digest of the table content, independent of storage and of the location of frames.
     pub fn digest(&self) -> Digest {
         let mut digest = PartsDigest::default();
         digest.part(b"taceva.table/1");
@@ -348,13 +348,13 @@ impl Table {
         digest.finish()
     }
 
-    /// Sets the file and the brightness of a row's frame.
+    /// Sets the file and the brightness of the frame of a row.
     pub fn set_frame(&mut self, row: usize, entry: FrameEntry, intensity: f64) {
         self.frames[row] = Some(entry);
         self.intensity[row] = Some(intensity);
     }
 
-    /// All columns with a value, in the order in which tables are digested, stored and exported.
+    /// All columns with a value, in the order for digests, storage and export.
     pub fn columns(&self) -> Vec<NamedColumn<'_>> {
         let named = |name, cells| NamedColumn { name, cells };
         let mut columns = vec![

@@ -1,4 +1,4 @@
-//! Foreign text in messages: by the rule of [`taceva_core::shown`]; long texts and lists are cut.
+//! Escapes external text for messages by [`taceva_core::shown`], and shortens long texts and lists.
 
 use std::path::Path;
 
@@ -17,14 +17,14 @@ pub fn shown_path(path: &Path) -> String {
     taceva_core::shown(path).to_string()
 }
 
-/// Names for a message; after the first few the others are counted.
+/// List of names for a message; only the first few, then the number of the others.
 pub fn listed(names: &[String]) -> String {
     const LISTED: usize = 64;
     let shown: Vec<String> = names.iter().map(|name| shown(name)).collect();
     first_names(&shown, LISTED)
 }
 
-/// The first `most` of `names`, as they are; the others are counted.
+/// First `most` of `names`, unchanged, then the number of the others.
 pub fn first_names(names: &[impl AsRef<str>], most: usize) -> String {
     let first: Vec<&str> = names.iter().take(most).map(AsRef::as_ref).collect();
     let first = first.join(", ");

@@ -1,4 +1,4 @@
-//! Strict parsing of TOML files: an unknown key is an error with its line and the nearest key.
+//! Strict parser for TOML files. An unknown key is an error with its line and the nearest key.
 
 use std::path::Path;
 
@@ -10,21 +10,21 @@ use crate::limits;
 use crate::text::shown;
 use taceva_core::nearest;
 
-/// Parses the TOML file at `path` as a `T`.
+/// Parses the TOML file at `path` as `T`.
 ///
 /// # Errors
-/// [`DatasetError::Text`] with the line, if it is invalid TOML or `T` rejects it; [`DatasetError::Path`] if it is no regular file or
+/// [`DatasetError::Text`] with the line, if the file is invalid TOML or `T` rejects it; [`DatasetError::Path`] if it is not a regular file or
 /// exceeds 1 MiB; [`DatasetError::Io`].
 pub fn read_toml<T: DeserializeOwned>(path: &Path) -> Result<T, DatasetError> {
     parse_toml(path, &read_toml_text(path)?)
 }
 
-/// The text of the TOML file at `path`.
+/// Text of the TOML file at `path`.
 pub fn read_toml_text(path: &Path) -> Result<String, DatasetError> {
     utf8(path, read_capped(path, limits::TOML_BYTES)?)
 }
 
-/// `bytes`, the content of the file at `path`, as text.
+/// `bytes`, the content of the file at `path`, as UTF-8 text.
 pub fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, DatasetError> {
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
@@ -32,7 +32,7 @@ pub fn utf8(path: &Path, bytes: Vec<u8>) -> Result<String, DatasetError> {
     })
 }
 
-/// Parses `text`, the content of the file at `path`, as a `T`.
+/// Parses `text`, the content of the file at `path`, as `T`.
 pub fn parse_toml<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, DatasetError> {
     toml::from_str(text).map_err(|error| {
         let line = error
@@ -42,7 +42,7 @@ pub fn parse_toml<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, Dat
     })
 }
 
-/// The error for a line of the TOML file at `path`.
+/// Error for a line of the TOML file at `path`.
 pub fn toml_error(path: &Path, line: Option<u64>, problem: &str) -> DatasetError {
     DatasetError::Text {
         place: Place {
@@ -53,7 +53,7 @@ pub fn toml_error(path: &Path, line: Option<u64>, problem: &str) -> DatasetError
     }
 }
 
-/// The line, from 1, of the byte at `offset`.
+/// Line of the byte at `offset`, from 1.
 pub fn line_of(text: &[u8], offset: usize) -> u64 {
     let before = &text[..offset.min(text.len())];
     1 + before.iter().filter(|byte| **byte == b'\n').count() as u64

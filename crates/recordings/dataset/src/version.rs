@@ -1,14 +1,14 @@
-//! Version of the format on disk, and its compatibility.
+//! Version of the disk format, and its compatibility.
 
 use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
-/// A version of the dataset format, written `major.minor`.
+/// Version of the dataset format, written `major.minor`.
 ///
-/// A minor version adds and never changes a meaning. Any minor of a known major can be read; a newer major cannot. Formats 1.1 to 1.10 were
-/// written before release 0.2.0 and are not supported.
+/// A minor version only adds content and never changes a meaning. All minor versions of a known major version can be read; newer major versions
+/// cannot. Formats 1.1 to 1.10 were written before release 0.2.0 and are not supported.
 ///
 /// ```
 /// use taceva_dataset::Version;
@@ -20,25 +20,25 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Version {
-    /// Incremented when a meaning changes.
+    /// Number incremented when a meaning changes.
     pub major: u32,
-    /// Incremented when something is added.
+    /// Number incremented when something is added.
     pub minor: u32,
 }
 
 impl Version {
-    /// The newest version, which this crate writes.
+    /// Newest version, which this crate writes.
     pub const CURRENT: Version = Version { major: 1, minor: 0 };
 
-    /// The last minor before release 0.2.0, which restarted at 1.0.
+    /// Last minor version before release 0.2.0, which restarted at 1.0.
     const LAST_BEFORE_RELEASE: u32 = 10;
 
-    /// True if this crate can read it.
+    /// True if this crate can read the version.
     pub fn is_readable(self) -> bool {
         self.major == Version::CURRENT.major && !self.is_earlier()
     }
 
-    /// True if it was written before release 0.2.0.
+    /// True if the version is older than release 0.2.0.
     pub fn is_earlier(self) -> bool {
         self.major == 1 && (1..=Version::LAST_BEFORE_RELEASE).contains(&self.minor)
     }

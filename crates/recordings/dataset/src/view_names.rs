@@ -1,11 +1,11 @@
-//! Names of views: several in one text, and messages about missing ones.
+//! Names of views: several in one text, and messages about missing views.
 
 use crate::text::shown;
 
-/// Separator between the names of views that are placed side by side.
+/// Separator between the names of views placed side by side.
 pub(crate) const BESIDE: char = '+';
 
-/// The message that a view does not exist, or that none was named.
+/// Error message for a view that does not exist, or for a missing choice of view.
 pub(crate) fn wanted_view(asked: Option<&str>, known: &[String]) -> String {
     let quoted = |name: &String| format!("`{}`", shown(name));
     let names: Vec<String> = known.iter().map(quoted).collect();

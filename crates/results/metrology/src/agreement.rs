@@ -1,4 +1,4 @@
-//! Agreement of two methods that measure the same, by the limits of Bland and Altman.
+//! Bland–Altman limits of agreement of two methods that measure the same quantity.
 //!
 //! ```
 //! use taceva_metrology::agreement::{Agreement, Pair};
@@ -27,14 +27,14 @@ use taceva_metrics::{DifferenceLine, Moments, NormalSample, OneWaySums};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Pair {
-    /// The first method.
+    /// Value of the first method.
     pub one: f64,
-    /// The second method.
+    /// Value of the second method.
     pub other: f64,
 }
 
 impl Pair {
-    /// Two measurements.
+    /// Pairs the values of the first and the second method.
     #[must_use]
     pub fn new(one: f64, other: f64) -> Pair {
         Pair { one, other }
@@ -56,24 +56,24 @@ pub struct Agreement {
     pub clusters: Option<u64>,
     /// Mean difference.
     pub bias: f64,
-    /// Interval of 95 % of the bias.
+    /// 95 % confidence interval of the bias.
     pub bias_ci95: [f64; 2],
-    /// Standard deviation of a difference.
+    /// Standard deviation of the differences.
     pub sd: f64,
     /// Degrees of freedom of the standard deviation.
     pub freedom: f64,
     /// Limits between which 95 % of differences are: bias ± 1.96 standard deviations.
     pub limits: [f64; 2],
-    /// Interval of 95 % of the lower limit.
+    /// 95 % confidence interval of the lower limit.
     pub lower_ci95: [f64; 2],
-    /// Interval of 95 % of the upper limit.
+    /// 95 % confidence interval of the upper limit.
     pub upper_ci95: [f64; 2],
-    /// Change of the difference with its size; none if all means are equal, and for clusters.
+    /// Trend of the difference with the mean of the pair; `None` if all means are equal, and for clusters.
     pub proportional: Option<Proportional>,
 }
 
 impl Agreement {
-    /// Agreement of independent pairs; `None` below two pairs, or with a value that is not finite.
+    /// Agreement of independent pairs; `None` for fewer than two pairs or a value that is not finite.
     #[must_use]
     pub fn of(pairs: &[Pair]) -> Option<Agreement> {
         let differences = differences(pairs)?;
@@ -88,11 +88,10 @@ impl Agreement {
         })
     }
 
-    /// Agreement of pairs in clusters, whose differences depend on each other within a cluster.
+    /// Agreement of clustered pairs. Differences within a cluster may be correlated.
     ///
-    /// The standard deviation holds both components of variance, with degrees of freedom by Satterthwaite. The ends of intervals are
-    /// therefore approximate. `None` below two clusters, without two pairs in one of them, with a value that is not finite, or without any
-    /// variation.
+    /// The standard deviation includes both components of variance, with degrees of freedom by Satterthwaite. The ends of intervals are therefore
+    /// approximate. `None` for fewer than two clusters, no cluster with two pairs, a value that is not finite, or no variation.
     ///
     /// ```
     /// use taceva_metrology::agreement::{Agreement, Pair};
@@ -134,7 +133,7 @@ impl Agreement {
     }
 }
 
-/// Sums of the differences of `pairs`; `None` with one that is not finite.
+/// Sums of the differences of `pairs`; `None` if one is not finite.
 fn differences(pairs: &[Pair]) -> Option<Moments> {
     let differences = pairs.iter().map(|pair| pair.one - pair.other);
     let are_finite = differences.clone().all(f64::is_finite);

@@ -1,4 +1,4 @@
-//! Uncertainty budgets: sources in a text, the law of propagation, and a check by draws.
+//! Uncertainty budgets: text of the sources, law of propagation, and a Monte Carlo check.
 //!
 //! [`BudgetText`] reads `budget.toml`; [`Evidence`] holds measured figures that its sources name; [`Budget`] is the result.
 

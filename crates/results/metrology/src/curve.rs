@@ -1,4 +1,4 @@
-//! Calibration curves: least squares with bands, inverse prediction, detection, and figures like those of ISO 376 and ISO 7500-1.
+//! Calibration curves: least squares with bands, inverse prediction, detection limits, and figures like those of ISO 376 and ISO 7500-1.
 //!
 //! [`CurveFit`] fits; [`ProvingSeries`] and [`IndicationLevel`] give relative errors in %, which [`Standing`] compares with limits.
 

@@ -1,7 +1,7 @@
-//! Gauge studies: components of variance of a measuring system.
+//! Gauge studies: variance components of a measuring system.
 //!
-//! A *part* is a contact condition, an *operator* is what differs (unit, gel, day, person, laboratory), a *trial* is a repeat.
-//! Sums are exact, so no result depends on the order of the readings.
+//! A *part* is a contact condition, an *operator* is the varied factor (unit, gel, day, person, laboratory), a *trial* is a repeat. Sums are exact,
+//! so no result depends on the order of the readings.
 //!
 //! ```
 //! use taceva_metrology::gauge::{GaugeSettings, GaugeStudy, ComponentName};

@@ -1,4 +1,4 @@
-//! Tolerance intervals: limits that hold a share of all values with a confidence.
+//! Tolerance intervals: limits that contain a share of all values with a given confidence.
 //!
 //! ```
 //! use taceva_metrology::tolerance::{least_n_one_sided, least_n_two_sided, two_sided_factor};
@@ -22,7 +22,7 @@ fn is_share(value: f64) -> bool {
     value > 0.0 && value < 1.0
 }
 
-/// Least number of values whose extremes hold `share` of any continuous distribution, with `confidence`; `None` for one that is no share.
+/// Least number of values whose extremes contain `share` of any continuous distribution with `confidence`; `None` if an argument is no share.
 #[must_use]
 pub fn least_n_two_sided(share: f64, confidence: f64) -> Option<u64> {
     // 1 − n Pⁿ⁻¹ + (n − 1) Pⁿ grows with n.
@@ -33,14 +33,14 @@ pub fn least_n_two_sided(share: f64, confidence: f64) -> Option<u64> {
     (is_share(share) && is_share(confidence)).then(|| least_n(2, |n| held(n) >= confidence))
 }
 
-/// Least number of values whose greatest has `share` of any continuous distribution below it, with `confidence`.
+/// Least number of values whose maximum exceeds `share` of any continuous distribution with `confidence`.
 #[must_use]
 pub fn least_n_one_sided(share: f64, confidence: f64) -> Option<u64> {
     let held = |n: f64| 1.0 - exponential(n * logarithm(share));
     (is_share(share) && is_share(confidence)).then(|| least_n(1, |n| held(n) >= confidence))
 }
 
-/// The least number from `first` on that is enough, as all above it are.
+/// Least number from `first` on for which `is_enough` holds, which must be monotonic.
 fn least_n(first: u64, is_enough: impl Fn(f64) -> bool) -> u64 {
     let real = |n: u64| {
         #[expect(
@@ -64,7 +64,7 @@ fn least_n(first: u64, is_enough: impl Fn(f64) -> bool) -> u64 {
     high
 }
 
-/// Interval mean ± k s of independent values of a normal distribution, in their unit.
+/// Tolerance interval mean ± k s of independent, normally distributed values, in their unit.
 ///
 /// ```
 /// use taceva_metrology::tolerance::ToleranceInterval;
@@ -79,15 +79,15 @@ fn least_n(first: u64, is_enough: impl Fn(f64) -> bool) -> u64 {
 pub struct ToleranceInterval {
     /// Number of values.
     pub n: u64,
-    /// Share of all values that the interval holds.
+    /// Share of all values that the interval contains.
     pub share: f64,
-    /// Confidence with which it does.
+    /// Confidence that the interval contains this share.
     pub confidence: f64,
-    /// Mean.
+    /// Mean of the values.
     pub mean: f64,
     /// Standard deviation of the values.
     pub sd: f64,
-    /// Factor of the standard deviation.
+    /// Factor of the standard deviation in the interval.
     pub k: f64,
     /// Lower end.
     pub low: f64,
@@ -96,7 +96,7 @@ pub struct ToleranceInterval {
 }
 
 impl ToleranceInterval {
-    /// Interval of `values`; `None` below two values, for a value that is not finite, or a share or confidence out of range.
+    /// Interval of `values`; `None` for fewer than two values, a value that is not finite, or a share or confidence out of range.
     #[must_use]
     pub fn of(values: &[f64], share: f64, confidence: f64) -> Option<ToleranceInterval> {
         let values = moments(values)?;
@@ -104,9 +104,9 @@ impl ToleranceInterval {
         ToleranceInterval::of_sample(values.n, &sample, share, confidence)
     }
 
-    /// Interval of values in clusters, which depend on each other within a cluster. Its confidence is therefore approximate.
+    /// Interval of clustered values. Values within a cluster may be correlated, so the confidence is approximate.
     ///
-    /// `None` below two clusters, without two values in one of them, without any variation, and as for [`of`](ToleranceInterval::of).
+    /// `None` for fewer than two clusters, no cluster with two values, no variation, and as for [`of`](ToleranceInterval::of).
     ///
     /// ```
     /// use taceva_metrology::tolerance::ToleranceInterval;
@@ -153,7 +153,7 @@ impl ToleranceInterval {
     }
 }
 
-/// Sums of `values`; `None` with one that is not finite.
+/// Sums of `values`; `None` if one is not finite.
 fn moments(values: &[f64]) -> Option<Moments> {
     let are_finite = values.iter().all(|value| value.is_finite());
     are_finite.then(|| values.iter().copied().collect())

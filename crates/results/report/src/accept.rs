@@ -1,4 +1,4 @@
-//! Checks results against limits.
+//! Acceptance tests: checks results against limits.
 
 mod check;
 mod interval;

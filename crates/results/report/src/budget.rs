@@ -1,4 +1,4 @@
-//! Uncertainty budgets of one measurand, as tables for people and for programs, and as a page.
+//! Uncertainty budgets of one measurand, as tables for readers and programs, and as a page.
 
 mod numbers;
 mod template;
@@ -15,22 +15,22 @@ use crate::html::{Document, drawn};
 use crate::number::FormattedValue;
 use crate::table::{Align, Cell, Column, Table, Words};
 
-/// Budgets of one file, with the facts behind them.
+/// Uncertainty budgets of one file, with their context.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BudgetReport {
     /// Budgets, one for each value of the measurand.
     pub budgets: Vec<Budget>,
-    /// Sensor of the result that measured figures are from.
+    /// Sensor whose result gave the measured figures.
     pub sensor: Option<String>,
-    /// Origins of the samples behind these figures, such as `recorded` and `simulated`.
+    /// Origins of the samples of these figures, such as `recorded` and `simulated`.
     pub origins: Vec<String>,
-    /// Digest of the file of sources.
+    /// Digest of the budget file.
     pub digest: String,
-    /// Greatest expanded uncertainty that is allowed, in the unit of the measurand.
+    /// Maximum allowed expanded uncertainty, in the unit of the measurand.
     pub most: Option<f64>,
 }
 
-/// JSON of one budget: its form, and the files behind it.
+/// JSON of one budget with the digests of its input files.
 #[derive(Serialize)]
 struct SealedBudget<'a> {
     #[serde(flatten)]
@@ -45,7 +45,7 @@ struct SealedBudget<'a> {
 }
 
 impl BudgetReport {
-    /// True unless an expanded uncertainty is above the greatest allowed one, or is undefined beside such a limit.
+    /// True unless an expanded uncertainty exceeds the allowed maximum, or is undefined although there is a maximum.
     pub fn is_passed(&self) -> bool {
         self.budgets.iter().all(|of| self.meets(of) != Some(false))
     }
@@ -56,7 +56,7 @@ impl BudgetReport {
             .map(|most| half_width.is_some_and(|half_width| half_width <= most))
     }
 
-    /// Table for people with one row for each source, and the results below.
+    /// Table for readers: one row for each source, then the results.
     pub fn table(&self) -> Table {
         let first = self.budgets.first();
         let unit = first.map_or("", |budget| budget.unit.as_str());
@@ -95,7 +95,7 @@ impl BudgetReport {
         table
     }
 
-    /// Sentences below the table: results, draws, warnings, and effects without a source, each once.
+    /// Notes below the table: results, Monte Carlo draws, warnings, and uncovered effects. Each note occurs once.
     fn notes(&self) -> Vec<String> {
         let mut notes: Vec<String> = Vec::new();
         let mut add = |words: String| {
@@ -125,7 +125,7 @@ impl BudgetReport {
         notes
     }
 
-    /// Verdict on the greatest allowed expanded uncertainty.
+    /// Verdict against the maximum allowed expanded uncertainty.
     fn verdict(&self) -> Option<String> {
         let (most, budget) = (self.most?, self.budgets.first()?);
         let found = match self.is_passed() {
@@ -136,7 +136,7 @@ impl BudgetReport {
         Some(format!("U is {found} {most} {}.", budget.unit))
     }
 
-    /// Sealed JSON of the schema `taceva.budget/1` for one budget, with the files behind it.
+    /// Sealed JSON of one budget, with the schema `taceva.budget/1` and the digests of its input files.
     pub fn json(&self, budget: &Budget) -> String {
         let document = SealedBudget {
             budget,
@@ -151,7 +151,7 @@ impl BudgetReport {
         format!("{}\n", text.expect("an object of texts and numbers"))
     }
 
-    /// Page with the figure of contributions, HTML.
+    /// HTML page with the figure of contributions.
     pub fn page(&self) -> String {
         let table = self.table();
         let lead = html! {
@@ -181,14 +181,14 @@ impl BudgetReport {
     }
 }
 
-/// Result of the draws beside that of first order.
+/// Monte Carlo result compared with the first-order result.
 fn draws(found: &MonteCarloResult, unit: &str) -> String {
     let value =
         FormattedValue::number(found.mean, Some(found.symmetric)).phrase(&format!(" {unit}"));
     let tolerance = FormattedValue::number(found.tolerance, None).value;
     let verdict = match found.validated {
-        true => "it confirms the interval of first order",
-        false => "it does not confirm the interval of first order",
+        true => "it confirms the first-order interval",
+        false => "it does not confirm the first-order interval",
     };
     format!(
         "Monte Carlo, {} draws of seed {}: {value}; {verdict}, within {tolerance} {unit} and chance.",
@@ -196,7 +196,7 @@ fn draws(found: &MonteCarloResult, unit: &str) -> String {
     )
 }
 
-/// A number to four digits; a dash without one.
+/// Number with four significant digits; a dash if missing.
 fn number(value: Option<f64>) -> String {
     value.map_or_else(
         || "–".to_owned(),

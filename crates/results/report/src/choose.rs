@@ -34,13 +34,13 @@ pub struct Choice {
     pub unplaced: Vec<Dropped>,
     /// Numbers of the sensors without a rank, in the order of the sensors.
     pub others: Vec<Candidate>,
-    /// Sensors with none of the numbers that the needs use, but with one by another definition, which the reason names.
+    /// Sensors without any number that the needs use, but with one by another definition. The reason names it.
     pub other_definitions: Vec<Dropped>,
-    /// Sensors with none of the numbers that the needs use, by any definition.
+    /// Sensors without any number that the needs use, by any definition.
     pub unknown: Vec<String>,
     /// Significant differences between ranked sensors; `None` if nothing was tested, as with published numbers.
     pub evidence: Option<Vec<Evidence>>,
-    /// Sentence on ranking errors whose labels have different spreads between the sensors.
+    /// Remark on ranking errors, if the label spreads of the sensors differ.
     pub spread: Option<String>,
     /// True if samples behind the numbers are simulated.
     pub simulated: bool,
@@ -53,7 +53,7 @@ pub struct Choice {
 pub struct Candidate {
     /// Name of the sensor.
     pub name: String,
-    /// Mean over soft needs of the share of the best, 0 to 1; 1 without soft needs.
+    /// Mean, over soft needs, of the ratio to the best sensor, 0 to 1; 1 without soft needs.
     pub share: f64,
     /// Numbers used.
     pub steps: Vec<Step>,
@@ -66,15 +66,15 @@ pub struct Step {
     pub need: String,
     /// Property: `MAE Fxy`.
     pub property: Property,
-    /// Number; `None` if unknown.
+    /// Number that the need uses; `None` if unknown.
     pub value: Option<f64>,
-    /// Interval of 95 %, if there is one.
+    /// 95 % confidence interval; `None` if unknown.
     pub interval: Option<[f64; 2]>,
     /// Standing of the number.
     pub standing: Standing,
-    /// Share of the best among the remaining sensors; `None` for hard needs and unknown numbers.
+    /// Ratio to the best of the remaining sensors; `None` for hard needs and unknown numbers.
     pub share: Option<f64>,
-    /// Part or goods that the number is of, for sizes and prices.
+    /// Measured part or sold goods, for sizes and prices.
     pub part: Option<String>,
     /// True for a hard need, which does not rank.
     pub is_bound: bool,
@@ -202,7 +202,7 @@ fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     barred.next()
 }
 
-/// Requirement of a bound of [`Property::Opaque`], in words.
+/// Requirement of a bound on [`Property::Opaque`], as text.
 const CLOSED: &str = "a gel that keeps light out";
 
 /// First hard need that `sensor` does not meet.

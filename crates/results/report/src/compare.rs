@@ -1,4 +1,4 @@
-//! Tests whether sensors or models differ: every pair and score, with intervals and in words.
+//! Tests whether sensors or models differ: every pair and score, with intervals, as data and as text.
 
 mod comparability;
 mod estimate;
@@ -61,13 +61,13 @@ pub struct Comparison {
 /// Comparison of one score between two studies.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// Metric.
+    /// Name of the metric.
     pub metric: String,
     /// Channel or plane.
     pub channel: String,
     /// Better direction of the score.
     pub direction: Better,
-    /// Compared variant of the metric; `None` for the value itself.
+    /// Variant that was compared; `None` for the value itself.
     pub decided_by: Option<String>,
     /// Unit of both scores.
     pub unit: Unit,
@@ -79,20 +79,20 @@ pub struct Answer {
     pub verdict: Verdict,
     /// Difference behind the verdict, with both p values and the interval of that decision.
     pub difference: Option<Difference>,
-    /// Reason why there is no verdict.
+    /// Reason why there is no verdict; `None` if there is one.
     pub reason: Option<String>,
-    /// Reason why so few groups cannot show any difference.
+    /// Reason why the number of groups is too small to show any difference.
     pub out_of_reach: Option<String>,
-    /// True if models learnt on too few places for a verdict on sensors.
+    /// True if the models were trained at too few places for a verdict on sensors.
     pub is_demonstration: bool,
-    /// Standing of each score.
+    /// Standing of each score in verdicts.
     pub standings: Sides<Standing>,
     /// True for a score from a single training of a model with a random seed.
     pub one_training: Sides<bool>,
 }
 
 impl Answer {
-    /// Verdict in words with the names of the studies: `MagicTac better by …`.
+    /// Verdict as text with the names of the studies: `MagicTac better by …`.
     pub fn words(&self, names: &[String]) -> String {
         match &self.reason {
             Some(reason) => format!("no answer: {reason}"),
@@ -126,7 +126,7 @@ impl Answer {
         }
     }
 
-    /// Reason why no difference is shown that does not depend on the values.
+    /// Reason, independent of the values, why no difference can be shown.
     fn unreachable(&self) -> Option<&str> {
         let is_open = matches!(self.verdict, Verdict::NoDifferenceShown { .. });
         self.out_of_reach.as_deref().filter(|_| is_open)
@@ -168,9 +168,9 @@ struct Pair<'a> {
     scores: Sides<&'a Score>,
     sides: Sides<usize>,
     difference: Result<Difference, String>,
-    /// Reason why two predictions of one truth were not compared in pairs.
+    /// Reason why predictions of the same truth were not compared in pairs.
     unpaired: Option<String>,
-    /// Reason why so few groups cannot show any difference.
+    /// Reason why the number of groups is too small to show any difference.
     out_of_reach: Option<String>,
 }
 
@@ -281,7 +281,7 @@ fn pairs<'a>(
     pairs
 }
 
-/// Difference of two scores, with the reason why two predictions of one truth were not compared in pairs.
+/// Difference of two scores, with the reason why predictions of the same truth were not compared in pairs.
 fn difference(
     scores: Sides<&Score>,
     studies: Sides<&Study>,

@@ -1,13 +1,13 @@
-//! Contributions of the sources of a budget: one bar for each, with its sign, and U as a line.
+//! Bar chart of the signed contributions of the sources of a budget, with U as a line.
 
 use taceva_metrology::budget::{Budget, Source};
 
 use crate::figure::{Anchor, Area, Axes, Canvas, Figure, Ink, Label, Panel, Scale, Stroke, short};
 use crate::number::numeral;
 
-/// Width of the place of one bar, between its least and greatest.
+/// Least and greatest width for one bar with its margins.
 const PLACE: [f64; 2] = [240.0, 640.0];
-/// Half of the width of a bar, as a part of its place.
+/// Half of the width of a bar, as a share of its space.
 const HALF: f64 = 0.3;
 
 /// Figure number `number` of a page; `None` without an uncertainty.

@@ -1,4 +1,4 @@
-//! Calibration curve of a table, as a table for people and for programs.
+//! Calibration curve of a table, for readers and programs.
 
 mod figures;
 
@@ -13,50 +13,50 @@ use crate::table::{Cell, Estimate, Table};
 /// Schema of a calibration curve as JSON.
 pub const CURVE_SCHEMA: &str = "taceva.curve/1";
 
-/// Column of a table, and the unit of its numbers.
+/// Column of a table with its unit.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct CurveAxis {
     /// Name of the column.
     pub column: String,
-    /// Unit; empty if it is not known.
+    /// Unit of the column; empty if unknown.
     pub unit: String,
 }
 
-/// Figures wanted of a curve.
+/// Requested figures of a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurveRequest {
-    /// Probability of bands and of inverse predictions.
+    /// Coverage probability of bands and inverse predictions.
     pub p: f64,
-    /// Reference values of the bands.
+    /// Reference values at which bands are computed.
     pub at: Vec<f64>,
-    /// New readings that are averaged.
+    /// Number of averaged new readings.
     pub readings: u32,
-    /// True for a confidence band that holds at all reference values together.
+    /// True for a simultaneous confidence band over all reference values.
     pub is_simultaneous: bool,
-    /// Readings whose reference values are wanted.
+    /// Readings for which reference values are predicted.
     pub inverted: Vec<f64>,
-    /// True if limits of detection are wanted.
+    /// True to compute detection limits.
     pub detects: bool,
-    /// Presses whose relative errors are wanted, like those of ISO 7500-1.
+    /// Presses for which relative errors like those of ISO 7500-1 are computed.
     pub indications: Option<Vec<Indication>>,
-    /// Series whose relative errors are wanted, like those of ISO 376.
+    /// Series for which relative errors like those of ISO 376 are computed.
     pub proving: Option<ProvingSeries>,
 }
 
-/// Fitted curve with the facts of its table.
+/// Fitted curve with its data source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CalibrationCurve {
-    /// Reference values.
+    /// Column of the reference values.
     pub x: CurveAxis,
-    /// Readings.
+    /// Column of the readings.
     pub y: CurveAxis,
-    /// Fit.
+    /// Fitted polynomial.
     pub fit: CurveFit,
-    /// Number of rows.
+    /// Number of fitted rows.
     pub rows: usize,
-    /// Number of contact points of these rows; `None` for independent rows.
+    /// Number of contact points of the rows; `None` for independent rows.
     pub points: Option<usize>,
-    /// Rows without a number or without a point.
+    /// Number of skipped rows, which lack a number or a contact point.
     pub rows_left_out: usize,
     /// Origins of the samples, such as `recorded` and `simulated`.
     pub sources: Vec<String>,
@@ -67,13 +67,13 @@ pub struct CalibrationCurve {
 /// Figure of a curve.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CurveFigure {
-    /// Name, such as `prediction`.
+    /// Name of the figure, such as `prediction`.
     pub quantity: String,
-    /// Argument: a reference value, or the reading of an inverse prediction.
+    /// Reference value, or the reading of an inverse prediction.
     pub at: Option<f64>,
-    /// Value; none if it is undefined.
+    /// Value of the figure; `None` if undefined.
     pub value: Option<f64>,
-    /// Ends of the band or the interval.
+    /// Ends of the band or interval.
     pub ends: Option<[f64; 2]>,
     /// Standard uncertainty.
     pub u: Option<f64>,
@@ -81,7 +81,7 @@ pub struct CurveFigure {
     pub freedom: Option<f64>,
     /// Unit of the value.
     pub unit: String,
-    /// Origin of the covariance, or the reason for a missing value.
+    /// Origin of the covariance, or the reason why the value is missing.
     pub remark: String,
 }
 
@@ -105,7 +105,7 @@ struct Document<'a> {
 }
 
 impl CalibrationCurve {
-    /// Table for people with one row for each figure.
+    /// Table for readers with one row for each figure.
     pub fn table(&self, figures: &[CurveFigure], request: &CurveRequest) -> Table {
         let points = self.points.map_or_else(String::new, |points| {
             format!(" of {}", counted(points, "point"))

@@ -29,11 +29,11 @@ pub(crate) use words::{axis_label, directed, middle_cut, short};
 pub struct Figure {
     /// Name for files and links: `sensitivity`.
     pub id: String,
-    /// Title.
+    /// Title above the drawing.
     pub title: String,
     /// Caption: drawn quantity, number of samples, omissions.
     pub caption: String,
-    /// Content in words, for screen readers.
+    /// Text description of the content, for screen readers.
     pub description: String,
     pub(crate) canvas: Canvas,
 }

@@ -1,4 +1,4 @@
-//! Gauge studies of the channels of one table, as tables for people and for programs.
+//! Gauge studies of the channels of one table, for readers and programs.
 
 use serde::Serialize;
 use taceva_core::counted;
@@ -8,14 +8,14 @@ use taceva_results::not_measured;
 use crate::number::FormattedValue;
 use crate::table::{Cell, Column, Estimate, Table};
 
-/// Columns of the table of readings whose cells name parts, operators and trials.
+/// Columns of the readings that identify parts, operators and trials.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct GaugeColumns {
-    /// Columns of the part.
+    /// Columns that identify the part.
     pub part: Vec<String>,
-    /// Columns of the operator.
+    /// Columns that identify the operator.
     pub by: Vec<String>,
-    /// Columns of the trial.
+    /// Columns that identify the trial.
     pub trial: Vec<String>,
 }
 
@@ -24,28 +24,28 @@ pub struct GaugeColumns {
 pub struct ChannelGauge {
     /// Name of the channel.
     pub channel: String,
-    /// Kind of the readings: `error`, which is the prediction minus the truth, or `prediction`.
+    /// Kind of the readings: `error` (prediction minus truth), or `prediction`.
     pub response: &'static str,
-    /// Rows without a reading or without a label.
+    /// Number of skipped rows, which lack a reading or a label.
     pub rows_left_out: usize,
-    /// Components of variance with their intervals.
+    /// Variance components with their intervals.
     pub report: GaugeReport,
 }
 
-/// Gauge studies of the channels of one table, by the same columns and settings.
+/// Gauge studies of the channels of one table, with the same columns and settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GaugeStudies {
-    /// Columns that name parts, operators and trials.
+    /// Columns that identify parts, operators and trials.
     pub columns: GaugeColumns,
     /// Origins of the samples, such as `recorded` and `simulated`.
     pub sources: Vec<String>,
     /// Digest of the table.
     pub digest: String,
-    /// Studies, one for each channel.
+    /// One study for each channel.
     pub channels: Vec<ChannelGauge>,
 }
 
-/// JSON of one channel: the form of the gauge study, and the readings behind it.
+/// JSON of one channel: the gauge study and its readings.
 #[derive(Serialize)]
 struct Document<'a> {
     #[serde(flatten)]
@@ -61,7 +61,7 @@ struct Document<'a> {
 }
 
 impl GaugeStudies {
-    /// Table for people with one row for each component.
+    /// Table for readers with one row for each component.
     pub fn table(&self) -> Table {
         let mut studies = self.channels.iter();
         let has_tolerance = studies.any(|of| of.report.tolerance.is_some());
@@ -103,7 +103,7 @@ impl GaugeStudies {
         table
     }
 
-    /// Table for programs: one row for each number, in shortest round-trip form, and one for each remark.
+    /// Table for programs: one row for each number, in shortest round-trip form, and one row for each remark.
     pub fn numbers(&self) -> Table {
         let columns = [
             "channel",
@@ -185,7 +185,7 @@ impl GaugeStudies {
         table
     }
 
-    /// JSON of the schema `taceva.gauge/1` for one channel, with the readings behind it.
+    /// JSON of one channel with its readings, with the schema `taceva.gauge/1`.
     pub fn json(&self, of: &ChannelGauge) -> String {
         let document = Document {
             report: &of.report,
@@ -225,7 +225,7 @@ impl GaugeStudies {
 }
 
 impl ChannelGauge {
-    /// Size of the study, number of distinct categories, and AIAG's band.
+    /// Size of the study, number of distinct categories, and AIAG class.
     fn summary(&self) -> Vec<String> {
         let report = &self.report;
         let parts = match report.design {
@@ -266,7 +266,7 @@ impl ChannelGauge {
         [size, ndc].into_iter().chain(band).collect()
     }
 
-    /// Remarks on the study, without a full stop.
+    /// Remarks on the study, without a final full stop.
     fn remarks(&self) -> Vec<String> {
         let flags = self.report.flags.iter().map(ToString::to_string);
         let left_out = (self.rows_left_out > 0).then(|| {
@@ -279,7 +279,7 @@ impl ChannelGauge {
     }
 }
 
-/// Number of the table for programs.
+/// Row of the table for programs.
 #[derive(Clone, Copy, Debug, Default)]
 struct Number<'a> {
     component: &'a str,

@@ -43,7 +43,7 @@ use crate::training;
 pub struct ReportPage<'a> {
     /// Title of the page: name of the scene or the recording.
     pub title: &'a str,
-    /// Results.
+    /// Results of the report.
     pub studies: &'a [Study],
     /// Frames of the samples that [`picks`] selects; may be empty.
     pub pictures: &'a [Picture],

@@ -14,7 +14,7 @@ const METRIC: &str = "r_light";
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Light {
     pub(crate) scenes: Vec<Scene>,
-    /// True if the light hardly changed in some scene.
+    /// True if the light hardly changed in at least one scene.
     pub(crate) is_low: bool,
 }
 

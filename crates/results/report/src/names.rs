@@ -1,4 +1,4 @@
-//! Names of studies, and lists of names in words.
+//! Names of studies, and lists of names as text.
 
 use crate::figure::short;
 use crate::results::Study;
@@ -25,7 +25,7 @@ pub fn names(studies: &[Study]) -> Vec<String> {
     studies.iter().enumerate().map(name).collect()
 }
 
-/// List of names in words: `A, B and C`.
+/// List of names as text: `A, B and C`.
 pub(crate) fn listed(names: &[String]) -> String {
     match names {
         [] => String::new(),

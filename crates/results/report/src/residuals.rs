@@ -1,9 +1,9 @@
-//! Components of the residuals of a result's samples.
+//! Variance components of the residuals of a result.
 
 use taceva_metrology::budget::{Components, Residuals};
 use taceva_results::Samples;
 
-/// Components of the residuals of `channel` in one part of the protocol, by the words of `column`.
+/// Variance components of the residuals of `channel` in one part of the protocol, grouped by `column`.
 ///
 /// ```
 /// use taceva_results::Samples;
@@ -17,7 +17,7 @@ use taceva_results::Samples;
 /// ```
 ///
 /// # Errors
-/// A sentence about the absent column or prediction, or about too few rows.
+/// A message about a missing column or prediction, or about too few rows.
 pub fn residual_components(
     samples: &Samples,
     channel: &str,

@@ -67,23 +67,23 @@ pub struct Study {
 pub struct Made {
     /// Name of the model: `ridge`.
     pub model: Option<String>,
-    /// Settings of the model by name, including chosen ones.
+    /// Settings of the model by name, including settings that the fit chose.
     pub settings: Vec<(String, String)>,
-    /// Setting that the fit chose, and how: `strength on the validation part`.
+    /// Setting that the fit chose, and the criterion: `strength on the validation part`.
     pub chosen_by: Option<String>,
     /// Number of samples by part of the split: `train`, `validation`, `test`.
     pub samples: Vec<(String, u64)>,
     /// Number of presses in the recording, whatever their outcome; 0 if the result states none.
     pub presses: u64,
-    /// Digest of the truth table, if two tables were scored.
+    /// Digest of the truth table, if two tables were compared.
     pub truth: Option<String>,
-    /// Scored part, if the model was fitted on it or its settings were chosen on it.
+    /// Scored part, if the model used it to fit or to choose settings.
     pub seen_part: Option<String>,
     /// Scored part: `test`, `all`; `None` without a split.
     pub part: Option<String>,
     /// Number of joined recordings; 0 for a single one.
     pub recordings: usize,
-    /// Cross-validation in words, if each sample was held out once: `5-fold cross-validation by point`.
+    /// Cross-validation as text, if each sample was held out once: `5-fold cross-validation by point`.
     pub folds: Option<String>,
     /// Groups that the split keeps together: the column `object`, or `block of time`; `None` for contact points.
     pub group: Option<String>,
@@ -136,7 +136,7 @@ impl From<EvaluationReport> for Study {
     }
 }
 
-/// Scored part, if the model has seen it.
+/// Scored part, if the model used it to fit or to choose settings.
 fn seen_part(provenance: &Provenance) -> Option<String> {
     let model = provenance.model.as_ref()?;
     let is_own = provenance.dataset.as_ref() == Some(&model.fitted_on);
@@ -168,7 +168,7 @@ impl Study {
         }
     }
 
-    /// Sample that makes a great part of the squared error behind `score`, if no skill is shown. `None` for angles, whose errors may wrap.
+    /// Sample that dominates the squared error of `score`, if no skill is shown. `None` for angles, whose errors may wrap.
     pub(crate) fn dominant(&self, score: &Score) -> Option<DominantSample> {
         let mae = self.score("mae", &score.channel);
         let is_angle = mae.is_some_and(|mae| matches!(mae.unit, Unit::Degree | Unit::Radian));
@@ -178,13 +178,13 @@ impl Study {
         samples.dominant(&score.channel)
     }
 
-    /// Text of the provenance under `key`.
+    /// Provenance text with the key `key`.
     pub(crate) fn stated(&self, key: &str) -> Option<&str> {
         let found = self.provenance.iter().find(|(name, _)| name == key);
         found.map(|(_, text)| text.as_str())
     }
 
-    /// Line on the certificates of measured labels; `None` if nothing was measured, or the origin is unknown.
+    /// Line on the certificates behind the labels; `None` if nothing was measured, or the origin is unknown.
     pub(crate) fn traceability(&self) -> Option<&str> {
         let line = self.stated("traceability");
         (self.source == "recorded").then(|| line.unwrap_or(traceability::NOT_TRACEABLE))
@@ -196,7 +196,7 @@ impl Study {
         scores.filter(move |score| score.metric == metric)
     }
 
-    /// Spread of `score`, one of [`deciding`](Study::deciding), between the trainings of its model; `None` with fewer than two values.
+    /// Spread of `score`, a score of [`deciding`](Study::deciding), between the trainings of the model; `None` for fewer than two values.
     pub(crate) fn trainings(&self, score: &Score) -> Option<TrainingSpread> {
         let variant = score.decided_by().map(|variant| variant.name.as_str());
         let values = self.values_of_trainings(&score.metric, variant, &score.channel);
@@ -227,7 +227,7 @@ impl Study {
         reads && draws && self.trainings(score).is_none()
     }
 
-    /// The group of the split that intervals leave out; `None` if they leave out contact points.
+    /// Group of the split that intervals leave out; `None` if they leave out contact points.
     pub(crate) fn clustered_by(&self) -> Option<&str> {
         let methods = self
             .scores

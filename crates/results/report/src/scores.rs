@@ -67,7 +67,7 @@ pub struct ScoreCell {
     pub degrees_of_freedom: Option<f64>,
     /// Number of samples.
     pub n: u64,
-    /// Number of samples that were excluded because of an unusable value.
+    /// Number of samples excluded because a value is not finite.
     pub n_invalid: u64,
     /// Standing in verdicts.
     pub standing: Standing,

@@ -249,7 +249,7 @@ fn properties(sensor: &Sensor) -> Markup {
     html! { dl { (terms(entries)) } }
 }
 
-/// Size, prices and ways to get a sensor, each in words if it is absent.
+/// Size, prices and ways to get a sensor; a phrase in place of each absent fact.
 fn offers(sensor: &Sensor) -> Vec<(String, String)> {
     let entry = |name: &str, shown: String| (name.to_owned(), shown);
     let size = sensor.size.as_ref();

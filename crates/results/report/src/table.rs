@@ -36,9 +36,9 @@ use taceva_metrics::Better;
 pub struct Table {
     /// Title; omitted in text and LaTeX if empty.
     pub caption: String,
-    /// Columns.
+    /// Columns, from left to right.
     pub columns: Vec<Column>,
-    /// Rows.
+    /// Rows, from top to bottom.
     pub rows: Vec<Row>,
     /// Remarks below the rows.
     pub notes: Vec<Words>,

@@ -1,4 +1,4 @@
-//! Page of paragraphs, tables and figures from a caller.
+//! Page with paragraphs, tables and figures supplied by the caller.
 
 use maud::{Markup, html};
 
@@ -23,13 +23,13 @@ use crate::table::Table;
 /// ```
 #[derive(Clone, Debug)]
 pub struct TablesPage {
-    /// Title.
+    /// Title of the page.
     pub title: String,
     /// Badge for an important fact, such as simulated samples.
     pub badge: Option<String>,
     /// Sentences below the title.
     pub lead: Vec<String>,
-    /// Sections.
+    /// Sections of the page.
     pub sections: Vec<PageSection>,
 }
 
@@ -38,22 +38,22 @@ pub struct TablesPage {
 pub struct PageSection {
     /// Single word for links.
     pub id: &'static str,
-    /// Title.
+    /// Title of the section.
     pub title: &'static str,
-    /// Content.
+    /// Content of the section.
     pub parts: Vec<PagePart>,
 }
 
 /// Part of a section.
 #[derive(Clone, Debug)]
 pub enum PagePart {
-    /// Paragraph.
+    /// A paragraph.
     Words(String),
-    /// Table.
+    /// A table.
     Table(Table),
-    /// Folded table: a single word for links, and its size in words.
+    /// A folded table: link id, size as text, and table.
     Folded(&'static str, String, Table),
-    /// Figure with its caption.
+    /// A figure with its caption.
     Figure(Box<Figure>),
 }
 

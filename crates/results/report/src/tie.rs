@@ -1,4 +1,4 @@
-//! Ties: sensors with equal best values; for gratings, with the finest spacing.
+//! Ties: sensors with equal best values. For gratings, the finest predicted spacing is stated too.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,7 +11,7 @@ use crate::results::Study;
 use taceva_results::Samples;
 use taceva_results::Score;
 
-/// Metric of gratings. Its values are shares of few presses, and therefore often equal.
+/// Metric of gratings. Values are shares of few presses, so ties are frequent.
 pub(crate) const GRATINGS: &str = "sr";
 /// Default tolerance of a spacing in mm, if a score states none.
 const TOLERANCE_MM: f64 = 0.05;
@@ -35,7 +35,7 @@ struct Rival<'a> {
     value: f64,
 }
 
-/// Best of the values, the first of equal ones; `None` for scores without a better direction.
+/// Best of the values, the first if several are equal; `None` for scores without a better direction.
 pub(crate) fn best(
     values: impl IntoIterator<Item = (usize, f64)>,
     better: Better,
@@ -154,8 +154,8 @@ fn gratings(tied: &[&Rival<'_>], best: f64, channel: &str) -> String {
     )
 }
 
-/// Meaning of predictions that always equal the spacing of a learnt board: `, which is exactly right among 16 learnt boards at least 0.1 mm apart`;
-/// `None` without predictions, or if one is not a learnt spacing.
+/// Meaning of predictions that always equal the spacing of a training board: `, which is exactly right among 16 learnt boards at least 0.1 mm
+/// apart`. `None` without predictions, or if a prediction is not a training spacing.
 fn meaning(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<String> {
     let nanometres = |mm: f64| (mm * NM).round();
     let known: BTreeSet<u64> = boards(samples, kind)

@@ -31,23 +31,23 @@ fn places(study: &Study) -> Option<usize> {
     (!points.is_empty()).then_some(points.len())
 }
 
-/// Least number of such places among several sensors, if too few for a verdict on sensors.
+/// Least number of such places among several sensors, if it is too small for a verdict on sensors.
 fn too_few(studies: &[Study]) -> Option<usize> {
     let sensors: BTreeSet<&str> = studies.iter().map(|study| study.sensor.as_str()).collect();
     let fewest = studies.iter().filter_map(places).min()?;
     (sensors.len() > 1 && fewest < LEAST_PLACES).then_some(fewest)
 }
 
-/// True if `metric` gives no verdict on sensors, because it uses predictions of insufficiently trained models.
+/// True if `metric` gives no verdict on sensors, because its models were trained at too few places.
 pub(crate) fn is_demonstration(studies: &[Study], metric: &str) -> bool {
     let reads = catalogue::find(metric).is_some_and(|metric| metric.reads_predictions());
     reads && too_few(studies).is_some()
 }
 
-/// Restraint of the answers on such a metric.
+/// Reason why such a metric has no verdict.
 pub(crate) const NO_VERDICT: &str = "this demonstration gives no verdict on sensors";
 
-/// Sentence for pages of insufficiently trained models.
+/// Sentence for pages whose models were trained at too few places.
 pub(crate) fn demonstration(studies: &[Study]) -> Option<String> {
     let fewest = too_few(studies)?;
     Some(format!(

@@ -16,7 +16,7 @@ pub(crate) struct Loaded<'a> {
     pub(crate) found: Found,
 }
 
-/// State of a task: its result, the reason of its failure, or neither.
+/// State of a task: its result, the reason for its failure, or neither.
 #[derive(Clone, Debug)]
 pub(crate) enum Found {
     Result(Box<TaskResult>),
@@ -57,7 +57,7 @@ pub(crate) struct Group<'a> {
     pub(crate) configuration: String,
     /// Results in the order of the tasks, each with its seed.
     pub(crate) results: Vec<(u64, &'a TaskResult)>,
-    /// True if every seed has a result.
+    /// True if there is a result for every seed.
     pub(crate) is_whole: bool,
 }
 

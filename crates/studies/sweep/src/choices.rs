@@ -16,7 +16,7 @@ pub(crate) struct Choice {
     pub(crate) chosen: usize,
     /// Number of candidates.
     pub(crate) among: usize,
-    /// Positions of all others with results: the other candidates, and those that lack some seeds.
+    /// Positions of all other configurations with results, including those that lack some seeds.
     pub(crate) others: Vec<usize>,
     rmse: f64,
     unit: String,
@@ -30,7 +30,7 @@ struct Known<'a> {
     seeds: Vec<u64>,
 }
 
-/// Choice for each recording, split and channel, among configurations with results for the same seeds: the most that any of them has.
+/// Choice for each recording, split and channel. Candidates have the same seeds as the configuration with the most results.
 pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> {
     let mut places: Vec<(&str, Option<&str>)> = Vec::new();
     for group in groups {
@@ -78,12 +78,12 @@ pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> 
     choices
 }
 
-/// A number with about three significant digits.
+/// Number with about three significant digits.
 pub(crate) fn number(value: f64) -> Cell {
     Cell::Number(FormattedValue::number(value, None).value)
 }
 
-/// Both ends of an interval of `value`.
+/// Both ends of the interval of `value`, as text.
 pub(crate) fn ends(value: f64, interval: [f64; 2]) -> String {
     match FormattedValue::number(value, Some(interval)).interval {
         Some([low, high]) => format!("{low} … {high}"),

@@ -10,18 +10,18 @@ use crate::units::Unit;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Collected {
-    /// Tasks with a result.
+    /// Number of tasks with a result.
     pub scored: usize,
     /// Number of failed tasks.
     pub failed: usize,
-    /// Number of tasks that were not run yet.
+    /// Number of tasks not run yet.
     pub missing: usize,
     /// Digest of the table. For shards of two tables, the digest of their scores, or empty while a shard is missing.
     pub digest: String,
     /// True if the tasks were shards of two tables and were merged.
     #[serde(default)]
     pub is_of_tables: bool,
-    /// Units checked against limits, if the sweep file names limits.
+    /// Units checked against limits; empty if the sweep file names no limits.
     pub units: Vec<Unit>,
     /// Digest of all inputs of the table.
     pub(crate) made_of: String,

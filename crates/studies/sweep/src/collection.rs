@@ -20,7 +20,7 @@ use crate::units;
 /// Writes the table and the pages of all results in `folder`. Keeps existing output of the same results, unless `anew` is true.
 ///
 /// # Errors
-/// [`SweepError`] for a result that was edited or is of another version, and if the folder cannot be written.
+/// [`SweepError`] for a result that was edited or has another version, and if the folder cannot be written.
 pub fn collect(folder: &SweepFolder, list: &TaskList, anew: bool) -> Result<Collected, SweepError> {
     if let Some(tables) = &list.tables {
         return shard_scores::join(folder, list, tables);
@@ -91,7 +91,7 @@ fn write_all(
     collected.write(folder)
 }
 
-/// Digest of the list of tasks, the limits, and the state of each task: result, reason of its failure, or neither.
+/// Digest of the list of tasks, the limits, and the state of each task: result, reason for failure, or neither.
 fn made_of(folder: &SweepFolder, list: &TaskList) -> Result<String, SweepError> {
     let (results, failures) = (folder.results()?, folder.failures()?);
     let mut text = serde_json::to_string(list).unwrap_or_default();

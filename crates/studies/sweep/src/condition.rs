@@ -53,15 +53,15 @@ impl Condition {
         })
     }
 
-    /// As typed.
+    /// Text as typed.
     pub fn text(&self) -> &str {
         &self.text
     }
 
-    /// Rejects a name that no task of the sweep has.
+    /// Rejects a name that no task of the sweep uses.
     ///
     /// # Errors
-    /// [`SweepError::Condition`] with the most similar name.
+    /// [`SweepError::Condition`] with the most similar known name.
     pub(crate) fn check_names(&self, settings: &BTreeSet<String>) -> Result<(), SweepError> {
         let known = || {
             let settings = settings.iter().map(String::as_str);

@@ -26,7 +26,7 @@ struct Pair<'a> {
     tested: Result<Difference, String>,
 }
 
-/// Compares each chosen configuration with each other of the same recording, split and channel.
+/// Compares each chosen configuration with every other configuration of the same recording, split and channel.
 pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
     let columns = [
         "recording",
@@ -128,7 +128,7 @@ mod tests {
     use super::*;
     use crate::choices::choices;
 
-    /// Rows of the table, each with the chosen configuration, the other one, the seeds and the answer.
+    /// Rows of the table, each with the chosen configuration, the compared one, the seeds and the result.
     fn rows(groups: &[Group<'_>]) -> Vec<[String; 4]> {
         let choices = choices(groups, &["Fz".to_owned()]);
         let csv = table(groups, &choices).csv();

@@ -1,4 +1,4 @@
-//! Effect of each setting, between tasks that are otherwise equal.
+//! Effect of each setting on tasks that are otherwise equal.
 
 mod dimension;
 
@@ -16,7 +16,7 @@ use dimension::{Dimension, dimensions};
 /// Least number of pairs for an interval.
 const LEAST: usize = 2;
 
-/// One row for each setting, value and channel: mean difference of test errors from the first value, over otherwise equal tasks.
+/// One row for each setting, value and channel: mean difference in test error from the first value, over otherwise equal tasks.
 pub(crate) fn table(loaded: &[Loaded<'_>], list: &TaskList, channels: &[String]) -> Table {
     let columns = [
         "setting",

@@ -12,52 +12,52 @@ use taceva_tables::TableError;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SweepError {
-    /// A sweep file or a recording cannot be read.
+    /// A sweep file or recording cannot be read.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
     /// An unknown model, setting or metric, or another error of evaluation.
     #[error(transparent)]
     Study(#[from] EvaluateError),
-    /// A sweep file has valid syntax but an invalid value.
+    /// A sweep file with valid syntax has an invalid value.
     #[error("{}{}: {problem}", shown(path), line.map_or_else(String::new, |line| format!(", line {line}")))]
     Meaning {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The line, if known.
+        /// Line of the value, if known.
         line: Option<usize>,
-        /// The fault and the accepted form.
+        /// Fault, and the accepted form.
         problem: String,
     },
-    /// A condition, of `--only` or of a file, is invalid.
+    /// A condition in `--only` or in a file is invalid.
     #[error("`{}`: {problem}", shown(text))]
     Condition {
-        /// As typed.
+        /// Condition as typed.
         text: String,
-        /// The fault and the accepted form.
+        /// Fault, and the accepted form.
         problem: String,
     },
-    /// A file in the folder of a sweep was edited, or not written by this program.
+    /// A file in the folder of a sweep was edited, or was not written by this program.
     #[error("{}: {problem}", shown(path))]
     Kept {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The fault and the remedy.
+        /// Fault, and the remedy.
         problem: String,
     },
     /// A recording, a table, the sensor file or a plugin has changed since the sweep was planned.
     #[error("{}: {problem}; start the sweep again", shown(path))]
     Changed {
-        /// The file, the folder, or the name of the model.
+        /// File, folder, or name of the model.
         path: PathBuf,
-        /// The change.
+        /// Description of the change.
         problem: String,
     },
     /// An input or output operation failed.
     #[error("cannot {doing} {}: {source}", shown(path))]
     Io {
-        /// The operation that failed.
+        /// Operation that failed.
         doing: &'static str,
-        /// The file or folder.
+        /// Path of the file or folder.
         path: PathBuf,
         /// Error of the operating system.
         source: io::Error,
@@ -86,7 +86,7 @@ impl SweepError {
         }
     }
 
-    /// True if the file or the arguments are wrong. No data was read.
+    /// True if the sweep file or the arguments are wrong. No data was read in this case.
     pub fn is_usage(&self) -> bool {
         match self {
             SweepError::Condition { .. } => true,

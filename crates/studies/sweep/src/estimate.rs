@@ -1,4 +1,4 @@
-//! Estimated cost of a sweep, from the tasks measured so far.
+//! Estimated cost of a sweep, from the cost of finished tasks.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -12,20 +12,20 @@ use crate::times::TaskTime;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Estimate {
-    /// Number of wanted tasks.
+    /// Number of selected tasks.
     pub tasks: usize,
-    /// Number of existing results.
+    /// Number of selected tasks with a result.
     pub found: usize,
-    /// Number of tasks that failed before.
+    /// Number of selected tasks that failed earlier.
     pub failed: usize,
-    /// Time of the remaining tasks on one worker; `None` before the first measurement.
+    /// Time of the remaining tasks on one worker; `None` before any task was timed.
     pub time: Option<Duration>,
-    /// Bytes that the remaining tasks write; `None` before the first measurement.
+    /// Bytes that the remaining tasks will write; `None` before any task was timed.
     pub bytes: Option<u64>,
 }
 
 impl Estimate {
-    /// Estimates the tasks at `wanted` from times of the same configuration, or else from the mean of all measured tasks.
+    /// Estimates the tasks at `wanted` from tasks with the same configuration, otherwise from the mean of all timed tasks.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be read.

@@ -1,4 +1,4 @@
-//! Sweep file: varied and fixed settings.
+//! Sweep file: varied and fixed settings of a sweep.
 
 mod model_entry;
 mod place;
@@ -20,25 +20,25 @@ use place::FilePlace;
 pub use model_entry::ModelEntry;
 pub use tables::TablesEntry;
 
-/// A parsed and checked sweep file. No recording was read.
+/// A parsed and checked sweep file. Recordings are not read.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct SweepFile {
     /// Path of the file.
     pub path: PathBuf,
-    /// Digest of its text.
+    /// Digest of the file's text.
     pub digest: Digest,
     /// Name of the sweep.
     pub name: String,
     /// Folders of recordings, or patterns of folders, relative to the folder of the file.
     pub datasets: Vec<String>,
-    /// View of recordings whose samples have several pictures; `left+right` puts two side by side.
+    /// View of recordings with several pictures per sample; `left+right` puts two side by side.
     pub view: Option<String>,
     /// Scenes whose recordings are acquired first: files relative to the folder of the file, or names of built-in scenes.
     pub scenes: Vec<String>,
-    /// The models, each with its own settings.
+    /// Models, each with its own settings.
     pub models: Vec<ModelEntry>,
-    /// The seeds.
+    /// Seeds of the sweep.
     pub seeds: Vec<u64>,
     /// Splits; a single `None` for the default split of each recording.
     pub splits: Vec<Option<String>>,
@@ -64,7 +64,7 @@ impl SweepFile {
         folder_of(&self.path)
     }
 
-    /// Error for a value below `key`, with its line.
+    /// Error for a value of `key`, with its line.
     pub fn wrong(&self, key: &str, problem: String) -> SweepError {
         let text = fs::read_to_string(&self.path).unwrap_or_default();
         FilePlace {

@@ -1,4 +1,4 @@
-//! Folder of a sweep: results by key, and other files.
+//! Folder of a sweep: results by key, and further files.
 //!
 //! ```text
 //! FOLDER/results/KEY.json       scores of a task: absent or complete
@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use crate::error::SweepError;
 use crate::key::TaskKey;
 
-/// The folder of a sweep.
+/// Folder of a sweep.
 #[derive(Clone, Debug)]
 pub struct SweepFolder {
     path: PathBuf,
@@ -43,7 +43,7 @@ impl SweepFolder {
         &self.path
     }
 
-    /// Cache that tasks share.
+    /// Path of the cache that tasks share.
     pub fn cache(&self) -> PathBuf {
         self.path.join("cache")
     }
@@ -53,7 +53,7 @@ impl SweepFolder {
         self.path.join("scenes")
     }
 
-    /// Claim for acquiring the scene `name`.
+    /// Claim file for acquiring the scene `name`.
     pub fn scene_claim(&self, name: &str) -> PathBuf {
         self.path.join(format!("claims/scene-{name}"))
     }
@@ -94,7 +94,7 @@ impl SweepFolder {
         self.path.join(format!("failed/{key}.json"))
     }
 
-    /// Log of a task, stage by stage.
+    /// Log file of a task, stage by stage.
     pub fn log(&self, key: &TaskKey) -> PathBuf {
         self.path.join(format!("logs/{key}.log"))
     }
@@ -111,12 +111,12 @@ impl SweepFolder {
         self.path.join(format!("claims/{key}"))
     }
 
-    /// Folder of scheduler scripts.
+    /// Folder of the Slurm scripts.
     pub fn slurm(&self) -> PathBuf {
         self.path.join("slurm")
     }
 
-    /// Writes a file atomically: it is absent or complete at any moment. Two processes always write the same content to one path.
+    /// Writes a file atomically, so that it is always absent or complete. Two processes that write to one path write the same content.
     ///
     /// # Errors
     /// [`SweepError::Io`] if the file cannot be written.

@@ -33,13 +33,13 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Tasks of `file`, including those on recordings that `scenes` acquire. Opens each recording once for its digest, without reading frames; scans
-    /// tables once. Tasks on a recording that is not acquired yet have keys without results. They can be counted and checked, and are planned again
-    /// once the recording exists.
+    /// Tasks of `file`, including tasks on recordings that `scenes` will acquire. Opens each recording once for its digest, without reading frames;
+    /// scans tables once. Tasks on a recording that is not acquired yet have provisional keys. They can be counted and checked, and are planned
+    /// again once the recording exists.
     ///
     /// # Errors
-    /// [`SweepError`] for a grid that is empty or larger than [`MOST_TASKS`](crate::MOST_TASKS), for an unknown model, setting or metric, and for a
-    /// recording or a table that cannot be read.
+    /// [`SweepError`] for a grid that is empty or exceeds [`MOST_TASKS`](crate::MOST_TASKS), for an unknown model, setting or metric, and for an
+    /// unreadable recording or table.
     pub fn of(
         file: &SweepFile,
         scenes: &[SceneRecording],

@@ -10,7 +10,7 @@ use taceva_dataset::Digest;
 
 pub(crate) use shard::ShardParts;
 
-/// Version of the result; incremented when the same inputs give another result within one version of this program.
+/// Version of the key; incremented when the same inputs give another result within one version of this program.
 const VERSION: &str = "2";
 /// Hexadecimal digits of a key; they encode 128 bits.
 const DIGITS: usize = 32;
@@ -31,11 +31,11 @@ pub(crate) struct KeyParts<'a> {
     pub(crate) metrics: &'a [String],
     /// Digest of the file of sensor facts.
     pub(crate) sensor: Option<Digest>,
-    /// Build of the plugin with the model.
+    /// Build of the plugin that provides the model.
     pub(crate) plugin: Option<&'a str>,
 }
 
-/// Parts of a key, each with its length, so that different sequences of parts give different bytes.
+/// Parts of a key, each preceded by its length, so that different parts give different bytes.
 struct KeyBytes(Vec<u8>);
 
 impl KeyBytes {
@@ -82,7 +82,7 @@ impl TaskKey {
         &self.0
     }
 
-    /// True if `text` has the form of a key, so that it is a safe file name.
+    /// True if `text` has the form of a key, which is a safe file name.
     pub(crate) fn is_one(text: &str) -> bool {
         let is_digit = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
         text.len() == DIGITS && text.bytes().all(is_digit)

@@ -1,4 +1,4 @@
-//! Workers of this process that run tasks.
+//! Workers that run tasks in this process.
 
 mod log;
 mod worker;
@@ -19,11 +19,11 @@ use crate::task_list::TaskList;
 /// Runs tasks.
 #[derive(Clone, Copy)]
 pub struct Runner<'a> {
-    /// The sweep.
+    /// Task list of the sweep.
     pub list: &'a TaskList,
-    /// Folder of the results.
+    /// Folder for the results.
     pub folder: &'a SweepFolder,
-    /// The available models.
+    /// Available models.
     pub models: &'a Models,
     /// Cache that tasks share, if any.
     pub cache: Option<&'a Cache>,
@@ -39,18 +39,18 @@ pub struct Runner<'a> {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Ran {
-    /// Number of results that existed before.
+    /// Number of tasks that already had a result.
     pub found: usize,
-    /// Number of tasks scored now, by this or another process.
+    /// Number of tasks scored during this run, by this or another process.
     pub scored: usize,
-    /// Tasks without a result: position in the list, and reason.
+    /// Failed tasks: position in the list, and reason.
     pub failed: Vec<(usize, String)>,
-    /// True if the run was cancelled with tasks left.
+    /// True if the run was cancelled before all tasks were done.
     pub is_stopped: bool,
 }
 
 impl Runner<'_> {
-    /// Runs the tasks at `wanted` that have no result yet. A failed task stores its reason, and the others continue.
+    /// Runs the tasks at `wanted` that have no result yet. A failed task stores the reason, and the other tasks continue.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be used.

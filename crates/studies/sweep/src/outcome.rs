@@ -21,9 +21,9 @@ use errors::errors;
 /// Outcome of a task.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// The result is in the folder.
+    /// The result is stored in the folder.
     Scored,
-    /// The task cannot run, for this reason.
+    /// The task failed, for this reason.
     Failed(String),
     /// The task was cancelled and stored nothing.
     Stopped,
@@ -41,7 +41,7 @@ pub(crate) struct Common<'a> {
 /// Fits and scores `task`, and writes its result.
 ///
 /// # Errors
-/// [`SweepError`] if it fails; nothing is written then.
+/// [`SweepError`] if the task fails; no result is written then.
 pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Result<(), SweepError> {
     if let Some(tables) = &common.list.tables {
         return shard::carry_out(task, tables, common, work);
@@ -104,7 +104,7 @@ pub(crate) fn is_stop(error: &SweepError) -> bool {
     kind == ErrorKind::Interrupted
 }
 
-/// Evaluation in the format of `taceva evaluate --format json`.
+/// Evaluation as sealed JSON, as written by `taceva evaluate --format json`.
 pub(crate) fn sealed(report: &EvaluationReport) -> Result<String, SweepError> {
     taceva_results::sealed(report).map_err(|error| SweepError::Kept {
         path: "evaluation".into(),
@@ -112,7 +112,7 @@ pub(crate) fn sealed(report: &EvaluationReport) -> Result<String, SweepError> {
     })
 }
 
-/// Samples that settings were chosen by, and the error of each channel on them.
+/// Samples on which settings were chosen, and the error of each channel on these samples.
 fn validation(model: &Model) -> (String, Vec<ValidationError>) {
     let card = model.card();
     let by = match card.choice.by {

@@ -1,4 +1,4 @@
-//! Results of a sweep as a text table: means by any of the varied names.
+//! Results of a sweep as a text table, averaged by any of the varied names.
 
 use std::collections::{BTreeMap, BTreeSet};
 

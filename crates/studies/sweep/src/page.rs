@@ -1,4 +1,4 @@
-//! Pages of a sweep: results, and separately run times.
+//! Pages of a sweep: results, and separately the run times.
 
 mod times;
 
@@ -89,7 +89,7 @@ fn badge(loaded: &[Loaded<'_>]) -> Option<String> {
     not_measured(results.map(|result| result.source.as_str()))
 }
 
-/// Tasks without a result.
+/// Table of the tasks without a result.
 fn left(loaded: &[Loaded<'_>]) -> Table {
     let columns = ["task", "recording", "model", "split", "seed", "why"];
     let mut table = Table::new("Tasks without a result", columns.map(Column::new));

@@ -6,13 +6,13 @@ use taceva_dataset::{Dataset, Digest};
 
 use crate::error::SweepError;
 
-/// Recording at `path` with the digest of its whole content. `view` selects the pictures if samples have several.
+/// Opens the recording at `path` and returns the digest of its whole content. `view` selects the pictures if samples have several.
 ///
 /// The digest covers samples, frames, signals and every byte of the header: the sensor, its serial number, its footprint, and the source of the
 /// samples.
 ///
 /// # Errors
-/// [`SweepError`] if it cannot be opened, or has no such view.
+/// [`SweepError`] if the recording cannot be opened, or has no such view.
 pub(crate) fn opened(path: &Path, view: Option<&str>) -> Result<(Dataset, Digest), SweepError> {
     let whole = Dataset::open(path)?;
     let dataset = match view {

@@ -13,14 +13,14 @@ use crate::key::TaskKey;
 
 const SCHEMA: &str = "taceva.sweep-result/1.0";
 
-/// Group or contact point, number of its samples, and sum of their absolute errors, by channel.
+/// For each channel: group or contact point, number of its samples, and sum of their absolute errors.
 pub(crate) type PointErrors = BTreeMap<String, Vec<(String, u64, f64)>>;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct TaskResult {
     pub(crate) schema: String,
     pub(crate) key: TaskKey,
-    /// The version of TacEva.
+    /// Version of TacEva that ran the task.
     pub(crate) taceva: String,
     /// Origin of the samples: `recorded`, `simulated`, `synthetic`.
     pub(crate) source: String,
@@ -29,20 +29,20 @@ pub(crate) struct TaskResult {
     pub(crate) serial: String,
     /// Digest of the fitted model.
     pub(crate) model_digest: String,
-    /// Samples that settings were chosen by, such as `validation`; never the test part.
+    /// Samples on which settings were chosen, such as `validation`; never the test part.
     pub(crate) chosen_by: String,
     /// Root mean square error of each channel on those samples.
     pub(crate) validation: Vec<ValidationError>,
     /// Scores on the test part.
     #[serde(rename = "metrics", with = "by_metric")]
     pub(crate) scores: Vec<Score>,
-    /// Errors on the test part, by contact point.
+    /// Errors on the test part, by group or contact point.
     pub(crate) errors: PointErrors,
-    /// Digest of the file of its evaluation.
+    /// Digest of the evaluation file.
     pub(crate) evaluation: String,
 }
 
-/// Error of a channel on the samples that settings were chosen by.
+/// Error of a channel on the samples on which settings were chosen.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ValidationError {
     pub(crate) channel: String,
@@ -69,7 +69,7 @@ impl TaskResult {
         }
     }
 
-    /// The result with those scores of `report` that are at most one number. Only the evaluation has maps and curves.
+    /// Adds the scores of `report` that are single numbers or missing. Maps and curves are only in the evaluation.
     pub(crate) fn with_scores(mut self, report: &EvaluationReport) -> TaskResult {
         self.source.clone_from(&report.subject.source);
         self.sensor.clone_from(&report.subject.sensor);

@@ -1,10 +1,10 @@
-//! A recording that a scene of a sweep acquires.
+//! Recording that a scene of a sweep acquires.
 
 use std::path::PathBuf;
 
 use taceva_dataset::Digest;
 
-/// A recording that a scene of a sweep will acquire.
+/// Recording that a scene of a sweep will acquire.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SceneRecording {
@@ -12,7 +12,7 @@ pub struct SceneRecording {
     pub name: String,
     /// Path, known before the recording exists.
     pub path: PathBuf,
-    /// Placeholder for its digest until it exists.
+    /// Placeholder for the digest until the recording exists.
     pub(crate) planned: Digest,
 }
 

@@ -26,7 +26,7 @@ impl SceneTime {
         }
     }
 
-    /// Stores this as the time of the scene `name`. Ignores a failed write, because no result needs the time.
+    /// Stores this time for the scene `name`. Ignores a failed write, because no result needs the time.
     pub fn keep(self, folder: &SweepFolder, name: &str) {
         let times = folder.scene_times();
         let made = fs::create_dir_all(&times).ok();
@@ -35,7 +35,7 @@ impl SceneTime {
         }
     }
 
-    /// Estimates the time of `presses` presses from all scenes acquired into `folder`; `None` if none was timed.
+    /// Estimates the time of `presses` presses from all scenes acquired into `folder`; `None` if no scene was timed.
     pub fn estimate(folder: &SweepFolder, presses: u64) -> Option<Duration> {
         let mut all = SceneTime::new(0, Duration::ZERO);
         for entry in fs::read_dir(folder.scene_times()).ok()?.flatten() {

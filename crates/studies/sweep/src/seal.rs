@@ -1,4 +1,4 @@
-//! Sealed JSON; the seal detects later edits of a file.
+//! Sealed JSON files. The seal detects later edits.
 
 use std::fs;
 use std::path::Path;
@@ -17,13 +17,13 @@ pub(crate) fn read(path: &Path) -> Result<Option<String>, SweepError> {
     }
 }
 
-/// `value` as sealed JSON; the error is a message if it has no JSON form.
+/// Converts `value` to sealed JSON; the error is a message if it has no JSON form.
 pub(crate) fn text(value: &impl Serialize) -> Result<String, String> {
     let text = serde_json::to_string(value).map_err(|error| error.to_string())?;
     taceva_files::seal::json::seal(&text).map_err(|error| error.to_string())
 }
 
-/// Parses sealed `text`; the error is a message if it is invalid or was edited.
+/// Parses sealed JSON; the error is a message if the text is invalid or was edited.
 pub(crate) fn value<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     taceva_files::seal::json::check(text).map_err(|error| error.to_string())?;
     serde_json::from_str(text).map_err(|error| error.to_string())

@@ -2,7 +2,7 @@
 
 use crate::limits::MOST_TASKS;
 
-/// Greatest seed, because tables store signed 64-bit numbers.
+/// Greatest seed. Tables store signed 64-bit numbers.
 const GREATEST: u64 = i64::MAX.unsigned_abs();
 const EXPECTED: &str = "expected a list such as [1, 2, 3], or a range such as \"1-5\"";
 

@@ -1,4 +1,4 @@
-//! Scores of all rows from the shards of two tables, equal to those of one run.
+//! Merged scores of all shards of two tables, equal to the scores of a single run.
 
 use std::fs;
 use std::path::PathBuf;
@@ -14,13 +14,13 @@ use crate::outcome::sealed;
 use crate::task_list::TaskList;
 use crate::times;
 
-/// File of the scores, with the bytes of `taceva score --format json`.
+/// File of the scores, byte for byte as printed by `taceva score --format json`.
 const RESULT: &str = "score.json";
 
-/// Merges the shards in `folder` into the scores. While a shard is missing, there is no file of scores.
+/// Merges the shards in `folder` into the file of scores. While a shard is missing, no file is written.
 ///
 /// # Errors
-/// [`SweepError`] for a state that was edited or is of other tables, and if the folder cannot be written.
+/// [`SweepError`] for a state that was edited or belongs to other tables, and if the folder cannot be written.
 pub(crate) fn join(
     folder: &SweepFolder,
     list: &TaskList,

@@ -23,7 +23,7 @@ pub use queue::{JobState, queue_of};
 pub use record::Submitted;
 pub use submission::submit;
 
-/// Scripts to submit.
+/// Scripts to submit, with the number of tasks and jobs.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Submission {
@@ -33,11 +33,11 @@ pub struct Submission {
     pub collect: PathBuf,
     /// Number of tasks.
     pub tasks: usize,
-    /// Number of jobs, excluding the one that collects.
+    /// Number of jobs, excluding the job that collects the results.
     pub jobs: usize,
 }
 
-/// Tasks of one array; all request the same resources.
+/// Tasks of one job array. All request the same resources.
 struct Array<'a> {
     name: &'static str,
     tasks: Vec<usize>,

@@ -1,20 +1,20 @@
-//! Resources that jobs request from a site.
+//! Resources that Slurm jobs request.
 
 use serde::{Deserialize, Serialize};
 
-/// Resources that Slurm jobs request. `None` leaves a value to the default of the site.
+/// Resources that Slurm jobs request. `None` uses the default of the site.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SlurmSpec {
-    /// The partition.
+    /// Partition of the cluster.
     pub partition: Option<String>,
     /// Time limit of a job, in the format of Slurm: `00:30:00`.
     pub time: Option<String>,
-    /// The memory of a job: `4G`.
+    /// Memory of a job: `4G`.
     pub memory: Option<String>,
-    /// Processors of a job; also its number of concurrent tasks.
+    /// Number of processors of a job, and of its concurrent tasks.
     pub cpus: Option<u16>,
-    /// Devices of a job whose tasks need one, in the format of Slurm: `gpu:1`.
+    /// Generic resources of a job whose tasks need a device, in the format of Slurm: `gpu:1`.
     pub gres: Option<String>,
     /// Number of tasks for each job. A job runs as many at once as it has processors.
     pub tasks_a_job: Option<u32>,
@@ -22,6 +22,6 @@ pub struct SlurmSpec {
     pub most_jobs: Option<u32>,
     /// Shell lines to run before the program.
     pub setup: Vec<String>,
-    /// Program to run; `None` for the program that submits.
+    /// Program to run; `None` for the program that submits the jobs.
     pub program: Option<String>,
 }

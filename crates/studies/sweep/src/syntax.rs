@@ -1,4 +1,4 @@
-//! Written form of the sweep file, key by key.
+//! Deserialised form of the sweep file, key by key.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::slurm_spec::SlurmSpec;
 
-/// Written form of the sweep file.
+/// Deserialised form of the sweep file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenSweep {
@@ -57,7 +57,7 @@ impl Default for Words {
 }
 
 impl Words {
-    /// True if there is no word.
+    /// True if there are no words.
     pub(crate) fn is_empty(&self) -> bool {
         matches!(self, Words::Several(words) if words.is_empty())
     }

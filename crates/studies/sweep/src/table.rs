@@ -12,14 +12,14 @@ use crate::analysis::{Found, Loaded};
 use crate::error::SweepError;
 use rows::{head, scored, without_scores};
 
-/// A table with typed columns; the same tasks and results give the same bytes.
+/// A table with typed columns. The same tasks and results give the same bytes.
 pub(crate) struct TidyTable {
     columns: Vec<(String, WrittenKind)>,
     rows: Vec<Vec<Cell>>,
 }
 
 impl TidyTable {
-    /// Table of all tasks, in their order.
+    /// Table of all tasks, in list order.
     pub(crate) fn of(loaded: &[Loaded<'_>]) -> TidyTable {
         let settings: BTreeSet<&str> = loaded
             .iter()
@@ -85,7 +85,7 @@ impl TidyTable {
         }
     }
 
-    /// CSV form, with numbers in shortest round-trip form.
+    /// CSV text, with numbers in shortest round-trip form.
     pub(crate) fn csv(&self) -> Vec<u8> {
         let mut out = Vec::new();
         let line = |out: &mut Vec<u8>, cells: Vec<String>| {

@@ -13,23 +13,23 @@ use crate::key::TaskKey;
 /// One evaluation of a sweep: a model with its settings, fitted and scored on one recording with one split and seed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Task {
-    /// Key of its result.
+    /// Key of the task's result.
     pub key: TaskKey,
-    /// The recording as named in the sweep file.
+    /// Name of the recording in the sweep file.
     pub dataset: String,
     /// Path of the recording.
     pub path: PathBuf,
-    /// Digest of the whole recording, including its header, at the time of planning.
+    /// Digest of the whole recording, including its header, when the sweep was planned.
     pub digest: String,
-    /// The model.
+    /// Name of the model.
     pub model: String,
     /// All settings from the sweep file.
     pub settings: BTreeMap<String, String>,
     /// Split; `None` for the default of the recording.
     pub split: Option<String>,
-    /// Seed of the division and of the random draws of the model.
+    /// Seed of the split and of the random draws of the model.
     pub seed: u64,
-    /// Build of the plugin with the model, at the time of planning.
+    /// Build of the plugin that provides the model, when the sweep was planned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plugin: Option<String>,
 }
@@ -38,7 +38,7 @@ pub struct Task {
 pub(crate) const SHARD: &str = "shard";
 
 impl Task {
-    /// Value of `name` for this task: a setting, or `dataset`, `model`, `split` or `seed`.
+    /// Value of `name` in this task: a setting, or `dataset`, `model`, `split` or `seed`.
     pub fn word(&self, name: &str) -> Option<String> {
         match name {
             "dataset" => Some(self.dataset.clone()),
@@ -56,8 +56,8 @@ impl Task {
         format!("{}{}", self.model, settings.collect::<String>())
     }
 
-    /// `reason` with the recording's name in place of its path, and paths relative to the folder of the sweep. The text is then the same on every
-    /// machine.
+    /// Replaces the path of the recording in `reason` by its name, and makes other paths relative to the sweep folder. The text is then the same on
+    /// every machine.
     pub(crate) fn without_folders(&self, reason: &str, folder: &SweepFolder) -> String {
         let mut reason = reason.to_owned();
         let own = folder.path();
@@ -80,7 +80,7 @@ impl Task {
         device.is_some_and(|device| device != "cpu")
     }
 
-    /// Request of the fit.
+    /// Request that fits the model.
     ///
     /// # Errors
     /// [`EvaluateError`] for an unknown model or setting.

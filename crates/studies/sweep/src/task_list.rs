@@ -1,4 +1,4 @@
-//! Task list of a sweep as a file, so that jobs on other machines run the planned tasks.
+//! Task list of a sweep, stored so that jobs on other machines run the planned tasks.
 
 mod file;
 mod selection;
@@ -24,7 +24,7 @@ const SCHEMA: &str = "taceva.sweep-tasks/1.1";
 pub struct TaskList {
     schema: String,
     taceva: String,
-    /// Digest of the sweep file behind the list.
+    /// Digest of the sweep file that the list was planned from.
     file: Digest,
     /// Name of the sweep.
     pub name: String,
@@ -35,7 +35,7 @@ pub struct TaskList {
     pub metrics: Vec<String>,
     /// File of sensor facts.
     pub sensor: Option<PathBuf>,
-    /// Digest of that file at the time of planning.
+    /// Digest of that file when the sweep was planned.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) sensor_digest: Option<Digest>,
     /// File of limits for each unit.
@@ -73,12 +73,12 @@ impl TaskList {
         })
     }
 
-    /// True if the sweep file at `path` is unchanged, or cannot be read.
+    /// True if the sweep file at `path` is unchanged since planning, or cannot be read.
     pub fn is_of(&self, path: &Path) -> bool {
         std::fs::read(path).map_or(true, |text| Digest::of(&text) == self.file)
     }
 
-    /// True if tasks are shards of two tables.
+    /// True if the tasks are shards of two tables.
     pub fn is_of_tables(&self) -> bool {
         self.tables.is_some()
     }

@@ -14,16 +14,16 @@ use crate::task::Task;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct TaskTime {
     pub(crate) seconds: f64,
-    /// Size of its result and its evaluation, in bytes.
+    /// Size of the result and the evaluation, in bytes.
     pub(crate) bytes: u64,
     pub(crate) host: String,
-    /// Start time in seconds since 1970, by the clock of that host.
+    /// Start time on the clock of that host, s since 1970.
     pub(crate) began: u64,
     /// Job id of the scheduler, if any.
     pub(crate) job: Option<String>,
 }
 
-/// A task that is being timed.
+/// Timer of a running task.
 pub(crate) struct Timer {
     instant: Instant,
     began: u64,
@@ -77,7 +77,7 @@ fn job() -> Option<String> {
         .or_else(|| of("SLURM_JOB_ID"))
 }
 
-/// `times.csv`: one row for each timed task.
+/// Content of `times.csv`: one row for each timed task.
 pub(crate) fn csv(folder: &SweepFolder, tasks: &[Task]) -> Result<Vec<u8>, SweepError> {
     let path = folder.path().join("times.csv");
     let failed = |error: csv::Error| SweepError::io("write", &path)(std::io::Error::other(error));

@@ -1,4 +1,4 @@
-//! Units checked against limits: one line for each unit.
+//! Checks sensor units against limits: one line for each unit.
 
 use std::fs;
 
@@ -11,19 +11,19 @@ use crate::error::SweepError;
 use crate::folder::SweepFolder;
 use crate::task_list::TaskList;
 
-/// A unit checked against limits.
+/// Sensor unit checked against limits.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Unit {
-    /// The recording.
+    /// Recording of the unit.
     pub dataset: String,
-    /// The serial number of the unit.
+    /// Serial number of the unit.
     pub serial: String,
     /// Model with its settings, split and seed.
     pub task: String,
     /// True if every limit is met.
     pub is_passed: bool,
-    /// Unmet limits with the values found, or the reason why there is no result.
+    /// Limits not met, with the values found, or the reason why there is no result.
     pub broken: Vec<String>,
 }
 

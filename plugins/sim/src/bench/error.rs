@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::parameters::Outline;
 
-/// A press outside the range of the rig.
+/// Reason why the rig cannot execute a press.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PressError {
@@ -13,7 +13,7 @@ pub enum PressError {
     NotFinite {
         /// Name of the number.
         name: &'static str,
-        /// Value.
+        /// Value found.
         value: f64,
     },
     /// The place is outside the probed surface.

@@ -7,9 +7,9 @@ use crate::specimen::Indenter;
 /// A press as commanded to the rig.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Press {
-    /// Id of the press. Its own random numbers depend on it.
+    /// Id of the press, which determines its random numbers.
     pub id: u64,
-    /// Id of its point. Presses at one point share the first contact and the zero of the transducer.
+    /// Id of the point. Presses at one point share the first contact and the zero of the transducer.
     pub point: u64,
     /// Place of the ball, along x and y.
     pub place_mm: [f64; 2],
@@ -19,7 +19,7 @@ pub struct Press {
     pub shear_mm: [f64; 2],
     /// Travel at the turning point during unloading; `None` during loading.
     pub turned_mm: Option<f64>,
-    /// Ball of the press.
+    /// Ball that presses.
     pub indenter: Indenter,
 }
 

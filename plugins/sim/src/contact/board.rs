@@ -31,7 +31,7 @@ pub(super) fn layer_stiffness_n_per_mm(layer: &Layer) -> f64 {
 /// Stiffness of the holder of a board, N/mm. The holder levels itself on the gel. A rigid holder would exceed the force limit of any flat gel within
 /// a tenth of a millimetre.
 const HOLDER_N_PER_MM: f64 = 1.0;
-/// Bisection steps of a depth, which reach far below a nanometre.
+/// Bisection steps for a depth; the final interval is far below a nanometre.
 const BISECTIONS: u32 = 40;
 
 /// Depth of a board in the gel, mm, for a holder `travel_mm` below first touch. `force_n` gives the force of the gel at a depth.

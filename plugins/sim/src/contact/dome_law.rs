@@ -1,4 +1,4 @@
-//! A ball on a skin over a soft hemisphere.
+//! Contact of a ball with a skin over a soft hemisphere.
 //!
 //! F(d) = k₁ d + k₂ d^(3/2) along the line through both centres: the buckled point stiffness of the skin, and Hertz's law of the gel. A ball beside
 //! the apex meets the dome at an angle. It presses less along the normal and slides, which by itself makes the rim appear softer.
@@ -45,12 +45,12 @@ impl DomeLaw {
         }
     }
 
-    /// Height of the lowest point of a touching ball, relative to the apex.
+    /// Height of the lowest point of a ball at first touch, relative to the apex.
     pub(super) fn touch_height_mm(&self, place_mm: [f64; 2], indenter_radius_mm: f64) -> f64 {
         self.rise(place_mm, indenter_radius_mm) - self.dome.radius_mm - indenter_radius_mm
     }
 
-    /// Height of the centre of a touching ball above the centre of the dome.
+    /// Height of the ball's centre above the dome's centre, at first touch.
     fn rise(&self, [x, y]: [f64; 2], indenter_radius_mm: f64) -> f64 {
         let reach = self.dome.radius_mm + indenter_radius_mm;
         (reach * reach - x * x - y * y).max(0.0).sqrt()

@@ -1,4 +1,4 @@
-//! The movement of a ball into a body.
+//! Movement of a ball into a gel.
 
 /// Displacement of a ball from first touch.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,4 +1,4 @@
-//! A ball on a flat bonded gel.
+//! Contact of a ball with a flat bonded gel.
 
 use super::board;
 use super::stand::Answer;

@@ -1,4 +1,4 @@
-//! A body and its contacts.
+//! Contact solver for a sensor body.
 
 use super::board;
 use super::dome_law::DomeLaw;
@@ -8,7 +8,7 @@ use super::stand::{Answer, Stand, dot};
 use super::{Contact, Friction, Relaxation};
 use crate::parameters::{Body, Parameters};
 
-/// Body of a sensor, as input of the contact solver.
+/// Sensor body, as input of the contact solver.
 #[derive(Clone, Copy, Debug)]
 pub struct Solid {
     law: Law,
@@ -26,7 +26,7 @@ enum Law {
 /// State of a flat board in a gel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BoardStand {
-    /// Depth.
+    /// Depth of the board in the gel, mm.
     pub depth_mm: f64,
     /// Normal force.
     pub force_n: f64,
@@ -51,7 +51,7 @@ impl Solid {
         }
     }
 
-    /// Height of the lowest point of a ball that just touches the undeformed body, relative to the apex.
+    /// Height of the lowest point of a ball at first touch of the undeformed body, relative to the apex.
     pub fn touch_height_mm(&self, place_mm: [f64; 2], indenter_radius_mm: f64) -> f64 {
         match &self.law {
             Law::Layer(_) => 0.0,
@@ -79,14 +79,14 @@ impl Solid {
         self.settle(indentation, &stand, &answer, relaxed)
     }
 
-    /// Contact after `indentation`. Its force is `relaxed` times the unrelaxed force.
+    /// Contact after `indentation`, with `relaxed` times the unrelaxed force.
     pub fn contact_at(&self, indentation: &Indentation, relaxed: f64) -> Contact {
         let stand = self.stand(indentation, indentation.depth_mm, indentation.shear_mm);
         let answer = self.answer(&stand, indentation);
         self.settle(indentation, &stand, &answer, relaxed)
     }
 
-    /// Normal force of an unrelaxed gel at `depth_mm` with the shear of `indentation`. It is the input of the relaxation.
+    /// Normal force of an unrelaxed gel at `depth_mm` with the shear of `indentation`; the input of the relaxation.
     pub fn elastic_force_n(&self, indentation: &Indentation, depth_mm: f64) -> f64 {
         let stand = self.stand(indentation, depth_mm, indentation.shear_mm);
         self.answer(&stand, indentation).force_n * indentation.stiffness

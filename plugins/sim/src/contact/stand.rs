@@ -1,4 +1,4 @@
-//! Input and output of a contact law.
+//! Input and output of the contact laws.
 
 /// Position of a ball in a body, for both laws.
 #[derive(Clone, Copy, Debug)]
@@ -11,7 +11,7 @@ pub(super) struct Stand {
     pub(super) slide: [f64; 3],
 }
 
-/// Response of a body to a normal indentation.
+/// Response of a body to an indentation along the normal.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Answer {
     /// Normal force.

@@ -12,9 +12,9 @@ use crate::elastic::kernel::Kernel;
 /// A layer in units of its contact: lengths divided by the contact radius, unit modulus, ν = 1/2.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Layer {
-    /// Thickness.
+    /// Thickness in contact radii.
     pub(super) thickness: f64,
-    /// Depth below the surface.
+    /// Depth below the surface in contact radii.
     pub(super) depth: f64,
 }
 

@@ -1,11 +1,11 @@
-//! Shared parts of the devices: the argument with the name of their bench, and their errors.
+//! Common parts of the devices: the argument that names their bench, and their errors.
 
 use taceva_core::{ArgSpec, ArgValue, Args, DriverError, DriverKey, ErrorKind};
 
 /// Key of the robot, which also reports failed mounts of specimens.
 pub(super) const ROBOT: DriverKey = DriverKey::fixed("sim/robot");
 
-/// Argument that connects the devices of one bench.
+/// Argument that puts devices on the same bench.
 pub(super) fn rig_argument() -> ArgSpec {
     ArgSpec::text("rig")
         .default(ArgValue::Text("bench".to_owned()))

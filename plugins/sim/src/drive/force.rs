@@ -69,7 +69,7 @@ struct SimulatedTransducer {
 }
 
 impl SimulatedTransducer {
-    /// Advances the clock by some readings.
+    /// Advances the clock by the duration of some readings.
     fn wait(
         &self,
         doing: &'static str,

@@ -82,7 +82,7 @@ impl Factory<dyn Robot> for RobotFactory {
     }
 }
 
-/// Arguments. `gel` is for a sensor outside this bench: the forces come from that gel, but the pictures do not show it.
+/// Arguments of the robot. `gel` is for a sensor outside this bench: the forces come from that gel, but the pictures do not show it.
 fn arguments() -> [ArgSpec; 3] {
     let gels = Model::ALL.map(Model::key);
     [
@@ -99,7 +99,7 @@ fn arguments() -> [ArgSpec; 3] {
 /// Unit number of the gel that `gel` names.
 const NOMINAL: u32 = 0;
 
-/// Gel that `args` name; `None` without one.
+/// Gel named in `args`; `None` without one.
 fn gel(args: &Args) -> Option<Model> {
     Model::from_key(args.get("gel")?.as_text()?)
 }

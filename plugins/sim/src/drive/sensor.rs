@@ -135,7 +135,7 @@ impl Sensor for SimulatedSensor {
         self.camera.frame_info()
     }
 
-    /// Prepares the camera, so the first picture meets its deadline like later ones.
+    /// Prepares the camera, so that the first picture meets its deadline like later pictures.
     fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
         self.camera.prepare();
         self.is_running = true;

@@ -1,4 +1,4 @@
-//! Specimen on the robot.
+//! Specimens that the robot can carry.
 
 use taceva_core::{GratingKind, Nanometre};
 use thiserror::Error;
@@ -40,7 +40,7 @@ impl Default for Mounted {
     }
 }
 
-/// Reasons for which a specimen was not mounted.
+/// Reasons why a specimen was not mounted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum MountError {

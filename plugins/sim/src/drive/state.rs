@@ -34,7 +34,7 @@ pub(super) struct State {
     sent: Pose,
     /// True position of the lowest point of the tip, z into the gel.
     tip_mm: [f64; 3],
-    /// Motion in progress, if any.
+    /// Current motion, if any.
     course: Option<Course>,
     robot: Robot,
     transducer: Transducer,
@@ -43,7 +43,7 @@ pub(super) struct State {
     tare_n: [f64; 3],
     visits: Visits,
     visit: Visit,
-    /// Name of the next visits, if given.
+    /// Name of the next visits, if set by the caller.
     name: Option<u64>,
     /// Earliest start of the next visit.
     appointment: Ticks,

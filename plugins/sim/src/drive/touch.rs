@@ -1,4 +1,4 @@
-//! An indentation in progress.
+//! Indentation in progress.
 
 use super::specimen::Mounted;
 use crate::bench::Bench;
@@ -97,7 +97,7 @@ impl Touch {
         }
     }
 
-    /// Relative stiffness of the gel here, after its wear.
+    /// Relative stiffness of the gel at this point, after its wear.
     fn stiffness(&self, bench: &Bench, depth_mm: f64) -> f64 {
         self.stiffness * bench.conditioning().remaining(self.wear, depth_mm)
     }

@@ -1,4 +1,4 @@
-//! A visit: the time over one place.
+//! Visits: the time that the tip spends above one place.
 
 use super::place::VisitKey;
 use super::specimen::Mounted;
@@ -22,7 +22,7 @@ pub(super) struct Visit {
     pub(super) surface: Option<SurfaceBelow>,
 }
 
-/// Errors of robot and transducer in one visit, drawn once.
+/// Errors of robot and transducer in one visit, drawn at its start.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct VisitErrors {
     /// Position error of the robot. It differs between visits and is constant within one.

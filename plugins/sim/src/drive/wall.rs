@@ -1,4 +1,4 @@
-//! A rig on wall-clock time, which passes without waiting calls.
+//! Rig on wall-clock time, which passes independently of calls.
 //!
 //! Devices of a rig advance its clock themselves. An emulated controller cannot: its clients connect and disconnect while time passes. Here the
 //! caller sets the time by [`advance`](SimulatedRig::advance), and the state follows.

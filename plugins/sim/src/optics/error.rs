@@ -42,7 +42,7 @@ pub enum OpticsError {
     Value {
         /// Name of the quantity's field.
         quantity: &'static str,
-        /// Value.
+        /// Value found.
         value: f64,
         /// Accepted values.
         expected: &'static str,

@@ -51,7 +51,7 @@ struct Scene {
     markers: Vec<[f32; 2]>,
 }
 
-/// Stimulus of this frame.
+/// Object that touches the gel in this frame.
 #[derive(Clone, Debug)]
 enum Touch {
     Nothing,

@@ -38,7 +38,7 @@ pub(super) fn prepare() {
     tile();
 }
 
-/// 65,536 numbers of mean 0 and standard deviation 1, followed by a copy of the first ones.
+/// 65,536 numbers of mean 0 and standard deviation 1, followed by a copy of the first numbers.
 fn tile() -> &'static [f32] {
     static NUMBERS: OnceLock<Vec<f32>> = OnceLock::new();
     NUMBERS.get_or_init(|| {

@@ -1,13 +1,13 @@
-//! Stimulus of the gel during a picture.
+//! Object that touches the gel during a picture.
 
 use crate::contact::Contact;
 use crate::specimen::{Grating, GratingPose};
 
-/// Stimulus of the gel.
+/// Object that touches the gel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Stimulus {
-    /// Nothing.
+    /// No object.
     #[default]
     Nothing,
     /// A ball, with its contact on the bench.

@@ -11,8 +11,8 @@ pub(super) struct Texture {
     texels_per_unit: f32,
 }
 
-/// Interpolation data of a place between four texels, in one cache line: the first texel, its differences to the next one in the row and to the one
-/// above, and the mixed difference.
+/// Interpolation data of a place between four texels, in one cache line. Holds the first texel, its differences to the next texel in the row and to
+/// the texel above, and the mixed difference.
 type Cell = [[f32; 4]; 4];
 
 /// Side of a texture in texels; a power of two.
@@ -84,7 +84,7 @@ impl Texture {
     }
 }
 
-/// Builds the cell of a texel from the next in its row, the one above it and the diagonal one.
+/// Builds the cell of a texel from the next texel in its row, the texel above and the diagonal texel.
 fn cell_of([first, next, above, beside]: [[f32; 4]; 4]) -> Cell {
     let lanes = |value: fn(f32, f32, f32, f32) -> f32| {
         std::array::from_fn(|lane| value(first[lane], next[lane], above[lane], beside[lane]))

@@ -1,12 +1,12 @@
-//! View of a camera.
+//! Input of a picture: stimulus, light, and numbers that select noise.
 
 use super::ambient::AmbientLight;
 use super::stimulus::Stimulus;
 
-/// View of the camera in one picture.
+/// Input of the camera for one picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct View {
-    /// Stimulus of the gel.
+    /// Object that touches the gel.
     pub stimulus: Stimulus,
     /// Ambient light.
     pub light: AmbientLight,

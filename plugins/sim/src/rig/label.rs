@@ -1,4 +1,4 @@
-//! Label of a press, as a rig would record it.
+//! Label of a press, as recorded by a rig.
 
 use taceva_core::{Millimetre, Newton, Point, Pose, Wrench};
 

@@ -30,13 +30,13 @@ impl TransducerModel {
         }
     }
 
-    /// Zero at a point.
+    /// Zero offset of the transducer at a point, N.
     pub(crate) fn point_zero_n(&self, point: u64) -> [f64; 3] {
         let stream = self.random.stream(Purpose::ZeroDrift, point);
         normals(stream, 0, self.transducer.point_drift_n)
     }
 
-    /// Additional drift of the zero at a press.
+    /// Additional zero offset at a press, N.
     pub(crate) fn press_zero_n(&self, press: u64) -> [f64; 3] {
         let stream = self.random.stream(Purpose::PressDrift, press);
         normals(stream, 0, self.transducer.press_drift_n)

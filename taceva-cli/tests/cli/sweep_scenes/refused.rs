@@ -44,7 +44,7 @@ fn neither_scenes_nor_datasets_and_a_scene_that_is_named_twice_are_refused() {
     with(&bench, "");
     bench.refused("sweep which.toml", 3, "which.toml: an empty grid");
     with(&bench, "scenes = [\"tiny.toml\", \"tiny.toml\"]");
-    bench.refused("sweep which.toml", 3, "`scenes`: tiny.toml comes twice");
+    bench.refused("sweep which.toml", 3, "`scenes`: tiny.toml is listed twice");
     with(&bench, "scene = \"tiny.toml\"");
     bench.refused("sweep which.toml", 3, "did you mean `scenes`?");
 }

@@ -1,4 +1,4 @@
-//! Settings of a box that decide what its readings mean: frame, filter, rate, range and bias.
+//! Settings of a box that determine the meaning of its readings: frame, filter, rate, range and bias.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::text::shown;
 /// Settings of a box, as its page states them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Setup {
-    /// Model of the box, and serial number of the transducer that its calibration is for; empty if the page lacks them.
+    /// Model of the box, and serial number of the calibrated transducer; empty if the page lacks them.
     product: String,
     serial: String,
     /// Displacement and rotation of the tool frame; `None` if the page lacks them.
@@ -17,14 +17,14 @@ pub(super) struct Setup {
     tool_units: [String; 2],
     /// Number of the low pass, 0 for none; `None` if the page lacks it.
     filter: Option<f64>,
-    /// Rate of records that was set, and rate of the measurement, Hz.
+    /// Configured rate of records, Hz; `internal_hz` is the rate of the measurement.
     rate_hz: Option<f64>,
     internal_hz: Option<f64>,
     /// Measuring ranges of the forces, N.
     ranges_n: Option<[f64; 3]>,
     /// True if the box subtracts a bias.
     is_biased: Option<bool>,
-    /// Entries that are stated but cannot be read.
+    /// Entries of the page that cannot be read.
     unread: Vec<String>,
 }
 
@@ -203,7 +203,7 @@ impl Setup {
     }
 }
 
-/// Value of an entry; `unread` gets the error of one that cannot be read.
+/// Value of an entry. The error of an unreadable entry is added to `unread`.
 fn or_unread<T>(found: Result<Option<T>, PageError>, unread: &mut Vec<String>) -> Option<T> {
     found.unwrap_or_else(|error| {
         unread.push(error.to_string());

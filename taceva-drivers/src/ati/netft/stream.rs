@@ -10,7 +10,7 @@ use std::time::Duration;
 use super::record::{RECORD, Record, Request, later_by};
 use crate::link::{LinkError, Mailbox, monotonic};
 
-/// A socket that receives records of one box.
+/// Socket that receives the records of one box.
 #[derive(Debug)]
 pub(super) struct RecordStream {
     socket: UdpSocket,
@@ -19,11 +19,11 @@ pub(super) struct RecordStream {
     reader: Option<JoinHandle<()>>,
 }
 
-/// A record with the count of lost records.
+/// Record with the number of lost records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Counted {
     pub(super) record: Record,
-    /// Records lost so far, by their sequence numbers.
+    /// Number of records lost so far, by their sequence numbers.
     pub(super) missing: u64,
 }
 
@@ -33,7 +33,7 @@ const LOOK: Duration = Duration::from_millis(50);
 const RECORDS_MAX: usize = 64;
 
 impl RecordStream {
-    /// Opens a socket to `port` of `host` alone and posts received records.
+    /// Opens a socket that accepts only datagrams from `port` of `host`, and posts received records.
     pub(super) fn open(
         host: &str,
         port: u16,

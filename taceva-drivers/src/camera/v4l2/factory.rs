@@ -26,7 +26,7 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(V4l2Factory::new()?)));
 /// Opens local cameras (Linux), such as those in DIGIT and GelSight Mini: `camera/v4l2:device=/dev/video0;preset=digit`.
 ///
 /// # The physical contract
-/// - Opening sets size, pixel format and rate. A camera that does not support them is rejected with the list of what it offers. For JPEG,
+/// - Opening sets size, pixel format and rate. A camera that does not support them is rejected, with the list of supported formats. For JPEG,
 ///   opening captures one image.
 /// - Exposure, gain, white balance and focus are **fixed**. Automatic control is switched off at open and at every start; requested values
 ///   are set and read back; others stay unchanged. The values read back are stored with a recording. A camera that keeps automatic control

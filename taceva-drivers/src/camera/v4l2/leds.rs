@@ -12,10 +12,10 @@ use crate::text::shown;
 /// Red, green and blue, each from 0 (off) to [`MOST`].
 type Colour = [i32; 3];
 
-/// Requested light. Without a request the LEDs stay unchanged; their value is still read back.
+/// Requested LED colour. Without a request, the LEDs stay unchanged and are only read back.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Leds {
-    /// Argument, before it is read.
+    /// Argument of the selector, before parsing.
     wanted: Option<String>,
     /// True if the preset states that its sensor has LEDs.
     are_there: bool,
@@ -45,7 +45,7 @@ impl Leds {
     /// Requested colour.
     ///
     /// # Errors
-    /// `InvalidArgument` for a text that is no colour, and for a sensor without LEDs.
+    /// `InvalidArgument` for a text that is not a colour, and for a sensor without LEDs.
     pub(super) fn colour(&self) -> Result<Option<Colour>, DriverError> {
         let Some(text) = &self.wanted else {
             return Ok(None);
@@ -103,7 +103,7 @@ impl Leds {
     }
 }
 
-/// Colour in an argument; `None` if it is none.
+/// Parses the colour in an argument; `None` if it is invalid.
 fn colour(text: &str) -> Option<Colour> {
     let parts: Option<Vec<i32>> = text
         .split(',')
@@ -122,7 +122,7 @@ fn number([red, green, blue]: Colour) -> i32 {
     (red << 8) | (green << 4) | blue
 }
 
-/// Colour of a value of the zoom control, as in the argument; the number itself if it is no colour.
+/// Colour for a value of the zoom control, as in the argument; the number itself if it encodes no colour.
 fn words(value: i32) -> String {
     let colour = [value >> 8, (value >> 4) & MOST, value & MOST];
     match number(colour) == value && colour[0] <= MOST && value >= 0 {
@@ -131,7 +131,7 @@ fn words(value: i32) -> String {
     }
 }
 
-/// The value that was read back, if it is the one that was set.
+/// Returns the value that was read back, or an error unless it is the requested one.
 fn held(wanted: i32, value: i32) -> Result<i32, DriverError> {
     if wanted == value {
         return Ok(value);

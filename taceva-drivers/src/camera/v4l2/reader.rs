@@ -33,7 +33,7 @@ pub(super) struct Reader {
 const LOOK: Duration = Duration::from_millis(50);
 
 impl Reader {
-    /// Posts every image of `stream`, counting missed ones.
+    /// Posts every image of `stream`, and counts missed images.
     pub(super) fn start(stream: Stream, posting: &Arc<Mailbox<Picture>>) -> io::Result<Reader> {
         let is_over = Arc::new(AtomicBool::new(false));
         let (over, posting) = (Arc::clone(&is_over), Arc::clone(posting));

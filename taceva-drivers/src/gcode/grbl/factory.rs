@@ -24,8 +24,8 @@ submit_builtin!(dyn Robot, || Ok(Box::new(GrblFactory::new()?)));
 ///   position.
 ///
 /// # Verification
-/// The driver passes its suite on an emulated machine on a pseudo-terminal. The emulated dialect follows GRBL's documents; no firmware has
-/// been tested. **Not verified without the device**: how soon it stops, and boards that reset otherwise.
+/// The driver passes its suite on an emulated machine on a pseudo-terminal. The emulated dialect follows GRBL's documents; no firmware was tested.
+/// **Not verified without the device**: stopping times, and boards that reset differently.
 ///
 /// ```
 /// use taceva_core::Factory;

@@ -106,7 +106,7 @@ impl Machine {
         }
     }
 
-    /// Waits until a held machine is at rest or does not answer.
+    /// Waits until a halted machine is at rest or does not answer.
     fn rest(&mut self) -> Result<(), DriverError> {
         let until = monotonic() + ANSWER;
         while monotonic() < until {

@@ -5,7 +5,7 @@ use crate::gcode::link::{Answer, Heard};
 /// Reported position of the tip, current or planned, mm; may contain NaN.
 pub(super) type Place = [f64; 3];
 
-/// Prefix of a number that the printer is asked to echo.
+/// Prefix of a number that the printer must echo.
 pub(super) const MARK: &str = "taceva mark ";
 
 /// Parses a line.

@@ -21,7 +21,7 @@ pub(super) struct Printer {
     pub(super) link: SerialLink<Place>,
     pub(super) stop: Arc<Stop>,
     options: SerialOptions,
-    /// Last number that the printer was asked to echo.
+    /// Last number sent to the printer for an echo.
     mark: u32,
     is_emulated: bool,
 }

@@ -19,7 +19,7 @@ const G_OUNCE: f64 = G_POUND / 16.0;
 pub(super) struct Weight {
     /// Mass, g; negative under tension.
     pub(super) grams: f64,
-    /// Least difference of two masses in this unit and with this exponent, g. The scale may take several of them at once.
+    /// Resolution in this unit and with this exponent, g. The scale may display only multiples of it.
     pub(super) step_grams: f64,
 }
 
@@ -29,7 +29,7 @@ impl Weight {
         self.grams * KG_G * N_KG
     }
 
-    /// Least difference of two forces, N.
+    /// Resolution of the force, N.
     pub(super) fn step_newtons(self) -> f64 {
         self.step_grams * KG_G * N_KG
     }

@@ -60,7 +60,7 @@ impl Timeline {
             .saturating_add(come.saturating_sub(1))
     }
 
-    /// Duration of a round, s. The last frame lasts as long as the one before; a single frame lasts 1 s.
+    /// Duration of a round, s. The last frame lasts as long as the previous frame; a single frame lasts 1 s.
     fn round_s(&self) -> f64 {
         match self.times_s.as_slice() {
             [first, .., before, last] => (last - first) + (last - before),

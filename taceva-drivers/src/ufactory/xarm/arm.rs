@@ -32,13 +32,13 @@ pub(super) struct Arm {
     pub(super) observer: Observer,
     pub(super) options: XarmOptions,
     is_emulated: bool,
-    /// Answer to the version query.
+    /// Answer of the controller to the version query.
     version: String,
     /// Limits of the controller; `None` if unknown.
     limits: Option<ArmLimits>,
 }
 
-/// Begin of the serial number of an emulated arm (`taceva-wire`).
+/// Prefix of the serial number of an emulated arm (`taceva-wire`).
 const EMULATED: &str = "TACEVA-SIM";
 
 /// Unknown firmware: only commands that never changed are sent to it.
@@ -90,7 +90,7 @@ impl Arm {
         self.keeper.stop()
     }
 
-    /// Makes a controller that this driver stopped ready again, unless it has an error that needs a person.
+    /// Makes a controller that this driver stopped ready again, unless an error requires a person.
     pub(super) fn stand_by(&mut self, doing: &'static str) -> Result<(), DriverError> {
         if let Some(fault) = error_now(&mut self.exchange).map_err(unanswered(doing))? {
             return Err(fault.met(doing));
@@ -145,7 +145,7 @@ impl Arm {
         self.see_ready(mode)
     }
 
-    /// Waits for a report of the ready state, since earlier reports still show the stop.
+    /// Waits until a report shows the ready state, because earlier reports still show the stop.
     fn see_ready(&mut self, mode: Mode) -> Result<(), DriverError> {
         let until = monotonic() + ANSWER;
         let mut last = self.observer.observe(&mut self.exchange, None, ANSWER)?;

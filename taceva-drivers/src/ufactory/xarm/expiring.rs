@@ -1,4 +1,4 @@
-//! Motion by expiring velocities: the controller stops when they are no longer renewed.
+//! Motion by expiring velocities. The controller stops when the renewal ends.
 
 use std::time::Duration;
 

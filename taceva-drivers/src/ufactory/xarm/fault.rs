@@ -14,7 +14,7 @@ pub(super) struct XarmFault {
 }
 
 impl XarmFault {
-    /// Kind of an error that needs a person; `None` for others.
+    /// Kind of an error that requires a person; `None` for other errors.
     fn kind(self) -> Option<Fault> {
         match self.code {
             1..=3 => Some(Fault::EmergencyStop),

@@ -1,4 +1,4 @@
-//! Speeds and accelerations that a controller carries out, from one of its complete reports.
+//! Speed and acceleration limits of a controller, read from one of its complete reports.
 
 use std::io::Read;
 use std::time::Duration;
@@ -7,7 +7,7 @@ use taceva_core::Speed;
 
 use crate::link::connect;
 
-/// Limits of the tip. A controller raises or lowers any other number without an error.
+/// Limits of the tip. A controller changes values beyond them without an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ArmLimits {
     /// Least and greatest speed, mm/s.
@@ -18,7 +18,7 @@ pub(super) struct ArmLimits {
 
 /// Longest wait for a report; the controller sends five per second.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// Place of the least acceleration in a report, bytes; the greatest and both speeds follow.
+/// Offset of the least acceleration in a report, bytes. The greatest acceleration and both speeds follow.
 const LIMITS: usize = 185;
 const REPORT: usize = LIMITS + 16;
 
@@ -51,7 +51,7 @@ impl ArmLimits {
         .filter(|_| is_complete)
     }
 
-    /// Fails for a speed that the controller would change.
+    /// Rejects a speed that the controller would change.
     ///
     /// # Errors
     /// A sentence with the speed and the limits.
@@ -68,7 +68,7 @@ impl ArmLimits {
         }
     }
 
-    /// Fails for an acceleration that the controller would change.
+    /// Rejects an acceleration that the controller would change.
     ///
     /// # Errors
     /// A sentence with the acceleration and the limits.
@@ -83,7 +83,7 @@ impl ArmLimits {
     }
 }
 
-/// Shortest decimal number that the controller rounded to `number`: 0.1 for the single-precision number nearest to it.
+/// Shortest decimal number whose single-precision value is `number`: 0.1 for the nearest value to it.
 fn decimal(number: f32) -> Option<f64> {
     let number: Option<f64> = number.to_string().parse().ok();
     number.filter(|number| number.is_finite())

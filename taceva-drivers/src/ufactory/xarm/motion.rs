@@ -20,13 +20,13 @@ const BEGUN: Duration = Duration::from_millis(50);
 const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
 /// Time to wait until a stopped arm is at rest.
 const STOPPING: Duration = Duration::from_millis(400);
-/// Time that a motion waits for the stop connection, which reconnects in less.
+/// Time that a motion waits for the stop connection. Reconnecting takes less.
 const STOPPABLE: Duration = Duration::from_secs(2);
 
-/// Error of an incomplete motion.
+/// Error of a motion that did not reach its target.
 pub(super) struct BrokenOff {
     error: DriverError,
-    /// True if the controller was told to stop, or stopped by itself.
+    /// True if a stop was sent, or the controller stopped by itself.
     is_stopped: bool,
 }
 

@@ -16,7 +16,7 @@ use super::firmware::Firmware;
 const CONFIRMATION: Duration = Duration::from_millis(40);
 /// Test interval of the connection while idle.
 const TRIAL_EVERY: Duration = Duration::from_millis(500);
-/// Test interval of a connection that does not answer. The arm does not move until it does.
+/// Test interval of a connection that does not answer. The arm does not move until the connection answers.
 const RETRIAL_EVERY: Duration = Duration::from_millis(50);
 const TRIAL_PATIENCE: Duration = Duration::from_millis(20);
 /// Time after which unanswered commands on an abandoned connection count as lost. A run retries the end of a halt for longer.
@@ -28,7 +28,7 @@ const GLANCE: Duration = Duration::from_millis(5);
 #[derive(Debug)]
 pub(super) struct Stop {
     is_halted: AtomicBool,
-    /// Set once the robot is dropped, when there is nothing left to stop.
+    /// True once the robot is dropped, when nothing is left to stop.
     is_gone: AtomicBool,
     /// True if the connection answered its last test.
     is_alive: AtomicBool,
@@ -83,8 +83,8 @@ impl Stop {
         self.is_alive()
     }
 
-    /// Waits until the controller has executed every stop that was sent. Each connection is processed in order but independently, so a late
-    /// stop would end a motion that begins after the halt.
+    /// Waits until the controller has executed every stop that was sent. Each connection is processed in order but independently, so a late stop
+    /// could end a motion that begins after the halt.
     ///
     /// # Errors
     /// [`ExchangeError::Silent`] without an answer within `patience`. Then no motion may begin.

@@ -44,7 +44,7 @@ pub(super) struct Arm {
 #[derive(Debug)]
 pub(super) struct Stop {
     is_halted: AtomicBool,
-    /// Set once the robot is dropped, when there is nothing left to stop.
+    /// True once the robot is dropped, when nothing is left to stop.
     is_gone: AtomicBool,
     line: ScriptLine,
     deceleration_m_s2: f64,
@@ -61,8 +61,8 @@ struct Sent {
 }
 
 impl Sent {
-    /// Creates the state before the first stop. Numbers begin at a time-based value, since the controller may still report one of an
-    /// earlier connection.
+    /// State before the first stop. Numbers begin at a time-based value, because the controller may still report a number from an earlier
+    /// connection.
     fn none() -> Sent {
         let number = monotonic().as_millis() & 0x3fff_ffff;
         Sent {
@@ -98,8 +98,8 @@ impl Stop {
         self.line.send(&program)
     }
 
-    /// True if a controller that reports `number` has executed the last stop, and so every earlier one, or if that stop is lost. A late
-    /// stop would end a motion sent later on another connection.
+    /// True if a controller that reports `number` has executed the last stop, and so every earlier one, or if the last stop is lost. A late stop
+    /// would end a motion sent later on another connection.
     pub(super) fn is_obeyed(&self, number: i32) -> bool {
         let sent = self.sent();
         sent.number == number
@@ -206,7 +206,7 @@ pub(super) fn numbered_pose(state: &ArmState, doing: &'static str) -> Result<Pos
     })
 }
 
-/// Pose of a state; an error if it reports that the arm stopped by itself.
+/// Pose of a state; an error if the arm stopped by itself.
 fn watched_pose(state: &ArmState) -> Result<Pose, DriverError> {
     match ArmFault::of(state).filter(|fault| fault.kind().is_some()) {
         Some(fault) => Err(fault.met(LOOK)),

@@ -1,4 +1,4 @@
-//! Motion by programs that expire: the controller brakes when they are no longer renewed.
+//! Motion by expiring programs. The controller brakes when the renewal ends.
 
 use std::time::Duration;
 

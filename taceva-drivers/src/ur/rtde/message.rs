@@ -14,11 +14,11 @@ const TEXT: u8 = b'M';
 
 /// Protocol version.
 const PROTOCOL: u16 = 2;
-/// An output that is requested.
+/// An output requested from the controller.
 struct Output {
     name: &'static str,
     kind: &'static str,
-    /// First versions of a CB3 and an e-Series controller that have it, by the documents; empty if every version has it.
+    /// First CB3 and e-Series versions that have the output, by the documents; empty if every version has it.
     since: &'static str,
 }
 
@@ -26,7 +26,7 @@ const fn output(name: &'static str, kind: &'static str, since: &'static str) -> 
     Output { name, kind, since }
 }
 
-/// Requested outputs, in this order. The last is the register to which stops write their number: the first one for external programs.
+/// Requested outputs, in this order. The last is the register to which stops write their number: the first register for external programs.
 static ASKED: [Output; 6] = [
     output("timestamp", "DOUBLE", ""),
     output("actual_TCP_pose", "VECTOR6D", ""),
@@ -35,7 +35,7 @@ static ASKED: [Output; 6] = [
     output("runtime_state", "UINT32", ""),
     output("output_int_register_24", "INT32", "3.9 and 5.3"),
 ];
-/// Type of an output that the controller lacks.
+/// Type that the controller reports for an output it lacks.
 const NOT_FOUND: &str = "NOT_FOUND";
 /// Number of that register in script.
 pub(super) const STOP_REGISTER: u8 = 24;

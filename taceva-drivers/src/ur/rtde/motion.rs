@@ -16,9 +16,9 @@ pub(super) const DOING: &str = "move the arm";
 const NEAR_MM: f64 = 0.05;
 /// Time without a state after which the arm is stopped.
 const STALE: Duration = Duration::from_millis(250);
-/// Time after which a program that does not run at the target has completed.
+/// Time after which a program that does not run, with the arm at the target, counts as completed.
 const BEGUN: Duration = Duration::from_millis(100);
-/// Time after which a program that does not run elsewhere will not begin.
+/// Time after which a program that does not run, with the arm elsewhere, counts as never begun.
 const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
 /// Time during which an arm may settle at its target after the program.
 const SETTLED: Duration = Duration::from_millis(200);
@@ -68,7 +68,7 @@ impl Arm {
         Ok(first)
     }
 
-    /// Waits for the first state after every sent stop was executed and has ended, or should have.
+    /// Waits for the first state after every sent stop was executed and has ended, or its time has passed.
     fn after_every_stop(&self, until: Duration) -> Result<Seen<ArmState>, DriverError> {
         let left = || until.saturating_sub(monotonic());
         let mut seen = self.look(None, left())?;

@@ -36,7 +36,7 @@ const FAULT: u32 = 1 << 9;
 const RUNNING: i32 = 7;
 
 impl ArmFault {
-    /// Kind of a fault that needs a person; `None` for others.
+    /// Kind of a fault that requires a person; `None` for other faults.
     pub(super) fn kind(self) -> Option<Fault> {
         match self {
             ArmFault::EmergencyStop => Some(Fault::EmergencyStop),

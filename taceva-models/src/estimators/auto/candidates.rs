@@ -4,16 +4,16 @@ use super::cost::{DEEPER, NETWORK, Sizes, seconds, work};
 use crate::estimators::library::LibraryModel;
 use crate::training::info::ModelInfo;
 
-/// Share of its epochs that a network trains at first.
+/// Share of the epochs that a network trains for its first look.
 pub(super) const LOOK: f64 = 0.25;
-/// Factor of a network's work in the order: networks come early, because they learn from whole pictures.
+/// Factor of a network's work in the trial order. Networks are tried early, because they learn from whole pictures.
 const EARLIER: f64 = 0.1;
 
 /// A model to try.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     pub(super) info: &'static ModelInfo,
-    /// Work of one fold, s of the budget; for a network, with its whole training.
+    /// Work of one fold, s of the budget; for a network, including its whole training.
     pub(super) fold_s: f64,
     /// Work of the final fit, s of the budget.
     pub(super) fit_s: f64,

@@ -38,7 +38,7 @@ impl Sizes {
 /// Multiplications per second of the budget.
 const RATE: f64 = 1e9;
 
-/// Names of the small network and of the deeper ones.
+/// Name of the small network; `DEEPER` names the residual networks.
 pub(super) const NETWORK: &str = "cnn";
 pub(super) const DEEPER: [&str; 3] = ["resnet10", "resnet18", "resnet34"];
 
@@ -49,8 +49,7 @@ pub(super) fn seconds(work: f64) -> f64 {
 
 /// Multiplications of one fit of the model `name` with default settings. `None` if it cannot be fitted.
 ///
-/// Leading terms of each fit. Their factors make a second of the budget about a processor second of docs/models.md, where these
-/// models were measured.
+/// Leading terms of each fit. Their factors make a second of the budget about one of the processor seconds measured in docs/models.md.
 pub(super) fn work(name: &str, sizes: Sizes) -> Option<f64> {
     let Sizes {
         samples,

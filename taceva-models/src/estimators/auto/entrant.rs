@@ -13,9 +13,9 @@ pub(super) struct Entrant {
     pub(super) losses: Vec<Vec<f64>>,
     /// Work spent on its trials, s of the budget.
     pub(super) spent_s: f64,
-    /// Completed share of its training. `None` if all.
+    /// Completed share of its training; `None` for the whole training.
     pub(super) share: Option<f64>,
-    /// Reason for its removal. `None` while it is a candidate.
+    /// Reason why it left the race; `None` while it is a candidate.
     pub(super) left: Option<String>,
 }
 

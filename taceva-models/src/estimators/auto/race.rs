@@ -24,13 +24,13 @@ pub(super) struct Race<'a> {
     pub(super) budget_s: f64,
     pub(super) make: &'a dyn Fn(&ModelInfo) -> Made,
     pub(super) folds: Folds,
-    /// Training part with the features of networks, and with the features of other models.
+    /// Training part with the features for networks, and with the features for other models.
     pub(super) pictures: TrainingSet<'a>,
     pub(super) training: TrainingSet<'a>,
     pub(super) progress: &'a dyn Progress,
     pub(super) spent_s: f64,
     pub(super) entrants: Vec<Entrant>,
-    /// First look at the network, then its whole training if the look left the result open.
+    /// First look at the network, then its whole training if the first look was not decisive.
     pub(super) network: Vec<Entrant>,
     pub(super) untried: Vec<Untried>,
 }
@@ -60,7 +60,7 @@ impl Race<'_> {
         Ok((taken, self.card(taken)))
     }
 
-    /// Reason not to try a candidate. `None` if it is worth trying.
+    /// Reason for skipping a candidate; `None` if it is worth trying.
     fn unworthy(&self, candidate: &Candidate) -> Option<String> {
         let Candidate { info, fit_s, .. } = *candidate;
         if candidate.is_named_only() {

@@ -9,15 +9,15 @@ use super::race::{ALWAYS, Race};
 use crate::linalg::progress::interrupted;
 use crate::training::card::{AutoCard, FOLDS};
 
-/// Most optimistic remaining share of a network's squared error after the rest of its training.
+/// Most optimistic ratio of a network's squared error after its whole training to that after the first look.
 const GRANTED: f64 = 0.5;
-/// Largest ratio of a network's squared error to the best other model's. A smaller gain is not worth minutes of work.
+/// Ratio of a network's squared error to the best other model's below which the network is worth its work.
 const WORTH: f64 = 0.95;
-/// Ratio of work above which a model must be better than the cheaper one.
+/// Ratio of work above which a model must be better than a cheaper one.
 const DEARER: f64 = 10.0;
 
 impl Race<'_> {
-    /// Model of least error still in the race, except networks, on the folds that both compared models completed.
+    /// Model of least error still in the race, except networks. Models are compared on the folds that both completed.
     pub(super) fn best(&self) -> Option<&Entrant> {
         let going = self.entrants.iter().filter(|own| own.left.is_none());
         going.reduce(|best, next| {
@@ -175,7 +175,7 @@ impl Race<'_> {
     }
 }
 
-/// True if a network beats `best` on the first fold by more than `standard_errors` standard errors and by enough to be worth its work.
+/// True if a network beats `best` on the first fold, by more than `standard_errors` standard errors and by enough to be worth its work.
 fn is_ahead(network: &Entrant, best: &Entrant, standard_errors: f64) -> bool {
     let excess = best.excess_over(network, 1);
     network.loss(1) < WORTH * best.loss(1) && excess.is_beyond(standard_errors)

@@ -57,7 +57,7 @@ impl Folds {
         }
     }
 
-    /// Loss of each unit of a fold, with a model that learns from three other folds and chooses settings on the fourth. Squared errors
+    /// Loss of each unit of a fold, for a model that learns from three other folds and chooses settings on the fourth. Losses are squared errors
     /// relative to the label variance, averaged over samples and varying channels. The inner error says why the model cannot be fitted.
     ///
     /// # Errors

@@ -76,7 +76,7 @@ impl Discriminant {
         self.centres.iter().flatten().map(plane).collect()
     }
 
-    /// Predicts the class of `features`; the first of equally near ones.
+    /// Predicts the class of `features`; of equally near classes, the first.
     pub fn class(&self, features: &[f64]) -> usize {
         let round = applied(&self.whitening, features);
         let distance = |centre: &Vec<f64>| -> f64 {

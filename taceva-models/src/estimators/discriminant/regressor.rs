@@ -22,7 +22,7 @@ pub(super) struct Planes {
 }
 
 impl Planes {
-    /// Converts planes over standardised features of `design` to planes over raw ones.
+    /// Converts planes over standardised features of `design` to planes over raw features.
     pub(super) fn new(
         values: Vec<f64>,
         planes: Vec<(Vec<f64>, f64)>,

@@ -14,7 +14,7 @@ pub(super) struct Penalty<'a> {
     pub(super) mix: f64,
 }
 
-/// Most sweeps at one strength.
+/// Maximum number of sweeps at one strength.
 const SWEEPS: usize = 1000;
 
 /// Convergence threshold: largest change of a sweep relative to the variation of labels. Equals 1e-7 of their squares, as in the
@@ -23,8 +23,8 @@ const ENOUGH: f64 = 3e-4;
 
 /// Computes the weights at each strength.
 ///
-/// Starts with the strongest penalty; every other starts from the previous weights. A strength ends if a sweep changes predictions by
-/// at most three ten-thousandths of the typical label, or after 1,000 sweeps.
+/// Starts with the strongest penalty; every other strength starts from the previous weights. A strength ends if a sweep changes predictions by at
+/// most 0.0003 of the typical label, or after 1,000 sweeps.
 pub(super) fn path(
     predictors: &Predictors,
     target: Target<'_>,

@@ -22,7 +22,7 @@ enum Layout {
     Columns(Mat<f64>),
 }
 
-/// Most features of a Gram matrix: 134 MB.
+/// Maximum number of features of a Gram matrix: 134 MB.
 const FEATURES_MAX: usize = 4096;
 
 impl Predictors {
@@ -78,7 +78,7 @@ impl Predictors {
 pub(super) struct Target<'a> {
     /// Centred labels y of the samples.
     pub(super) labels: &'a [f64],
-    /// Xᵀy.
+    /// Products Xᵀy of features and labels.
     pub(super) products: &'a [f64],
 }
 
@@ -108,7 +108,7 @@ impl<'a> Residual<'a> {
         residual
     }
 
-    /// Product with a feature.
+    /// Product of the residual with a feature.
     pub(super) fn along(&self, feature: usize) -> f64 {
         match &self.predictors.layout {
             Layout::Gram(_) => self.values[feature],

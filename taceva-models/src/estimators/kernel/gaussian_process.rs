@@ -69,7 +69,7 @@ struct Fit {
 }
 
 impl Fit {
-    /// Validation error of each channel, and the factor with which its deviations cover 95 %.
+    /// Validation error of each channel, and the factor by which its deviations must be multiplied to cover 95 %.
     fn validated(
         &self,
         problem: &Problem<'_>,

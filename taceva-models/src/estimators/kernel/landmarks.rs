@@ -11,7 +11,7 @@ use crate::linalg::{FeatureScale, dot};
 /// Kernel length for choosing landmarks.
 const LENGTH: f64 = 1.0;
 
-/// Unexplained share below which a sample is not made a landmark: the rounding error of single precision.
+/// Unexplained share of a sample below which it cannot become a landmark: the rounding error of single precision.
 pub(super) const EXPLAINED: f64 = 1e-5;
 
 /// Samples per task of a thread.
@@ -27,7 +27,7 @@ const CHUNK: usize = 64;
 #[derive(Debug)]
 pub(super) struct Landmarks {
     pub(super) standard: Standard,
-    /// D, the summed variance of the features.
+    /// Summed variance D of the features.
     pub(super) variance: f64,
     /// Indices of the landmarks among the training samples.
     pub(super) chosen: Vec<usize>,
@@ -116,7 +116,7 @@ impl Landmarks {
     }
 }
 
-/// 1 / 2ℓ²D.
+/// Rate 1 / 2ℓ²D.
 pub(super) fn rate(length: f64, variance: f64) -> f64 {
     0.5 / (length * length * variance)
 }
@@ -125,7 +125,7 @@ pub(super) fn kernel(squared_distance: f32, rate: f64) -> f64 {
     (-f64::from(squared_distance) * rate).exp()
 }
 
-/// First position of the best value.
+/// Index of the first best value.
 fn extreme(values: &[f64], better: impl Fn(f64, f64) -> bool) -> usize {
     let mut best = 0;
     for (position, &value) in values.iter().enumerate() {

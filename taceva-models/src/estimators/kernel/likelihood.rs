@@ -16,9 +16,9 @@ pub(super) fn ratios() -> Vec<f64> {
 pub(super) struct Likeliest {
     /// −2 log likelihood, up to a constant.
     pub(super) cost: f64,
-    /// λ.
+    /// Noise-to-signal ratio λ.
     pub(super) ratio: f64,
-    /// s² of scaled labels.
+    /// Signal variance s² of the scaled labels.
     pub(super) signal: f64,
 }
 

@@ -17,7 +17,7 @@ pub(super) struct Nystrom {
     pub(super) standard: Standard,
     /// Length ℓ, for the model card.
     pub(super) length: f64,
-    /// 1 / 2ℓ²D.
+    /// Rate 1 / 2ℓ²D.
     pub(super) rate: f64,
     /// Landmarks standardised by `standard`.
     pub(super) rows: Vec<f32>,
@@ -114,7 +114,7 @@ impl Nystrom {
         self.features(values)
     }
 
-    /// Features of one sample.
+    /// Features of a single sample.
     pub(super) fn of_one(&self, sample: &[f32]) -> Vec<f32> {
         let mut own = vec![0.0; sample.len()];
         self.standard.write(sample, &mut own);

@@ -90,7 +90,7 @@ impl Number {
 }
 
 impl Numbers<'_> {
-    /// Value of a setting. NaN if it is chosen by error.
+    /// Value of a setting; NaN if it is chosen by error.
     pub(crate) fn real(&self, number: &Number) -> f64 {
         let mut numbers = self.adapter.numbers.iter();
         let place = numbers.position(|known| known.info.key == number.info.key);

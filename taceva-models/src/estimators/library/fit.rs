@@ -95,7 +95,7 @@ fn varying(features: &Features) -> Vec<usize> {
         .collect()
 }
 
-/// Most frequent label; the smallest of equally frequent ones.
+/// Most frequent label; of equally frequent labels, the smallest.
 fn commonest(labels: &[f64]) -> f64 {
     let mut sorted = labels.to_vec();
     sorted.sort_by(f64::total_cmp);

@@ -1,8 +1,8 @@
 //! Coordinates of samples in their span, for no more samples than features.
 //!
-//! Rotating the features does not change ridge regression or the least-norm solution of least squares. Weights outside the span of the
-//! samples are 0. A library that needs more samples than features therefore gives the same result in these coordinates, of which
-//! there are fewer than samples.
+//! Rotating the features does not change ridge regression or the least-norm solution of least squares. Weights outside the span of the samples
+//! are zero. There are fewer span coordinates than samples. A library that needs more samples than features therefore gives the same result in
+//! these coordinates.
 
 use crate::estimators::library::predictor::Weighted;
 
@@ -10,14 +10,14 @@ use crate::estimators::library::predictor::Weighted;
 pub(crate) struct Span {
     /// Mean row, `[features]`.
     centre: Vec<f64>,
-    /// `[dimensions, features]`.
+    /// Orthonormal vectors, `[dimensions, features]`.
     basis: Vec<f64>,
     features: usize,
-    /// `[samples, dimensions]`.
+    /// Coordinates of the rows, `[samples, dimensions]`.
     pub(crate) rows: Vec<f64>,
 }
 
-/// Relative length, compared to the longest row, up to which a row's remainder after projection adds no direction.
+/// Relative length of a row's remainder after projection, compared to the longest row, up to which the row adds no direction.
 const TOLERANCE: f64 = 1e-10;
 
 impl Span {

@@ -14,7 +14,7 @@ enum Appearance {
     Markers,
     /// Light and position: pictures are unchanged.
     Light,
-    /// Light for pictures with several values per cell, such as colour; otherwise markers.
+    /// Light for pictures with several values per cell, such as colour; markers otherwise.
     ByPicture,
 }
 
@@ -41,7 +41,7 @@ const USUAL: Prepared = Prepared {
 /// Columns of pictures to which [`USUAL`] applies.
 const USUAL_WIDTH: usize = 128;
 
-/// Settings for unchanged pictures.
+/// Settings that leave pictures unchanged.
 const AS_THEY_ARE: Prepared = Prepared {
     preprocessing: Preprocessing {
         local_mean_px: 0.0,
@@ -117,7 +117,7 @@ impl Preparation {
         })
     }
 
-    /// Settings for signals. Mean, contrast and position of taxels are the touch itself, so signals are changed only on request.
+    /// Settings for signals. Mean, contrast and position of taxels carry the touch itself, so signals are changed only on request.
     pub(super) fn of_signals(self) -> Preparation {
         Preparation {
             of_signals: true,

@@ -37,7 +37,7 @@ enum Kind {
 const EPOCHS: SettingInfo = SettingInfo {
     key: "epochs",
     accepts: "a whole number from 1 to 100000",
-    default: "200 for cnn, 60 for the residual ones",
+    default: "200 for cnn, 60 for residual networks",
     about: "number of times the network is trained on each sample",
 };
 const BATCH: SettingInfo = SettingInfo {
@@ -49,7 +49,7 @@ const BATCH: SettingInfo = SettingInfo {
 const RATE: SettingInfo = SettingInfo {
     key: "rate",
     accepts: "a number above 0 and at most 10",
-    default: "0.003 for cnn, 0.001 for the residual ones",
+    default: "0.003 for cnn, 0.001 for residual networks",
     about: "the highest learning rate of its one cycle",
 };
 const DECAY: SettingInfo = SettingInfo {

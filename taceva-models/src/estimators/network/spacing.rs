@@ -163,7 +163,7 @@ impl SpacingNetwork {
     }
 }
 
-/// Index of the greatest value; the first of equal ones.
+/// Index of the greatest value; of equal values, the first.
 fn greatest(outputs: &[f64]) -> usize {
     let mut places = 0..outputs.len();
     let first = places.next().unwrap_or(0);

@@ -61,7 +61,7 @@ impl<'a> Training<'a> {
         })
     }
 
-    /// Resumes the training from its checkpoint, or starts a new one. Returns its title for progress reports too.
+    /// Resumes the training from its checkpoint, or starts a new one. Also returns its title for progress reports.
     fn begin(&self, shelf: Option<&Shelf<'_>>) -> Result<(&'static str, Trainer<'a>), ModelError> {
         let (samples, validation) = (self.samples, self.validation);
         let found = shelf.map(Shelf::take).transpose()?.flatten();

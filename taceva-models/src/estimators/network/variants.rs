@@ -3,8 +3,8 @@
 use super::NetworkEstimator;
 
 impl NetworkEstimator {
-    /// Copy with `share` of its epochs, at least one, and without checkpoints. The cycle of the rate shortens with it, so it ends like
-    /// the whole training.
+    /// Copy with `share` of the epochs, at least one, and without checkpoints. The learning-rate cycle shortens as well, so it ends like the whole
+    /// training.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -16,9 +16,9 @@ use crate::training::problem::centred;
 pub(super) struct LeaveOut<'s> {
     targets: &'s Mat<f64>,
     eigenvalues: &'s [f64],
-    /// U.
+    /// Eigenvectors U.
     vectors: Mat<f64>,
-    /// Uᵀ of the targets.
+    /// Rotated targets, Uᵀ times the targets.
     rotated: Mat<f64>,
     /// True if R is 0.
     complete: bool,

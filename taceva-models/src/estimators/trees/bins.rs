@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 use taceva_core::Features;
 
-/// Most bins of a feature.
+/// Maximum number of bins of a feature.
 pub(super) const BINS: usize = 256;
 
 /// Bin of each feature of each sample.

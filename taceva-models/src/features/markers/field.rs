@@ -10,15 +10,15 @@ use crate::features::FeatureError;
 use crate::features::cell_features::CellFeatures;
 use crate::features::spec::FeatureSpec;
 
-/// Markers from which a cell is interpolated.
+/// Number of markers from which a cell is interpolated.
 const SPEAKERS: usize = 12;
-/// Nearest markers of a cell that are counted as seen or unseen.
+/// Number of nearest markers of a cell that are counted as seen or unseen.
 const NEAREST: usize = 4;
 /// Largest distance of an interpolated cell from the nearest marker, in spacings.
 const REACH: f64 = 1.5;
 
-/// Three values per cell: displacement of the gel to the right and down at the cell's centre, in marker spacings, and the unseen share
-/// of its four nearest markers.
+/// Three values per cell. The first two are the displacement of the gel to the right and down at the cell's centre, in marker spacings. The third
+/// is the unseen share of its four nearest markers.
 ///
 /// Displacements are interpolated linearly between markers. Cells without a marker nearby hold zeros. The field shows the stretch of
 /// the gel: shear directly, depth by the spreading of markers. It does not show details smaller than the spacing, or light.

@@ -3,11 +3,11 @@
 use super::plane::Plane;
 use super::spots::{Marker, Polarity, Scale, distance, spots};
 
-/// Least contrast of a marker, in standard deviations of noise. Chance reaches it in none of a million pixels.
+/// Minimum contrast of a marker, in standard deviations of noise. By chance, less than one in a million pixels exceeds it.
 const SIGNIFICANT: f32 = 6.0;
-/// Least contrast of a marker, relative to the upper quartile of spots. Below 1, because lamps shine unevenly.
+/// Minimum contrast of a marker, relative to the upper quartile of all spots. Below 1, because lamps shine unevenly.
 const ALIKE: f32 = 0.15;
-/// Fewest columns of markers across the shorter side of a frame.
+/// Minimum number of marker columns across the shorter side of a frame.
 const ACROSS_MIN: f64 = 4.0;
 /// Smallest spacing of markers, pixels.
 const SPACING_MIN_PX: f64 = 5.0;
@@ -15,9 +15,9 @@ const SPACING_MIN_PX: f64 = 5.0;
 const FINER: f64 = 0.8;
 /// Neighbours that determine the local spacing of a marker.
 const NEIGHBOURS: usize = 6;
-/// Fewest spots that must form a grid. Fewer spots may have any arrangement.
+/// Minimum number of spots in a grid. Fewer spots may have any arrangement.
 const GRID_MIN: usize = 9;
-/// Largest median of the relative excess distance of the third nearest spot over the nearest in a grid. It is 0 in square and
+/// Largest allowed unevenness of a grid: median relative excess of the distance to the third nearest spot over the nearest. It is 0 in square and
 /// hexagonal grids, and about 0.5 for random spots.
 const UNEVEN: f64 = 0.3;
 
@@ -28,7 +28,7 @@ pub(super) struct Lattice {
     pub(super) scale: Scale,
     /// Typical spacing of markers, pixels.
     pub(super) spacing_px: f64,
-    /// Least contrast of a spot.
+    /// Minimum contrast of a spot.
     pub(super) least: f32,
     /// Markers, highest contrast first.
     pub(super) markers: Vec<Marker>,
@@ -38,7 +38,7 @@ pub(super) struct Lattice {
 }
 
 impl Lattice {
-    /// Finds the grid of `picture`: over all polarities and scales, the one with the most, clearest and most even spots.
+    /// Finds the grid of `picture`: over all polarities and scales, the grid with the most, clearest and most even spots.
     ///
     /// # Errors
     /// Number of spots found that form no grid.

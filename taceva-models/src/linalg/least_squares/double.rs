@@ -9,7 +9,7 @@ pub(super) struct Double {
     low: f64,
 }
 
-/// a + b exactly: the rounded sum and its rounding error (Knuth).
+/// Sum a + b, exact: the rounded sum and its rounding error (Knuth).
 fn two_sum(a: f64, b: f64) -> Double {
     let sum = a + b;
     let of_b = sum - a;
@@ -18,12 +18,12 @@ fn two_sum(a: f64, b: f64) -> Double {
 }
 
 impl Double {
-    /// high + low.
+    /// Number high + low.
     pub(super) fn new(high: f64, low: f64) -> Double {
         two_sum(high, low)
     }
 
-    /// a · b exactly (Dekker, Veltkamp; one fused operation).
+    /// Product a · b, exact (Dekker, Veltkamp; one fused operation).
     pub(super) fn product(a: f64, b: f64) -> Double {
         let high = a * b;
         Double {

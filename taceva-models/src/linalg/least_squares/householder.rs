@@ -9,7 +9,7 @@ pub(super) struct Householder {
     packed: Mat<f64>,
     /// The diagonal of R.
     diagonal: Vec<f64>,
-    /// D.
+    /// Diagonal of D.
     scale: Vec<f64>,
 }
 
@@ -46,7 +46,7 @@ impl Householder {
         }
     }
 
-    /// First column that is a linear combination of earlier ones to within rounding.
+    /// First column that is a linear combination of earlier columns to within rounding.
     pub(super) fn dependent(&self) -> Option<usize> {
         let rounding = self.packed.nrows() as f64 * f64::EPSILON;
         self.diagonal
@@ -81,7 +81,7 @@ impl Householder {
         &self.packed.col_as_slice(column)[column..]
     }
 
-    /// R⁻¹ `values`.
+    /// Solution R⁻¹ `values`.
     fn substitute(&self, values: &[f64]) -> Vec<f64> {
         let mut found = values[..self.diagonal.len()].to_vec();
         for column in (0..found.len()).rev() {
@@ -96,7 +96,7 @@ impl Householder {
         found
     }
 
-    /// R⁻ᵀ `values`.
+    /// Solution R⁻ᵀ `values`.
     fn transpose_substitute(&self, values: &[f64]) -> Vec<f64> {
         let mut found: Vec<f64> = Vec::with_capacity(values.len());
         for (column, value) in values.iter().enumerate() {

@@ -11,7 +11,7 @@ struct Set {
     text: &'static str,
     powers: Option<usize>,
     intercept: bool,
-    /// Least correct digits of every coefficient.
+    /// Minimum number of correct digits of every coefficient.
     digits: f64,
 }
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Number of folds of a training part.
+/// Number of folds of the training part.
 pub(crate) const FOLDS: usize = 5;
 
 /// Record of a choice among models.
@@ -33,9 +33,9 @@ pub struct AutoTrial {
     pub error: f64,
     /// Work of the trial, s of the budget.
     pub cost_s: f64,
-    /// Number of its folds, from the first on.
+    /// Number of completed folds, from the first on.
     pub folds: usize,
-    /// Completed share of its training. `None` if all.
+    /// Completed share of the training of a network; `None` for the whole training.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub share: Option<f64>,
     /// Reason for leaving the race. `None` if it stayed until the end.
@@ -50,7 +50,7 @@ pub struct Untried {
     pub model: String,
     /// Work of a trial on one fold, s of the budget.
     pub cost_s: f64,
-    /// Reason.
+    /// Reason why it was not tried.
     pub reason: String,
 }
 

@@ -9,7 +9,7 @@ use crate::features::Preprocessing;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NetworkCard {
-    /// Architecture.
+    /// Architecture of the network.
     pub architecture: Architecture,
     /// Preprocessing of pictures.
     pub preprocessing: Preprocessing,

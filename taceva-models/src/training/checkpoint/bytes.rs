@@ -13,9 +13,9 @@ use super::identity::{Identity, Origin, add_numbers, hexadecimal};
 
 /// Key of the metadata.
 const KEY: &str = "taceva.checkpoint";
-/// Format version. Other versions are rejected: they come from a program with another order of sums.
+/// Format version. Other versions are rejected, because they come from programs that sum in another order.
 ///
-/// 3: convolutions have a form; before, all were direct.
+/// Version 3: convolutions have a form; before, all were direct.
 const FORMAT: &str = "3";
 
 /// Largest file: four times the largest model, for present weights, best weights and two moments.

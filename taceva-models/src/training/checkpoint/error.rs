@@ -40,7 +40,7 @@ pub enum CheckpointError {
     Damaged {
         /// Path of the file.
         path: PathBuf,
-        /// Fault.
+        /// Fault of the file.
         problem: String,
     },
     /// The file belongs to another training run.

@@ -90,7 +90,7 @@ pub enum FormatError {
         /// Cargo feature of the library.
         feature: String,
     },
-    /// A tensor is unexpected.
+    /// A tensor belongs to no part of the model.
     #[error("unexpected tensor `{name}`", name = taceva_core::shown(name))]
     Unexpected {
         /// Name of the tensor.

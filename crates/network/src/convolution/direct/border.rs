@@ -31,7 +31,7 @@ impl Reach {
     }
 }
 
-/// One reach per output position, limited to kernel positions that overlap a picture of `length` pixels along this side.
+/// One reach per output position, limited to kernel positions inside a picture of `length` pixels along this side.
 pub(super) fn reaches(convolution: Convolution, positions: usize, length: usize) -> Vec<Reach> {
     let padding = convolution.padding();
     let reach = |position: usize| {

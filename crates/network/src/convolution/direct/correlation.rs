@@ -49,7 +49,7 @@ pub(crate) struct Correlation<'a> {
     pub(crate) finish: Finish<'a>,
 }
 
-/// Part of a correlation done in one pass over the pixels.
+/// Part of a correlation computed in one pass over the pixels.
 #[derive(Clone, Copy)]
 struct Round<'a> {
     taps: &'a [Tap],
@@ -58,9 +58,9 @@ struct Round<'a> {
     is_last: bool,
 }
 
-/// True if the weights of `rows` rows exceed the cache share of a machine with wide tiles.
+/// True if the weights of `rows` rows exceed the cache share for machines with wide tiles.
 ///
-/// Always computed for at most four panels, so that the division of work depends only on shapes.
+/// Computed for at most four panels on every machine, so that the division of work depends only on shapes.
 pub(crate) fn are_weights_many(rows: usize, panels: usize) -> bool {
     rows * panels.min(4) * PANEL * size_of::<f32>() > WEIGHTS_AT_ONCE
 }

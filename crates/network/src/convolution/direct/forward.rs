@@ -1,4 +1,4 @@
-//! The forward pass.
+//! Forward pass of the direct form.
 
 use std::ops::Range;
 
@@ -31,7 +31,7 @@ pub(super) const ROWS: usize = 6;
 pub(crate) struct Forward {
     /// One class of all pixels.
     whole: Class,
-    /// Classes without the border. Empty if the border is not skipped.
+    /// Classes of pixels without the border; empty if the border is not skipped.
     apart: Vec<Class>,
     rows: usize,
 }

@@ -1,4 +1,4 @@
-//! The forward pass.
+//! Forward pass of Winograd's form.
 
 use std::ops::Range;
 

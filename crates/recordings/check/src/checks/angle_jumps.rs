@@ -1,4 +1,4 @@
-//! TAC042: angles that jump by more than half a turn: they wrap around, or are the parts of a rotation with two names.
+//! TAC042: angles that jump by more than half a turn, because they wrap around or describe a rotation ambiguously.
 
 use taceva_core::{Channel, Unit};
 
@@ -16,7 +16,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Maximum turn of an angle between two samples, degrees.
+/// Maximum change of an angle between two samples, degrees.
 const HALF_TURN: f64 = 180.0;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

@@ -1,4 +1,4 @@
-//! TAC025: empty frames and signals: one value everywhere.
+//! TAC025: empty frames and signals, with the same value everywhere.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};

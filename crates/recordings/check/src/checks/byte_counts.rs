@@ -1,4 +1,4 @@
-//! TAC045: forces of one byte, which begin anew above its greatest count.
+//! TAC045: forces stored in one byte, which wrap around above its greatest count.
 
 use taceva_core::{Channel, Field, Unit, counted};
 
@@ -17,18 +17,18 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of samples.
 const LEAST: usize = 20;
-/// Greatest count of one byte, from its least count, with room for rounding.
+/// Greatest range of one byte, in counts, with a tolerance for rounding.
 const BYTE: f64 = 255.5;
 /// Number of counts of one byte.
 const COUNTS: f64 = 256.0;
 /// Minimum jump, in counts.
 const JUMP: f64 = 200.0;
-/// Number of changes before and behind a jump that show that the force goes on without it. A release or a new staircase does not go on.
+/// Number of changes before and after a jump which show that the force continues without the jump. A release or a new staircase does not continue.
 const NEAR: usize = 3;
-/// Greatest change of a slow force between neighbours, in counts. At most one change in `SHARE` may exceed it.
+/// Greatest change of a slowly varying force between neighbours, in counts. At most one change in `SHARE` may exceed it.
 const SLOW: f64 = 64.0;
 const SHARE: usize = 8;
-/// Rounding of values, in counts.
+/// Tolerance for rounded values, in counts.
 const ROUNDING: f64 = 1e-3;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -85,7 +85,7 @@ fn of_channel(evidence: &Evidence<'_>, position: usize, channel: &Channel) -> Op
     Some(evidence.found(Severity::Warning, message, &behind))
 }
 
-/// Greatest step of which all differences of `values` are multiples. `None` unless more than [`JUMP`] and at most 255 of them span all values.
+/// Greatest step of which all differences of `values` are multiples. `None` unless the values span more than [`JUMP`] and at most 255 steps.
 fn count_of(values: &[f64]) -> Option<f64> {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -1,4 +1,4 @@
-//! TAC028: instruments of the labels without certificate, with an expired one, or with that of another serial number.
+//! TAC028: label instruments without a certificate, with an expired one, or with a certificate for another serial number.
 
 use taceva_core::{Instrument, Traceability, shown};
 use taceva_dataset::Source;

@@ -1,4 +1,4 @@
-//! TAC029: labels outside the range of the certificate of their instrument.
+//! TAC029: labels outside the certified range of their instrument.
 
 use taceva_core::{Certificate, Channel, Instrument, counted, shown};
 
@@ -29,7 +29,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Labels of a channel that no certificate covers.
+/// Labels of a channel outside the range of its certificates.
 fn outside(
     evidence: &Evidence<'_>,
     certificates: &[&Certificate],

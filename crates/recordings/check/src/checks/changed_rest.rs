@@ -1,4 +1,4 @@
-//! TAC034: untouched pictures that differ from the reference: the camera, the light or the gel has changed.
+//! TAC034: untouched pictures that differ from the reference frame, because the camera, the light or the gel has changed.
 
 use taceva_core::{Field, Unit, by_count, counted};
 
@@ -17,14 +17,14 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of untouched pictures, and of pictures of contact, for their means.
+/// Minimum number of untouched pictures, and of contact pictures, for a mean.
 const LEAST: usize = 3;
-/// Force, N, and depth, mm, below which there is no contact.
+/// Force in N, and depth in mm, below which there is no contact.
 const UNTOUCHED_N: f64 = 0.02;
 const UNTOUCHED_MM: f64 = 0.01;
-/// Share of the greatest load from which a picture shows contact.
+/// Share of the greatest load above which a picture shows contact.
 const PRESSED: f64 = 0.5;
-/// Share of the change by contact, in the mean over all tiles, from which a change of the untouched picture counts.
+/// Reported change of the untouched picture, as a share of the change by contact. Both are means over all tiles.
 const THIRD: f64 = 1.0 / 3.0;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -84,7 +84,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     vec![evidence.found(Severity::Warning, message, &rows)]
 }
 
-/// The median; 0 for no numbers.
+/// Median; 0 for no numbers.
 fn median(numbers: impl Iterator<Item = f64>) -> f64 {
     let mut sorted: Vec<f64> = numbers.collect();
     sorted.sort_by(f64::total_cmp);

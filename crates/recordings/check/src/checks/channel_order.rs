@@ -1,4 +1,4 @@
-//! TAC003: red and blue swapped, in all frames or in some.
+//! TAC003: red and blue swapped, in some or all frames.
 
 use taceva_core::Field;
 
@@ -14,7 +14,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Difference of red and blue, as a share of full scale, from which a swap can be distinguished from a change of light.
+/// Least difference of red and blue, as a share of full scale, that distinguishes a swap from a change of light.
 const CLEAR: f64 = 0.02;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

@@ -19,11 +19,11 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of samples with the value at the end of the range.
 const LEAST: u64 = 5;
-/// At least one in this many samples has it.
+/// Least frequency of that value: one in this many samples.
 const SHARE: u64 = 100;
-/// Least ratio of its frequency to that of the next value.
+/// Least ratio of the frequency of that value to the frequency of the next value.
 const TIMES: u64 = 3;
-/// Maximum taxels named in a message; the rest are counted.
+/// Maximum number of taxels named in a message; the others are counted.
 const NAMED: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -53,7 +53,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     vec![Found::overall(Severity::Warning, message)]
 }
 
-/// The value at which a taxel is clipped, and the number of samples with it.
+/// Value at which a taxel is clipped, and the number of samples with this value.
 fn end_of(facts: &SignalFacts, position: usize) -> Option<(f32, u64)> {
     let TaxelFacts {
         least,

@@ -1,4 +1,4 @@
-//! TAC024: clocks that jump, and stamps of two clocks in one column.
+//! TAC024: clocks that jump, and time stamps of two clocks in one column.
 
 use std::collections::BTreeMap;
 
@@ -19,17 +19,17 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum jump within one contact: a multiple of the usual step, and a time in seconds.
+/// Minimum jump within one contact, as a multiple of the usual step. `JUMP_S` is the minimum in seconds.
 const JUMP_STEPS: f64 = 100.0;
 const JUMP_S: f64 = 1.0;
-/// Without contact points, a pause between presses looks like a jump. Jumps are reported only if there is a single one, or at most one in
-/// this many steps.
+/// Maximum frequency of jumps without contact points: a single jump, or one in this many steps. More jumps are pauses between presses.
 const SELDOM: usize = 100;
-/// Such jumps are searched only if nine in ten steps are at most this many usual steps.
+/// Greatest step of a regular stream, in usual steps, which nine in ten steps must not exceed. Jumps without contact points are searched only in
+/// such streams.
 const REGULAR_STEPS: f64 = 3.0;
-/// Difference of consecutive stamps that shows two clocks, s: twelve days. Seconds since 1970 and since a start are 54 years apart.
+/// Difference of consecutive stamps that indicates two clocks, s: twelve days. A Unix clock and an uptime clock are 54 years apart.
 const TWO_CLOCKS_S: f64 = 1e6;
-/// First plausible Unix time of a recording (1990), s, and from the same range the limit `RUNNING_S` of uptime (32 years).
+/// First plausible Unix time of a recording (1990), s. `RUNNING_S` is the greatest plausible uptime (32 years).
 const UNIX_FROM_S: f64 = 631_152_000.0;
 /// Last plausible Unix time of a recording (2100), s.
 const UNIX_TO_S: f64 = 4_102_444_800.0;
@@ -62,7 +62,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// The last stamp of each clock, s.
+/// Last stamp of each clock, s.
 fn last_stamps(table: &Table) -> Vec<f64> {
     let mut last: BTreeMap<(Option<&str>, Option<&str>), f64> = BTreeMap::new();
     for (row, time) in table.t_s().iter().enumerate() {
@@ -77,7 +77,7 @@ fn last_stamps(table: &Table) -> Vec<f64> {
     last.into_values().collect()
 }
 
-/// Finds clocks that count since 1970 beside others that count since a start.
+/// Finds Unix clocks beside clocks that count from a start.
 fn of_two_kinds(last: &[f64]) -> Option<Found> {
     let least = last.iter().copied().reduce(f64::min)?;
     let most = last.iter().copied().reduce(f64::max)?;
@@ -88,7 +88,7 @@ fn of_two_kinds(last: &[f64]) -> Option<Found> {
         .then(|| Found::overall(Severity::Warning, message))
 }
 
-/// Finds stamps that jump ahead within one contact, or between rows without contact points, by less than `TWO_CLOCKS_S`.
+/// Finds stamps that jump ahead by less than `TWO_CLOCKS_S`, within one contact or between rows without contact points.
 fn set_within(evidence: &Evidence<'_>) -> Vec<Found> {
     let Some(stream) = Stream::of(evidence) else {
         return Vec::new();
@@ -137,7 +137,7 @@ fn jumped(evidence: &Evidence<'_>, stream: &Stream, jumps: &[Step], place: &str)
     Some(evidence.found(Severity::Warning, message, &rows))
 }
 
-/// Finds a stated clock that contradicts the last stamps.
+/// Finds a declared clock that contradicts the last stamps.
 fn contradicted(evidence: &Evidence<'_>, last: &[f64]) -> Option<Found> {
     let least = last.iter().copied().reduce(f64::min)?;
     let most = last.iter().copied().reduce(f64::max)?;

@@ -1,4 +1,4 @@
-//! TAC010: too few contact points for an interval.
+//! TAC010: too few contact points for a confidence interval.
 
 use std::collections::BTreeSet;
 
@@ -43,7 +43,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     few(distinct.len(), "contact point")
 }
 
-/// The finding if `count` clusters of this kind are too few.
+/// Finding for fewer clusters of this kind than needed.
 fn few(count: usize, kind: &str) -> Vec<Found> {
     if count == 0 || count >= LEAST_CLUSTERS {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! TAC020: pictures that decode although parts of them are missing or corrupt.
+//! TAC020: pictures that can be decoded although parts are missing or corrupt.
 
 use taceva_core::Field;
 

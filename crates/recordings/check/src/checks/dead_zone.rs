@@ -1,4 +1,4 @@
-//! TAC027: forces that are zero although the pictures show contact: cut below a threshold, or at zero.
+//! TAC027: zero forces although the pictures show contact, because of a threshold or a clipped range.
 
 use taceva_core::{Field, Unit, counted};
 
@@ -17,13 +17,13 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum zeros under load: a number, and one in `SHARE` of the samples.
+/// Minimum number of zeros under load. `SHARE` is their minimum frequency.
 const LEAST: usize = 10;
 const SHARE: usize = 20;
-/// Minimum correlation of nonzero forces with the change of their pictures, so that pictures show the load.
+/// Minimum correlation of nonzero forces with picture changes, which shows that the pictures depend on the load.
 const CLEAR: f64 = 0.7;
-/// Threshold of contact in a picture, between rest and the median with force. Rest is the quantile 1 / `AT_REST` of
-/// the zero-force pictures.
+/// Share of the way from the picture change at rest to the median change with force above which there is contact. Rest is the quantile 1 /
+/// `AT_REST` of the zero-force pictures.
 const PRESSED: f64 = 0.25;
 const AT_REST: usize = 10;
 

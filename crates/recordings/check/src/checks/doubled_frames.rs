@@ -1,4 +1,4 @@
-//! TAC022: frames of a stream that repeat the previous one.
+//! TAC022: stream frames that repeat the previous frame.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};

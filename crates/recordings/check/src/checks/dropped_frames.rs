@@ -1,4 +1,4 @@
-//! TAC023: frames missing from a stream, by the gaps between the stamps of others.
+//! TAC023: frames missing from a stream, detected by gaps between time stamps.
 
 use taceva_core::by_count;
 
@@ -16,14 +16,14 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Steps that are gaps, in periods; longer ones are pauses.
+/// Lengths of steps that count as gaps, in periods. Longer steps are pauses.
 const GAP: std::ops::Range<f64> = 1.5..10.5;
-/// A regular stream: maximum deviation of a step from the usual one, and minimum share of such steps.
+/// Maximum relative deviation of a step from the usual step, and minimum share of such steps, in a regular stream.
 const NEAR: f64 = 0.25;
 const REGULAR: f64 = 0.75;
-/// For streams with more missing frames, the period is searched near the step that one in this many steps is shorter than.
+/// For streams with more missing frames: the period is searched near the length that one in this many steps undercuts.
 const SHORT: usize = 10;
-/// Minimum share of steps of one period.
+/// Minimum share of steps that are one period long.
 const SINGLE: f64 = 0.3;
 /// Maximum deviation of a step from a multiple of the period, in periods, and minimum share of such steps.
 const WHOLE: f64 = 0.2;
@@ -33,7 +33,7 @@ const PLACES: [f64; 4] = [1.0, 0.1, 0.01, 0.001];
 /// Maximum relative deviation of a period from such a resolution, and maximum drift of truncated stamps from an even pace, in periods.
 const AT_PLACE: f64 = 0.01;
 const STRAY: f64 = 2.0;
-/// Share of missing frames from which the finding is a warning.
+/// Share of missing frames above which the finding is a warning.
 const WARN: f64 = 0.01;
 
 /// Missing frames of a stream.
@@ -41,17 +41,17 @@ const WARN: f64 = 0.01;
 pub(super) struct Missing {
     /// Number of missing frames, whole.
     pub(super) frames: f64,
-    /// The rows after the gaps.
+    /// Rows after the gaps.
     rows: Vec<usize>,
     /// Number of steps of the stream.
     steps: usize,
-    /// The longest gap, in periods.
+    /// Longest gap, in periods.
     longest: f64,
     period_s: f64,
 }
 
 impl Missing {
-    /// The missing frames of `stream`; `None` if there are none, or no period is found.
+    /// Missing frames of `stream`; `None` if no frame is missing or no period is found.
     fn of(stream: &Stream) -> Option<Missing> {
         let period_s = period(stream)?;
         let periods = |step: &Step| step.seconds / period_s;
@@ -86,7 +86,7 @@ impl Missing {
     }
 }
 
-/// The missing frames of the stream of a recording.
+/// Missing frames in the stream of a recording.
 pub(super) fn missing(evidence: &Evidence<'_>) -> Option<Missing> {
     Missing::of(&Stream::of(evidence)?)
 }
@@ -115,7 +115,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     vec![evidence.found(severity, message, &missing.rows)]
 }
 
-/// The period of the frames, s; `None` if the steps show none.
+/// Period of the frames, s; `None` if the steps are irregular.
 fn period(stream: &Stream) -> Option<f64> {
     let of = |is_so: &dyn Fn(f64) -> bool, unit: f64| {
         let steps = stream.steps.iter();
@@ -140,7 +140,7 @@ fn period(stream: &Stream) -> Option<f64> {
     (is_period && !is_cut(stream, period)).then_some(period)
 }
 
-/// True if the steps are those of an even pace whose stamps are truncated to a decimal place near `period`.
+/// True if the steps are those of an even pace with stamps truncated to a decimal place near `period`.
 fn is_cut(stream: &Stream, period: f64) -> bool {
     let is_pause = |step: &Step| step.seconds / period >= GAP.end;
     let steps = stream.steps.iter().filter(|step| !is_pause(step));
@@ -167,7 +167,7 @@ fn is_cut(stream: &Stream, period: f64) -> bool {
 mod tests {
     use super::*;
 
-    /// Number of missing frames of a stream with these steps, in periods of 1/30 s.
+    /// Number of missing frames in a stream with these steps, in periods of 1/30 s.
     fn missing_of(periods: &[f64]) -> f64 {
         let seconds: Vec<f64> = periods.iter().map(|periods| periods / 30.0).collect();
         Missing::of(&Stream::of_seconds(&seconds)).map_or(0.0, |missing| missing.frames)

@@ -1,4 +1,4 @@
-//! TAC002: the same picture under several names: a stuck camera, or a copy.
+//! TAC002: the same picture under several names, from a stuck camera or a copied file.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! TAC038: two equal labels: a column mapped twice, or recorded twice.
+//! TAC038: two equal label channels, because a column was mapped or recorded twice.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
@@ -13,7 +13,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Number of samples below which two channels may be equal by chance.
+/// Minimum number of samples; in fewer, two channels may be equal by chance.
 const LEAST: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -48,7 +48,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// The number of samples with both, and the sign between them; `None` if they differ somewhere or never change.
+/// Number of samples with both labels, and the sign between them. `None` if the labels differ somewhere or never change.
 fn equal(evidence: &Evidence<'_>, one: usize, other: usize) -> Option<(usize, f64)> {
     let (one, other) = (evidence.table.truth(one), evidence.table.truth(other));
     let pairs: Vec<(f64, f64)> = (0..one.len())
@@ -69,7 +69,7 @@ fn equal(evidence: &Evidence<'_>, one: usize, other: usize) -> Option<(usize, f6
         .map(|sign| (pairs.len(), sign))
 }
 
-/// The column that `label` is read from.
+/// Column that `label` was imported from.
 fn source(evidence: &Evidence<'_>, label: &str) -> Option<String> {
     let mut columns = evidence.header.columns.iter();
     let column = columns.find(|column| column.label == label)?;

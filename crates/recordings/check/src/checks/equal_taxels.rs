@@ -16,9 +16,9 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Number of rows below which two taxels may be equal by chance.
+/// Minimum number of rows; in fewer, two taxels may be equal by chance.
 const LEAST: u64 = 5;
-/// Maximum names that a message lists.
+/// Maximum number of names in a message.
 const NAMED: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

@@ -1,4 +1,4 @@
-//! TAC044: one picture in two views of a sample: one camera for two fingers, or a copied path.
+//! TAC044: the same picture in two views of a sample, because one camera serves two fingers or a path was copied.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};

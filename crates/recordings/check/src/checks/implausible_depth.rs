@@ -1,4 +1,4 @@
-//! TAC041: implausible depths: the distance of a camera or a robot instead of an indentation.
+//! TAC041: implausible depths, such as the distance to a camera or a robot.
 
 use taceva_core::Channel;
 
@@ -8,7 +8,7 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC041",
     name: "implausible-depth",
-    looks_for: "depths greater than any gel is thick, or never near 0: a distance to the camera or a height of the robot instead of an \
+    looks_for: "depths above the thickness of any gel, or never near 0: a distance to the camera or a height of the robot instead of an \
         indentation",
     hint: "map the indentation as Pz, 0 at the first touch and positive into the gel; subtract the height of the surface with `offset` of \
         the column",
@@ -18,9 +18,9 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of depths for the check.
 const LEAST: usize = 3;
-/// Deepest plausible press of a gel, mm: the thickest gels sold have 10 mm.
+/// Deepest plausible press, mm. The thickest gels on sale have 10 mm.
 const DEEPEST_MM: f64 = 12.0;
-/// A depth that is never below this share of the greatest, and exceeds a length in mm, is a distance.
+/// Share of the greatest depth. Values that never fall below it, and exceed a length in mm, are distances.
 const NEVER_BELOW: f64 = 0.5;
 const DISTANCE_MM: f64 = 5.0;
 
@@ -40,7 +40,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let usual = depths[depths.len() / 2];
     let message = if usual > DEEPEST_MM {
         format!(
-            "the median of Pz is {usual} mm, greater than any gel is thick: it may be the distance to the camera"
+            "the median of Pz is {usual} mm, more than the thickness of any gel: it may be the distance to the camera"
         )
     } else if least > NEVER_BELOW * greatest && least > DISTANCE_MM {
         format!(

@@ -1,4 +1,4 @@
-//! TAC043: warnings of the import of a recording.
+//! TAC043: warnings issued when the recording was imported.
 
 use taceva_core::shown;
 

@@ -1,4 +1,4 @@
-//! TAC019: labels that are later or earlier than their pictures, as by two clocks.
+//! TAC019: labels later or earlier than their pictures, for instance because of two clocks.
 
 use std::collections::BTreeMap;
 
@@ -18,19 +18,20 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum samples of a stream for a lag.
+/// Minimum number of samples in a stream for detecting a lag.
 const LEAST: usize = 50;
-/// Maximum lag searched, in steps, and as a fraction of the samples.
+/// Maximum lag that is searched, in steps, and as a fraction of the samples.
 const FURTHEST: usize = 60;
 const SHARE: usize = 4;
-/// Minimum correlation of pictures and forces at the lag, and minimum factor by which the lag reduces the unexplained variance.
+/// Minimum correlation of pictures and forces at the lag. `BETTER` is the minimum factor by which the lag reduces the unexplained variance.
 const CLEAR: f64 = 0.6;
 const BETTER: f64 = 1.5;
-/// Parts of the recording. Most of those with a varying force must show the lag too, since a drift favours another lag only in the whole.
+/// Number of parts of the recording. Most parts with a varying force must show the lag too, because a drift shifts the lag only in the whole
+/// recording.
 const PARTS: usize = 3;
-/// Minimum variance of the force of such a part, as a share of the greatest one.
+/// Minimum variance of the force in such a part, as a share of the greatest variance.
 const LOADED: f64 = 0.1;
-/// Maximum lag that a gel which recovers slowly explains, s.
+/// Maximum lag that the slow recovery of a gel explains, s.
 const SLOW_GEL_S: f64 = 0.1;
 
 /// Maximum lag as a share of the duration of the recording.
@@ -97,7 +98,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found.into_iter().collect()
 }
 
-/// Line of the map that removes a lag of `seconds` of the channel `name`; `None` unless a join by time with one lag gives it.
+/// Map entry that removes a lag of `seconds` of the channel `name`. `None` unless the channel is joined by time with one lag.
 fn line(evidence: &Evidence<'_>, name: &str, seconds: f64) -> Option<String> {
     let mut columns = evidence.header.columns.iter();
     let column = columns.find(|column| column.label == name)?;
@@ -114,12 +115,12 @@ fn line(evidence: &Evidence<'_>, name: &str, seconds: f64) -> Option<String> {
     ))
 }
 
-/// True if the correlation at a lag is strong, and clearly better than the one without.
+/// True if the correlation at a lag is strong, and clearly better than without a lag.
 fn is_clear(best: f64, standing: f64) -> bool {
     best >= CLEAR && 1.0 - standing.powi(2) >= BETTER * (1.0 - best.powi(2))
 }
 
-/// Absolute correlation of pictures and forces that are `later` steps later.
+/// Absolute correlation of pictures with the forces `later` steps after them.
 fn correlation_at(streams: &[Vec<Instant>], later: i64) -> f64 {
     let shift = usize::try_from(later.unsigned_abs()).unwrap_or(usize::MAX);
     let shifted = || {
@@ -142,18 +143,18 @@ fn correlation_at(streams: &[Vec<Instant>], later: i64) -> f64 {
 /// The lag with the best correlation of forces and pictures.
 #[derive(Debug)]
 struct Lag {
-    /// Number of samples by which the force is later.
+    /// Number of samples by which the force lags behind the picture.
     steps: i64,
     seconds: f64,
-    /// The absolute correlations at the lag and without a lag.
+    /// Absolute correlation at the lag. `standing` is the correlation without a lag.
     best: f64,
     standing: f64,
 }
 
-/// A time, s, a value of the picture, and a force.
+/// Time in s, picture value, and force.
 type Instant = (f64, f64, f64);
 
-/// The streams of each unit of the sensor, each minus the means of its unit, since one may be brighter than another.
+/// Streams of each sensor unit, centred on the means of the unit, because one unit may be brighter than another.
 fn alike(streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>>) -> Vec<Vec<Instant>> {
     let mut sums: BTreeMap<Option<&str>, [f64; 3]> = BTreeMap::new();
     for ((unit, _), stream) in &streams {
@@ -179,7 +180,7 @@ fn alike(streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>>) -> Vec<V
 }
 
 impl Lag {
-    /// The common lag of all streams; `None` if there are none.
+    /// Common lag of all streams; `None` if there is no stream.
     fn of(streams: &[Vec<Instant>]) -> Option<Lag> {
         let pairs = streams.iter().flat_map(|stream| stream.windows(2));
         let mut steps: Vec<f64> = pairs.map(|pair| pair[1].0 - pair[0].0).collect();
@@ -225,7 +226,7 @@ impl Lag {
         })
     }
 
-    /// True if the lag is clear in most parts of the recording whose force varies.
+    /// True if the lag is clear in most parts of the recording with a varying force.
     fn holds_in_parts(&self, streams: &[Vec<Instant>]) -> bool {
         let part = |number: usize| -> Vec<Vec<Instant>> {
             let part = streams.iter().map(|stream| {
@@ -246,7 +247,7 @@ impl Lag {
     }
 }
 
-/// Variance of the forces of all `streams` together; 0 without any.
+/// Variance of the forces of all `streams` together; 0 without forces.
 fn variance_of_forces(streams: &[Vec<Instant>]) -> f64 {
     let forces = || streams.iter().flatten().map(|(_, _, force)| *force);
     #[expect(clippy::cast_precision_loss, reason = "counts of rows")]
@@ -255,7 +256,7 @@ fn variance_of_forces(streams: &[Vec<Instant>]) -> f64 {
     forces().map(|force| (force - mean).powi(2)).sum::<f64>() / count
 }
 
-/// Pearson's correlation; 0 if one of them does not vary.
+/// Pearson's correlation; 0 if a series is constant.
 pub(super) fn correlation(
     first: impl Iterator<Item = f64> + Clone,
     second: impl Iterator<Item = f64> + Clone,
@@ -285,7 +286,7 @@ pub(super) fn correlation(
 mod tests {
     use super::*;
 
-    /// Presses of different depths, thirty samples a second; forces `later` steps after their pictures.
+    /// Presses of different depths at thirty samples per second, with forces `later` steps after their pictures.
     fn presses(later: usize) -> Vec<(f64, f64, f64)> {
         let press = |number: usize| -> f64 {
             let (within, which) = (number % 40, number / 40);

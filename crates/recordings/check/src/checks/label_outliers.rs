@@ -1,4 +1,4 @@
-//! TAC013: single labels far from all others.
+//! TAC013: isolated labels far from all others.
 
 use taceva_core::shown;
 
@@ -17,9 +17,9 @@ pub(super) static CHECK: Check = Check {
 
 /// Distance of Tukey's outer fences from the quartiles, in interquartile ranges.
 const FENCE: f64 = 3.0;
-/// Minimum gap below outliers, as a share of the distance from the quartile to the label below the gap.
+/// Minimum gap below the outliers, as a share of the distance from the quartile to the label below the gap.
 const GAP: f64 = 0.5;
-/// Outliers are at most one in this many labels; more form a group.
+/// Maximum frequency of outliers: one in this many labels. More values form a group.
 const MOST: usize = 20;
 /// Minimum number of values for quartiles.
 const LEAST: usize = 20;
@@ -54,10 +54,10 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Maximum number of pictures or rows in a line for the map.
+/// Maximum number of pictures or rows in a map entry.
 const LISTED: usize = 20;
 
-/// Line of the map that leaves out `rows`; empty if they were not imported.
+/// Map entry that leaves out `rows`; empty if they were not imported.
 fn drop_line(evidence: &Evidence<'_>, rows: &[usize]) -> String {
     let line = match pictures_of(evidence, rows) {
         Some(names) => Some(("frames_named", names)),
@@ -77,7 +77,7 @@ fn drop_line(evidence: &Evidence<'_>, rows: &[usize]) -> String {
     )
 }
 
-/// Pictures of `rows` as a map names them; `None` if they are not files. A row with several pictures has none that a finding on labels names.
+/// Pictures of `rows`, as named in a map; `None` if they are not files, or if a row has several pictures.
 fn pictures_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
     let header = evidence.header;
     let pictures = header.mapping().pictures;
@@ -94,7 +94,7 @@ fn pictures_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
         .collect()
 }
 
-/// Numbers of `rows` in their tables as a map names them, with the table if there are several.
+/// Numbers of `rows` in their tables, as a map names them, with the table if there are several.
 fn numbers_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
     let (tables, numbers) = (evidence.table.source_table(), evidence.table.source_row());
     let are_several = tables.windows(2).any(|pair| pair[0] != pair[1]);
@@ -113,15 +113,15 @@ fn numbers_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
 
 /// Values far above all others.
 struct Outliers {
-    /// Their rows, ordered by value.
+    /// Rows of the outliers, ordered by value.
     rows: Vec<usize>,
-    /// The least outlier.
+    /// Smallest outlier.
     least: f64,
-    /// The greatest other value.
+    /// Greatest value below the outliers.
     next: f64,
 }
 
-/// Outliers above Tukey's outer fence and above a gap. The gap must exceed the interquartile range, and [`GAP`] times the tail below it. The second
+/// Values above Tukey's outer fence and above a gap. The gap must exceed the interquartile range and [`GAP`] times the tail below it. The second
 /// condition accepts long tails, such as a few presses with much shear.
 fn above(mut values: Vec<(f64, usize)>) -> Option<Outliers> {
     if values.len() < LEAST {

@@ -1,4 +1,4 @@
-//! TAC007: test samples that the model has nearly seen in training.
+//! TAC007: test samples that are nearly equal to training samples.
 
 use std::collections::BTreeSet;
 

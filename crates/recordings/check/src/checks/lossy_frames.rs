@@ -1,4 +1,4 @@
-//! TAC026: frames whose pixels depend on the decoder.
+//! TAC026: frames with lossy coding, whose pixels depend on the decoder.
 
 use taceva_core::{by_count, counted};
 

@@ -1,4 +1,4 @@
-//! TAC015: frames that the stream delivered but the recording lacks.
+//! TAC015: frames delivered by the stream but missing from the recording.
 
 use taceva_core::by_count;
 

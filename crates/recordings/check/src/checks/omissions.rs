@@ -1,4 +1,4 @@
-//! TAC021: data of an imported folder that is not in the recording.
+//! TAC021: data of an imported folder that the recording lacks.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Maximum names that a message lists.
+/// Maximum number of names in a message.
 const NAMED: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -127,13 +127,13 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .collect()
 }
 
-/// True for a log that is joined by time. With more unused rows than the tables have rows, it is faster than they are.
+/// True for a log joined by time that is faster than the tables: its unused rows outnumber their rows.
 fn is_by_time(evidence: &Evidence<'_>, name: &str) -> bool {
     let mut joins = evidence.header.joins.iter();
     joins.any(|join| join.name == name && join.by == "time")
 }
 
-/// The first names, with their counts.
+/// First few names with their counts.
 fn named(counts: &BTreeMap<String, u64>) -> String {
     let words = counts.iter();
     let words = words.map(|(name, count)| format!("{} {count}", shown(name)));

@@ -1,4 +1,4 @@
-//! TAC006: a reference frame that was taken while the gel was pressed.
+//! TAC006: a reference frame taken while the gel was pressed.
 
 use taceva_core::Field;
 
@@ -17,7 +17,8 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of samples for a rank correlation.
 const LEAST: usize = 10;
-/// Rank correlation of load and distance below which the reference is suspected; for a true one it is clearly positive.
+/// Rank correlation of load and distance from the reference below which the reference is suspect. A correct reference gives a clearly positive
+/// value.
 pub(super) const SUSPECT: f64 = -0.3;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -44,7 +45,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     vec![Found::overall(Severity::Warning, message)]
 }
 
-/// Spearman's rank correlation; ties are ranked by their order.
+/// Spearman's rank correlation. Ties are ranked in row order.
 pub(super) fn rank_correlation(pairs: &[(f64, f64)]) -> f64 {
     let ranks = |values: Vec<f64>| -> Vec<usize> {
         let mut order: Vec<usize> = (0..values.len()).collect();

@@ -1,4 +1,4 @@
-//! TAC018: rows that are declared as without contact but have contact.
+//! TAC018: rows declared as without contact that have contact.
 
 use taceva_core::Field;
 
@@ -34,7 +34,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     .collect()
 }
 
-/// Finds rows without contact by the map but with a load by their label.
+/// Finds rows that the map declares as without contact but whose label is a load.
 fn loaded(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<Found> {
     let column = evidence.table.truth(load);
     let all = (0..column.len()).filter_map(|row| column.get(row));
@@ -56,7 +56,7 @@ fn loaded(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<F
     Some(evidence.found(Severity::Warning, message, &pressed))
 }
 
-/// Finds a mean of rest that is nearer to samples of more load.
+/// Finds a mean of the rest rows that is closer to samples with more load than to samples with less.
 fn resembling(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<Found> {
     let column = evidence.table.truth(load);
     let rows = facts.distance.iter().enumerate();

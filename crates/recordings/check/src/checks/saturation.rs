@@ -1,4 +1,4 @@
-//! TAC004: saturated pixels, at full scale.
+//! TAC004: pixels saturated at full scale.
 
 use taceva_core::Field;
 
@@ -14,9 +14,9 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Share of a frame's values at full scale from which it is reported.
+/// Share of full-scale values above which a frame is reported.
 const SHARE: f64 = 0.02;
-/// Share of zero or full values from which a frame was binarised on purpose.
+/// Share of zero or full-scale values above which a frame counts as binarised on purpose.
 const BINARISED: f64 = 0.98;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

@@ -1,4 +1,4 @@
-//! TAC012: sensor facts that labs often omit.
+//! TAC012: missing facts about the sensor.
 
 use taceva_core::Clock;
 

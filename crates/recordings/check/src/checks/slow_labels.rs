@@ -1,4 +1,4 @@
-//! TAC037: labels of a slow table that apply to many pictures each.
+//! TAC037: labels from a slow table, each applied to many pictures.
 
 use std::collections::BTreeMap;
 
@@ -18,9 +18,9 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of stretches for their length.
+/// Minimum number of stretches with one label.
 const LEAST: usize = 5;
-/// Minimum median length of a stretch, rows. Nine in ten stretches are at most `ALIKE` medians long; levels held on purpose vary more.
+/// Minimum median length of a stretch, rows. Nine in ten stretches are at most `ALIKE` medians long. Levels held on purpose vary more.
 const ROWS: usize = 2;
 const ALIKE: usize = 2;
 
@@ -78,7 +78,7 @@ fn of_join(evidence: &Evidence<'_>, join: &MappedJoin) -> Option<Found> {
     Some(Found::overall(Severity::Warning, message))
 }
 
-/// Consecutive rows with one label, clock by clock.
+/// Runs of consecutive rows with the same label, clock by clock.
 struct Stretches {
     all: Vec<Vec<usize>>,
     /// Total number of rows.
@@ -87,7 +87,7 @@ struct Stretches {
 }
 
 impl Stretches {
-    /// The stretches of the labels of `channels`; `None` if most rows have their own label, or levels were held on purpose.
+    /// Runs of equal labels of `channels`. `None` if most rows have their own label, or levels were held on purpose.
     fn of(table: &Table, channels: &[(usize, &Channel)]) -> Option<Stretches> {
         let times = table.t_s();
         let label = |row: usize| -> Option<Vec<u64>> {
@@ -147,7 +147,7 @@ impl Stretches {
         self.times[row].unwrap_or_default()
     }
 
-    /// Greatest age of a label, s: half a stretch for `nearest`, a whole one for `before`.
+    /// Greatest age of a label, s: half a run for `nearest`, a whole run for `before`.
     fn oldest_s(&self, pick: Option<&str>) -> f64 {
         let spans = self.all.iter().map(|stretch| {
             let (first, last) = (stretch[0], stretch[stretch.len() - 1]);
@@ -160,7 +160,7 @@ impl Stretches {
         }
     }
 
-    /// Mean and greatest difference between the labels and a straight line from stretch to stretch.
+    /// Mean and greatest difference between the labels and linear interpolation from run to run.
     fn interpolated(&self, table: &Table, position: usize) -> Option<(f64, f64)> {
         let column = table.truth(position);
         let middle = |stretch: &[usize]| {

@@ -1,4 +1,4 @@
-//! TAC009: a constant channel, and a force that freezes or is cut at a limit.
+//! TAC009: a constant channel, or a force that freezes or is clipped at a limit.
 
 use taceva_core::{Channel, Unit};
 
@@ -16,18 +16,18 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum length of a frozen stretch: a number of samples, and one in `STILL_SHARE` of all.
+/// Minimum length of a frozen stretch, samples. `STILL_SHARE` is its minimum share of all samples.
 const STILL: usize = 20;
 const STILL_SHARE: usize = 10;
-/// Minimum steps outside the stretch, of which at most one in `HELD` repeats its value: a channel that is often held is not stuck.
+/// Minimum number of steps outside the stretch. At most one in `HELD` may repeat its value, because a channel that is often held is not stuck.
 const BESIDE: usize = 10;
 const HELD: usize = 10;
-/// At most one in this many pictures of the stretch repeats the previous one: if pictures freeze too, the recording does.
+/// Maximum frequency of repeated pictures in the stretch: one in this many. If pictures freeze too, the whole recording does.
 const SAME_PICTURES: usize = 10;
-/// Minimum samples at the limit of a cut force: a number, and one in `CUT_SHARE` of all.
+/// Minimum number of samples at the limit of a clipped force. `CUT_SHARE` is their minimum frequency.
 const CUT: usize = 10;
 const CUT_SHARE: usize = 20;
-/// The limit occurs this many times as often as any other of at least `VALUES` values: commanded levels are no limit.
+/// Minimum ratio of the frequency of the limit to that of any other value, among at least `VALUES` values. Commanded levels do not reach it.
 const TIMES: usize = 3;
 const VALUES: usize = 20;
 
@@ -49,7 +49,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .collect()
 }
 
-/// The common value of all samples, if there are at least two.
+/// Value of all samples, if it is the same in at least two.
 fn only_value(labels: &[(usize, f64)]) -> Option<f64> {
     let (first, others) = labels.split_first()?;
     let is_only = !others.is_empty() && others.iter().all(|label| is_same(label, first));
@@ -95,7 +95,7 @@ fn still(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) ->
     Some(evidence.found(Severity::Warning, message, &rows))
 }
 
-/// Finds a force that is cut at its greatest or least value, away from zero, which is normal at rest.
+/// Finds a force clipped at its greatest or least value, except zero, which is normal at rest.
 fn cut(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) -> Option<Found> {
     let mut sorted = labels.to_vec();
     sorted.retain(|(_, value)| value.abs() > 0.0);

@@ -1,4 +1,4 @@
-//! TAC008: the true rate, and impossible times.
+//! TAC008: measured sample rate, and impossible times.
 
 use taceva_core::by_count;
 use taceva_metrics::STREAM_S;
@@ -17,12 +17,12 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of samples for a rate.
+/// Minimum number of samples for computing a rate.
 const LEAST: usize = 10;
-/// Length above which a step is a gap, in usual steps, with a tolerance for rounding.
+/// Length above which a step is a gap, in usual steps. Includes a tolerance for rounding.
 const GAP: f64 = 3.0;
 const ROUNDING: f64 = 1e-6;
-/// Maximum relative difference of the mean of the other steps from the usual one in a regular stream.
+/// Maximum relative difference, in a regular stream, between the usual step and the mean of the steps without gaps.
 const ALIKE: f64 = 0.05;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -81,13 +81,13 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let boots = evidence.sessions.map_or(1, |sessions| sessions.boots);
     if backwards.len() >= boots {
         found.push(warn(
-            "samples are older than the one before them",
+            "samples are older than the previous sample",
             &backwards,
         ));
     }
     if is_of_one_clock && !repeated.is_empty() {
         found.push(warn(
-            "samples have the time of the one before them",
+            "samples have the same time as the previous sample",
             &repeated,
         ));
     }
@@ -100,7 +100,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// The usual step is the median of the forward steps, so that pauses between presses do not change it.
+/// Median of the forward steps as usual step, so that pauses between presses do not affect it.
 fn rate(steps: &[(usize, f64)], missing: Option<&Missing>) -> Found {
     let mut forward: Vec<f64> = steps.iter().map(|(_, seconds)| *seconds).collect();
     forward.retain(|seconds| *seconds > 0.0);

@@ -1,4 +1,4 @@
-//! TAC014: columns of the imported table that were not used, above all those that rate their rows.
+//! TAC014: unused columns of the imported table, especially columns that rate the rows.
 
 use taceva_core::shown;
 use taceva_dataset::internal::first_names;
@@ -16,7 +16,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Maximum columns that a note names.
+/// Maximum number of columns in a note.
 const NAMED: usize = 12;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -36,7 +36,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Note on a column that may rate its rows, with the map entry that would use it.
+/// Warning about a column that may rate its rows, with the map entry that would use it.
 fn unread(name: &str) -> String {
     let name = shown(name);
     format!(

@@ -1,4 +1,4 @@
-//! TAC035: a drifting zero of the transducer: forces of pictures without contact step or drift.
+//! TAC035: drifting zero of the force transducer, from steps or drifts of forces without contact.
 
 use taceva_core::{Channel, Field, Unit};
 
@@ -22,9 +22,9 @@ const SIDE: usize = 4;
 const LEAST: usize = 8;
 /// Minimum shift as a share of the 95th percentile of the labels.
 const SHARE: f64 = 0.02;
-/// Minimum shift in its own standard errors; large because the position of a step is searched.
+/// Minimum shift in standard errors of the shift; large because the position of a step is searched.
 const CLEAR: f64 = 6.0;
-/// Rounding of labels with few decimals, as a share of the greatest; it is no scatter.
+/// Rounding of labels with few decimals, as a share of the greatest label. Rounding does not count as scatter.
 const ROUNDING: f64 = 1e-4;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -40,7 +40,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .collect()
 }
 
-/// Finds a step or a drift of the zero of one channel.
+/// Finds a step or drift in the zero of one channel.
 fn of_channel(
     evidence: &Evidence<'_>,
     rows: &[usize],
@@ -101,16 +101,16 @@ fn of_channel(
     Some(evidence.found(Severity::Warning, message, &shifted))
 }
 
-/// The first time of the recording, s.
+/// First time of the recording, s.
 fn first_time(evidence: &Evidence<'_>) -> f64 {
     let times = evidence.table.t_s().iter().flatten();
     times.copied().fold(f64::INFINITY, f64::min)
 }
 
-/// The step with the least residual scatter.
+/// Step with the least residual scatter.
 #[derive(Clone, Copy, Debug)]
 struct Step {
-    /// Index of the first value after it.
+    /// Index of the first value after the step.
     at: usize,
     before: f64,
     after: f64,
@@ -121,7 +121,7 @@ struct Step {
 }
 
 impl Step {
-    /// The best step of `values` in order; `least` is the scatter by rounding alone.
+    /// Best step of `values` in order. `least` is the scatter from rounding alone.
     fn of(values: &[f64], least: f64) -> Option<Step> {
         let mut sums = vec![(0.0, 0.0)];
         for value in values {
@@ -151,7 +151,7 @@ impl Step {
     }
 }
 
-/// The straight line through the values.
+/// Straight line through the values.
 #[derive(Clone, Copy, Debug)]
 struct Drift {
     /// Change from the first time to the last.

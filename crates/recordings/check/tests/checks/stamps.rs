@@ -108,7 +108,7 @@ fn a_time_stamp_that_is_doubled_once_is_repeated_and_no_frame_is_missing() {
         report
             .findings
             .iter()
-            .any(|finding| finding.message == "1 sample has the time of the one before them"),
+            .any(|finding| finding.message == "1 sample has the same time as the previous sample"),
         "{:#?}",
         report.findings
     );

@@ -17,7 +17,7 @@ use crate::pack::read_span;
 use crate::table::FrameEntry;
 
 impl Dataset {
-    /// The frame of a row, verified and decoded; `None` if the row has none.
+    /// Frame of a row, verified and decoded; `None` if the row has no frame.
     ///
     /// # Errors
     /// [`DatasetError::Digest`] if its file differs from the recorded one; [`DatasetError::Image`] if it cannot be decoded;
@@ -38,7 +38,7 @@ impl Dataset {
         }
     }
 
-    /// Message about damage inside the picture of a row although it decodes; `None` if it is intact, or the row has no frame.
+    /// Description of damage inside the picture of a row, although it can be decoded. `None` if the picture is intact or missing.
     ///
     /// A JPEG is read to its end, code by code. Imports reject such damage, but older datasets may contain it.
     ///
@@ -64,7 +64,7 @@ impl Dataset {
         Ok(None)
     }
 
-    /// The frame without contact, if known; `None` for joined recordings, because each has its own.
+    /// Frame without contact, if known; `None` for joined recordings, because each has its own.
     ///
     /// # Errors
     /// As [`frame`](Dataset::frame).
@@ -80,7 +80,7 @@ impl Dataset {
         frame.transpose()
     }
 
-    /// The original bytes of the picture without contact, verified; `None` for views side by side.
+    /// Original bytes of the picture without contact, verified; `None` for views side by side.
     pub fn reference_bytes(&self) -> Result<Option<Vec<u8>>, DatasetError> {
         let entry = self.reference_entry();
         entry.map(|entry| self.frame_bytes(&entry)).transpose()
@@ -112,10 +112,10 @@ impl Dataset {
         Ok(frame)
     }
 
-    /// The original bytes of a frame, verified.
+    /// Original bytes of a frame, verified.
     ///
     /// # Errors
-    /// [`DatasetError::Digest`] if they differ from the recorded ones; [`DatasetError::Io`].
+    /// [`DatasetError::Digest`] if the bytes differ from the recorded ones; [`DatasetError::Io`].
     pub fn frame_bytes(&self, entry: &FrameEntry) -> Result<Vec<u8>, DatasetError> {
         if let Some((recording, entry)) = self.entry_of(entry) {
             return recording.frame_bytes(&entry);
@@ -136,7 +136,7 @@ impl Dataset {
         Ok(bytes)
     }
 
-    /// The first frame of the pack that `entry` is in.
+    /// First frame of the pack that contains `entry`.
     fn first_entry(&self, entry: &FrameEntry) -> Result<&FrameEntry, DatasetError> {
         let is_first = |first: &&FrameEntry| first.begins(&entry.path) && !first.is_difference();
         let mut frames = self.table.frames().iter().flatten();
@@ -148,7 +148,7 @@ impl Dataset {
         })
     }
 
-    /// The first frame of a pack, decoded once for each pack.
+    /// First frame of a pack, decoded once per pack.
     fn first_of_pack(
         &self,
         entry: &FrameEntry,

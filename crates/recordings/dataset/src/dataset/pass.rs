@@ -1,4 +1,4 @@
-//! Passes over the rows of a dataset, on several threads and in order.
+//! Ordered passes over the rows of a dataset, on several threads.
 
 use std::num::NonZeroUsize;
 
@@ -8,7 +8,7 @@ use super::Dataset;
 use crate::error::DatasetError;
 use crate::parallel::ordered_map;
 
-/// Rows of a pass in order, with its threads and its progress receiver.
+/// Rows of a pass in order, with number of threads and progress receiver.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
@@ -45,16 +45,16 @@ use crate::parallel::ordered_map;
 #[derive(Clone, Copy)]
 #[non_exhaustive]
 pub struct Pass<'a> {
-    /// The rows, from 0, in the order of the pass.
+    /// Row indices, from 0, in the order of the pass.
     pub rows: &'a [usize],
-    /// Threads that read and decode.
+    /// Number of threads that read and decode.
     pub jobs: NonZeroUsize,
     /// Receives each finished row, and may cancel the pass.
     pub progress: &'a dyn Progress,
 }
 
 impl<'a> Pass<'a> {
-    /// A pass over `rows` on `jobs` threads.
+    /// Pass over `rows` on `jobs` threads.
     pub fn new(rows: &'a [usize], jobs: NonZeroUsize, progress: &'a dyn Progress) -> Pass<'a> {
         Pass {
             rows,
@@ -106,14 +106,15 @@ impl<'a> Pass<'a> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct StreamReport {
-    /// Samples given to the sink.
+    /// Number of samples passed to the sink.
     pub samples: u64,
-    /// Frames that were read and decoded; 0 if the sink reads none.
+    /// Number of decoded frames; 0 if the sink reads no frames.
     pub frames_decoded: u64,
 }
 
 impl Dataset {
-    /// Decodes the frame of each row, calls `work` with it on one of the threads, and `take` with the results in order on this one.
+    /// Decodes the frame of each row and calls `work` with it on one of several threads. Calls `take` with the results in
+    /// order on the calling thread.
     ///
     /// Memory holds at most a few frames for each thread. The result does not depend on the number of threads.
     ///
@@ -137,7 +138,7 @@ impl Dataset {
         })
     }
 
-    /// Calls `work` with each row on one of the threads, and `take` with the results in order on this one; `stage` names the work in
+    /// Calls `work` with each row on one of several threads, and `take` with the results in order on the calling thread. `stage` names the work in
     /// progress reports.
     ///
     /// # Errors
@@ -152,7 +153,7 @@ impl Dataset {
         self.pass(pass, stage, work, take)
     }
 
-    /// Pushes the sample of each row into `sink`, in order; frames are decoded and signals read only if the sink reads them.
+    /// Passes the sample of each row to `sink`, in order. Frames are decoded and signals read only if the sink needs them.
     ///
     /// # Errors
     /// As [`frame`](Dataset::frame); [`DatasetError::Sink`] if the sink rejects a sample; [`DatasetError::Cancelled`].

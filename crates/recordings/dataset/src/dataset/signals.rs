@@ -1,4 +1,4 @@
-//! Signals of a dataset: their file is opened and verified on the first request.
+//! Signals of a dataset. The first request opens and verifies their file.
 
 use std::sync::{Arc, PoisonError};
 
@@ -10,7 +10,7 @@ use crate::layout;
 use crate::signals::SignalsReader;
 
 impl Dataset {
-    /// The fields of at least one sample: those of the table, and signals, which have their own file.
+    /// Fields of at least one sample: those of the table, and signals, which have a separate file.
     pub fn fields(&self) -> FieldSet {
         let fields = self.table.fields();
         match self.header.signals {
@@ -19,7 +19,7 @@ impl Dataset {
         }
     }
 
-    /// The signals of a row; `None` if the recording has none. The first request verifies their whole file.
+    /// Signals of a row; `None` if the recording has none. The first request verifies the whole file.
     ///
     /// # Errors
     /// [`DatasetError::Digest`] if the file differs from the recorded one, [`DatasetError::Damaged`] if it contradicts its header;
@@ -35,8 +35,7 @@ impl Dataset {
         }
     }
 
-    /// The signals without contact: the mean over the rows marked as without contact. `None` if there is no such row, and for joined
-    /// recordings, because each has its own.
+    /// Mean signals over the rows declared as without contact. `None` without such rows, and for joined recordings, because each has its own.
     ///
     /// # Errors
     /// As [`signals`](Dataset::signals).
@@ -72,7 +71,7 @@ impl Dataset {
         })
     }
 
-    /// The rows marked as without contact, by their taxels.
+    /// Rows declared as without contact, for their signals.
     pub fn rest_rows(&self) -> impl Iterator<Item = usize> + '_ {
         let info = self.header.signals.iter();
         let runs = info.flat_map(|info| &info.spec.rest);
@@ -84,7 +83,7 @@ impl Dataset {
         })
     }
 
-    /// Reads all signals and compares them with the recorded ones.
+    /// Reads all signals and checks their digest.
     pub(super) fn verify_signals(&self) -> Result<(), DatasetError> {
         match self.signals_reader()? {
             Some(reader) => reader.verify(),

@@ -1,4 +1,4 @@
-//! Several recordings of one kind of sensor read as one: one table of labels, with frames and signals in their original files.
+//! Several recordings of the same kind of sensor as one dataset: one table of labels, with frames and signals in their original files.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
@@ -18,10 +18,10 @@ mod agreement;
 use agreement::differences;
 pub use agreement::{Difference, differences_of_added};
 
-/// Separator between the name of a recording and that of a sample, a contact point or a frame in it; no name of a recording contains it.
+/// Separator between the name of a recording and the name of a sample, contact point or frame in it. Names of recordings do not contain it.
 const SEPARATOR: char = '/';
 
-/// A recording within [`Dataset::joined`].
+/// Recording that is part of a dataset from [`Dataset::joined`].
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Readings, Sample};
@@ -52,7 +52,7 @@ pub struct JoinedRecording {
 }
 
 impl JoinedRecording {
-    /// Name of its folder; a second folder of that name becomes `NAME#2`.
+    /// Folder name. A second folder with the same name becomes `NAME#2`.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -62,7 +62,7 @@ impl JoinedRecording {
         self.rows.clone()
     }
 
-    /// The recording itself, with rows from 0.
+    /// Recording itself, with rows from 0.
     pub fn dataset(&self) -> &Dataset {
         &self.dataset
     }
@@ -119,14 +119,14 @@ impl Dataset {
         &self.joined
     }
 
-    /// The recording that contains `row`, and the row in it; `None` for a single recording.
+    /// Recording that contains `row`, and the row in that recording; `None` for a single recording.
     pub fn recording_of(&self, row: usize) -> Option<(&Dataset, usize)> {
         let at = self.joined.partition_point(|own| own.rows.end <= row);
         let own = self.joined.get(at)?;
         Some((&own.dataset, row - own.rows.start))
     }
 
-    /// The recording of the frame at `entry`, and the entry in that recording.
+    /// Recording that contains the frame at `entry`, and the entry in that recording.
     pub(super) fn entry_of(&self, entry: &FrameEntry) -> Option<(&Dataset, FrameEntry)> {
         let (name, path) = entry.path.split_once(SEPARATOR)?;
         let own = self.joined.iter().find(|own| own.name == name)?;
@@ -161,10 +161,10 @@ fn check_distinct(recordings: &[Dataset]) -> Result<(), DatasetError> {
     check_no_overlap(recordings)
 }
 
-/// The digest of a frame, and its labels by channel name, bit for bit.
+/// Digest of a frame, and its labels by channel name, bit for bit.
 type Shared = (Digest, Vec<Option<u64>>);
 
-/// Number of different pictures shared under other labels from which two recordings overlap: no camera takes a picture twice.
+/// Least number of different pictures shared under other labels that makes two recordings overlap. No camera takes the same picture twice.
 const SAME_PICTURES: usize = 3;
 
 /// Rejects recordings that share a sample: equal frame bytes and labels, or some pictures under other labels, as in two imports of one recording.
@@ -238,7 +238,7 @@ fn unlike(one: &Dataset, other: &Dataset, problem: String) -> DatasetError {
     }
 }
 
-/// The names of the folders at `paths`, with a number if not unique.
+/// Names of the folders at `paths`, with a number appended if not unique.
 fn names<'a>(paths: impl Iterator<Item = &'a Path>) -> Vec<String> {
     let mut taken: Vec<String> = Vec::new();
     for path in paths {
@@ -253,7 +253,7 @@ fn names<'a>(paths: impl Iterator<Item = &'a Path>) -> Vec<String> {
     taken
 }
 
-/// The labels of all recordings; names of samples, contact points and frames are prefixed with their recording.
+/// Labels of all recordings. Names of samples, contact points and frames get the recording as prefix.
 fn joined_table(recordings: &[Dataset], names: &[String]) -> Table {
     let attributes = recordings
         .iter()
@@ -283,7 +283,7 @@ fn joined_table(recordings: &[Dataset], names: &[String]) -> Table {
     table
 }
 
-/// The joint header. If they differ, the clock is unknown, and serial number and gel are `several`.
+/// Header of the joined dataset. If the recordings differ, the clock is unknown, and serial number and gel are `several`.
 fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.dataset/1 of several recordings");

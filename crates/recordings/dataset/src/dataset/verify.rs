@@ -1,4 +1,4 @@
-//! Comparison of the files of a dataset with its header.
+//! Checks the files of a dataset against its header.
 
 use std::io::{Seek, SeekFrom};
 use std::path::Path;
@@ -17,10 +17,10 @@ use crate::samples::from_parquet;
 use crate::table::{FrameEntry, Table};
 
 impl Dataset {
-    /// Reads all frames, signals and predictions, and compares them with the recorded digests; decodes no frame.
+    /// Reads all frames, signals and predictions, and checks their digests. Decodes no frame.
     ///
     /// # Errors
-    /// As [`frame_bytes`](Dataset::frame_bytes), for the first that differs.
+    /// As [`frame_bytes`](Dataset::frame_bytes), for the first difference.
     pub fn verify_frames(&self) -> Result<(), DatasetError> {
         if !self.joined.is_empty() {
             let mut joined = self.joined.iter();
@@ -40,7 +40,7 @@ impl Dataset {
         self.verify_signals()
     }
 
-    /// Checks that the table of predictions beside the recording, if there is one, is unchanged.
+    /// Checks that the table of predictions beside the recording, if any, is unchanged.
     fn verify_predictions(&self) -> Result<(), DatasetError> {
         let Some(predictions) = &self.header.predictions else {
             return Ok(());
@@ -51,7 +51,7 @@ impl Dataset {
         check_digest(path, predictions.sha256, found)
     }
 
-    /// Checks that header and table agree. Paths are checked here once, so that reading a frame only joins them.
+    /// Checks that header and table agree, and that all paths are valid, so that reading a frame needs no further check.
     pub(super) fn check_consistency(&self) -> Result<(), DatasetError> {
         let damaged =
             |name: &str, problem: String| DatasetError::damaged(&self.path().join(name), problem);

@@ -1,4 +1,4 @@
-//! Datasets with several pictures for each sample, seen in one view or in several side by side.
+//! Views of datasets with several pictures per sample: one view, or several side by side.
 
 use taceva_core::{Frame, FrameInfo};
 
@@ -10,7 +10,7 @@ use crate::table::{FrameEntry, digest_of};
 use crate::view_names::BESIDE;
 
 impl Dataset {
-    /// The names of the views, in the order of `dataset.toml`; empty if a sample has at most one picture.
+    /// Names of the views, in the order of `dataset.toml`; empty if samples have at most one picture.
     pub fn views(&self) -> Vec<&str> {
         self.header
             .views
@@ -19,7 +19,7 @@ impl Dataset {
             .collect()
     }
 
-    /// The chosen view, such as `left` or `left+right`; `None` if none was chosen.
+    /// Selected view, such as `left` or `left+right`; `None` if none was selected.
     pub fn view(&self) -> Option<String> {
         (!self.seen.is_empty()).then(|| {
             let names = self
@@ -32,12 +32,12 @@ impl Dataset {
 
     /// The same dataset with the frames of the view `view`, or of several side by side: `left+right`.
     ///
-    /// The digest depends on the digest of the dataset and on the view. Labels stay the same. Several views have no common file, so entries of
-    /// the table then have no bytes.
+    /// The digest depends on the dataset and on the view. Labels are unchanged. Several views have no common file, so their table entries have no
+    /// bytes.
     ///
     /// # Errors
-    /// [`DatasetError::View`] if there is no such view; [`DatasetError::Request`] if one is named twice, or if pictures side by side differ
-    /// in height or format; [`DatasetError::Io`].
+    /// [`DatasetError::View`] if there is no such view. [`DatasetError::Request`] if a view is named twice, or if pictures side by side differ in
+    /// height or format. [`DatasetError::Io`].
     pub fn seen(&self, view: &str) -> Result<Dataset, DatasetError> {
         if !self.joined.is_empty() {
             let recordings = self.joined.iter();
@@ -61,10 +61,10 @@ impl Dataset {
         })
     }
 
-    /// Checks that the picture of a sample is unambiguous.
+    /// Checks that each sample has a single picture or a view was selected.
     ///
     /// # Errors
-    /// [`DatasetError::View`] with the list of views, if there are several and none was chosen.
+    /// [`DatasetError::View`] with the list of views, if there are several and none was selected.
     pub fn require_view(&self) -> Result<(), DatasetError> {
         match self.header.views.is_empty() || !self.seen.is_empty() {
             true => Ok(()),
@@ -80,7 +80,7 @@ impl Dataset {
         }
     }
 
-    /// The indices of the views in `view`.
+    /// Indices of the views in `view`.
     fn positions(&self, view: &str) -> Result<Vec<usize>, DatasetError> {
         let mut seen = Vec::new();
         for name in view.split(BESIDE) {
@@ -98,7 +98,7 @@ impl Dataset {
         Ok(seen)
     }
 
-    /// The frames of a row in the chosen views side by side, as one; `None` if the row lacks one of them.
+    /// Frame of a row with the selected views side by side; `None` if a view has no picture of the row.
     pub(super) fn frame_beside(&self, row: usize) -> Result<Option<Frame>, DatasetError> {
         let frames = self.seen.iter().map(|at| {
             let entry = self.table.views()[*at].frames()[row].as_ref();
@@ -109,7 +109,7 @@ impl Dataset {
         frames?.map(|frames| self.beside(&frames)).transpose()
     }
 
-    /// The frames without contact of these views side by side; `None` if one of them has none.
+    /// Frame without contact with the selected views side by side; `None` if a view has none.
     pub(super) fn reference_beside(&self) -> Result<Option<Frame>, DatasetError> {
         let frames = self.seen.iter().map(|at| {
             let info = &self.header.views[*at].frames;
@@ -145,7 +145,7 @@ impl Dataset {
     }
 }
 
-/// The entry of the picture without contact.
+/// Entry of the picture without contact.
 pub(super) fn reference_entry(reference: &ReferenceInfo) -> FrameEntry {
     FrameEntry {
         path: reference.path.clone(),
@@ -154,7 +154,7 @@ pub(super) fn reference_entry(reference: &ReferenceInfo) -> FrameEntry {
     }
 }
 
-/// Size and format of the pictures of `views` side by side, or a message if they do not fit.
+/// Size and format of the pictures of `views` side by side, or an error message if they do not fit.
 fn info_of(views: &[&ViewInfo]) -> Result<FrameInfo, String> {
     let Some((first, others)) = views.split_first() else {
         return Err("no view is named".to_owned());
@@ -171,7 +171,7 @@ fn info_of(views: &[&ViewInfo]) -> Result<FrameInfo, String> {
         info.width = info
             .width
             .checked_add(own.width)
-            .ok_or_else(|| format!("`{}` makes them too wide", other.name))?;
+            .ok_or_else(|| format!("`{}` makes the joint picture too wide", other.name))?;
     }
     Ok(info)
 }
@@ -202,7 +202,7 @@ fn frames_of(views: &[&ViewInfo], info: FrameInfo, count: u64) -> FramesInfo {
     frames
 }
 
-/// Changes `header` to that of a dataset seen in `view`.
+/// Changes `header` to the header of the dataset seen in `view`.
 fn see(header: &mut Header, frames: FramesInfo, view: &str) {
     header.frames = Some(frames);
     header.digest = seen_digest(header.digest, view);
@@ -211,7 +211,7 @@ fn see(header: &mut Header, frames: FramesInfo, view: &str) {
     }
 }
 
-/// The digest of a dataset seen in `view`, because other pictures give other numbers.
+/// Digest of a dataset seen in `view`, because other pictures give other numbers.
 fn seen_digest(dataset: Digest, view: &str) -> Digest {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.dataset/1 seen by");

@@ -1,4 +1,4 @@
-//! TIFF: one picture of 8 or 16 bits, gray or RGB, uncompressed or with LZW, Deflate or PackBits.
+//! TIFF decoder: one picture of 8 or 16 bits, gray or RGB, uncompressed or with LZW, Deflate or PackBits.
 
 use std::io::Cursor;
 
@@ -10,7 +10,7 @@ use tiff::{ColorType, TiffError};
 use super::{checked_length, most_of, without_alpha};
 use crate::limits;
 
-/// Decodes a TIFF file: its format, and its pixels with interleaved colours, 16-bit numbers little-endian.
+/// Decodes a TIFF file. Returns its format and its pixels, with interleaved colours and little-endian 16-bit values.
 ///
 /// Other number types (signed, floating point, other bit depths), colours (palettes, CMYK, YCbCr) and compressions (JPEG, fax) are rejected
 /// by name, and so are several pictures in one file.
@@ -77,7 +77,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     Ok((info, pixels))
 }
 
-/// The message of the decoder; for unsupported content with the supported alternatives.
+/// Message of the decoder; for unsupported content with the supported alternatives.
 fn text(error: TiffError) -> String {
     match error {
         TiffError::UnsupportedError(what) => format!(
@@ -87,7 +87,7 @@ fn text(error: TiffError) -> String {
     }
 }
 
-/// Checks that every strip or tile lies within the file: a Deflate decoder may need fewer bytes than the stated length.
+/// Checks that every strip or tile lies within the file, because a Deflate decoder may need fewer bytes than declared.
 fn check_pieces(decoder: &mut Decoder<Cursor<&[u8]>>, length: u64) -> Result<(), String> {
     for (offsets, lengths) in [
         (Tag::StripOffsets, Tag::StripByteCounts),

@@ -1,8 +1,7 @@
-//! PNG encoder for noisy pictures: the five filters of the format, then Huffman codes only.
+//! PNG encoder for noisy pictures: the five filters of the format, then only Huffman codes.
 //!
-//! The residue of a camera picture after a filter is mostly noise, which has no repetitions. The search for them, the slow part of deflate,
-//! finds only accidents and makes files larger: by a fifth for pictures of the simulated cameras. An even picture shrinks to an eighth of
-//! its bytes at best.
+//! After filtering, a camera picture is mostly noise, without repetitions. The search for repetitions is the slow part of deflate. It finds only
+//! accidental repetitions and makes files a fifth larger for pictures of the simulated cameras. A uniform picture shrinks to an eighth at best.
 
 use miniz_oxide::deflate::core::{
     CompressionStrategy, CompressorOxide, TDEFLFlush, TDEFLStatus, compress_to_output,
@@ -44,7 +43,7 @@ pub(super) fn file(frame: &Frame) -> Result<Vec<u8>, String> {
     Ok(file)
 }
 
-/// The samples in the byte order of PNG, high byte first.
+/// Samples in the byte order of PNG, high byte first.
 fn samples(frame: &Frame) -> Vec<u8> {
     match frame.info().format.bytes_per_sample() {
         1 => frame.bytes().to_vec(),
@@ -52,7 +51,7 @@ fn samples(frame: &Frame) -> Vec<u8> {
     }
 }
 
-/// Each row after the number of its filter: the filter with the smallest sum of magnitudes.
+/// Filtered rows, each preceded by the number of its filter: the filter with the smallest sum of magnitudes.
 fn filtered(samples: &[u8], row: usize, pixel: usize) -> Vec<u8> {
     let mut filtered = Vec::with_capacity(samples.len() + samples.len() / row.max(1) + 1);
     let nothing = vec![0; row];
@@ -80,7 +79,7 @@ fn filtered(samples: &[u8], row: usize, pixel: usize) -> Vec<u8> {
 /// Number of filters: none, left, above, the mean of both, and Paeth's choice of three, in the order of the format.
 const FILTERS: u8 = 5;
 
-/// Writes the residue of a row under `above` after `filter`, for pixels of `pixel` bytes.
+/// Filters a row below `above`, for pixels of `pixel` bytes.
 fn apply(filter: u8, current: &[u8], above: &[u8], pixel: usize, into: &mut [u8]) {
     for (at, into) in into.iter_mut().enumerate() {
         let left = at.checked_sub(pixel);
@@ -97,7 +96,7 @@ fn apply(filter: u8, current: &[u8], above: &[u8], pixel: usize, into: &mut [u8]
     }
 }
 
-/// The neighbour nearest to left + above − corner; the earlier one of equals.
+/// Neighbour nearest to left + above − corner; the first of equally near neighbours.
 fn paeth(left: u8, above: u8, corner: u8) -> u8 {
     let [a, b, c] = [left, above, corner].map(i16::from);
     let plane = a + b - c;
@@ -113,9 +112,9 @@ fn paeth(left: u8, above: u8, corner: u8) -> u8 {
 
 /// `bytes` as a zlib stream of Huffman codes.
 fn zlib(bytes: &[u8]) -> Result<Vec<u8>, String> {
-    /// Any level that compresses: it only limits the search for repetitions.
+    /// Lowest level that compresses; the level only limits the search for repetitions.
     const LEVEL: i32 = 1;
-    /// The largest window, and a stream with the header of zlib.
+    /// Largest window, in a stream with the header of zlib.
     const WINDOW_BITS: i32 = 15;
     let strategy = CompressionStrategy::HuffmanOnly as i32;
     let flags = create_comp_flags_from_zip_params(LEVEL, WINDOW_BITS, strategy);
@@ -138,7 +137,7 @@ mod tests {
     use super::*;
     use crate::decode::{ChannelOrder, decode};
 
-    /// Slow light and noise, from a linear congruence.
+    /// Smooth light with noise from a linear congruential generator.
     fn noisy(width: u32, height: u32, format: PixelFormat) -> Frame {
         let info = FrameInfo {
             width,

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::text::{shown, shown_path};
 
-/// A location in a file.
+/// Location in a file.
 ///
 /// ```
 /// use taceva_dataset::{DatasetError, SensorFile};
@@ -22,7 +22,7 @@ use crate::text::{shown, shown_path};
 #[non_exhaustive]
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Place {
-    /// The file.
+    /// Path of the file.
     pub path: PathBuf,
     /// Line, from 1.
     pub line: Option<u64>,
@@ -33,7 +33,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// The whole file at `path`.
+    /// Location of the whole file at `path`.
     pub fn file(path: &Path) -> Place {
         Place {
             path: path.to_owned(),
@@ -64,7 +64,7 @@ impl Place {
         Place { row: None, ..self }
     }
 
-    /// A line of the file at `path`.
+    /// Location of a line of the file at `path`.
     pub fn line(path: &Path, line: u64) -> Place {
         Place {
             line: Some(line),
@@ -73,7 +73,7 @@ impl Place {
     }
 }
 
-/// The whole file at a path.
+/// Location of the whole file at a path.
 impl<P: AsRef<Path> + ?Sized> From<&P> for Place {
     fn from(path: &P) -> Place {
         Place::file(path.as_ref())

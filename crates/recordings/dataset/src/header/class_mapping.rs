@@ -1,8 +1,8 @@
-//! Closed list of classes of a map.
+//! Closed list of classes in a map.
 
 use serde::{Deserialize, Serialize};
 
-/// Mapping of a column of classes by an import: with another list, a number is another class.
+/// Mapping of a column of classes by an import. In another list, the same number is another class.
 ///
 /// ```
 /// let text = "name = \"texture\"\nfrom = \"c\"\nnames = [\"smooth\", \"rough\"]\n";
@@ -13,16 +13,16 @@ use serde::{Deserialize, Serialize};
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MappedClass {
-    /// The attribute.
+    /// Name of the attribute.
     pub name: String,
-    /// The column.
+    /// Name of the source column.
     pub from: String,
-    /// The list; for a long one the first names, and a digest of the others.
+    /// Names of the classes. Long lists are stored as the first names and a digest of the others.
     pub names: Vec<String>,
 }
 
 impl MappedClass {
-    /// The attribute `name`, read from the column `from` by the list `names`.
+    /// Attribute `name`, read from the column `from` with the list `names`.
     pub fn new(name: &str, from: &str, names: Vec<String>) -> MappedClass {
         MappedClass {
             name: name.to_owned(),
@@ -31,7 +31,7 @@ impl MappedClass {
         }
     }
 
-    /// The first position with another class in `known`; a longer list with the same beginning is compatible.
+    /// First position whose class differs; `None` if one list begins with the other.
     pub(super) fn other_position(&self, known: &MappedClass) -> Option<usize> {
         let mut pairs = self.names.iter().zip(&known.names);
         pairs.position(|(own, known)| own != known)

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::map_conflict::{Misread, differing, number, quoted};
 
-/// Mapping of a label by an import. It is compared before rows are added with another map: another unit, sign or matrix for the same column would
-/// give wrong numbers without an error.
+/// Mapping of a label by an import. Before rows are added with another map, both mappings are compared. Another unit, sign or matrix for the same
+/// column would give wrong numbers without an error.
 ///
 /// ```
 /// let text = "label = \"Fz\"\nfrom = [\"force_z\"]\nunit = \"mN\"\nsign = -1\n";
@@ -16,36 +16,36 @@ use super::map_conflict::{Misread, differing, number, quoted};
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MappedColumn {
-    /// The channel; `t_s` for the time, and `signals` for the taxels.
+    /// Name of the channel; `t_s` for the time, and `signals` for the taxels.
     pub label: String,
-    /// The column; for a matrix or for taxels the columns in order.
+    /// Source column; for a matrix or for taxels, all columns in order.
     pub from: Vec<String>,
-    /// Unit of the cells, or of the result of a matrix.
+    /// Unit of the cells, or of the matrix product.
     pub unit: String,
     /// 1, or -1 for an inverted sign.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub sign: i8,
-    /// Offsets that are subtracted from the cells of each column first, in their unit; empty for none.
+    /// Offset subtracted from the cells of each column, in their unit; empty for none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub offset: Vec<f64>,
-    /// Factors of the offset-corrected columns, which are then summed; empty for none.
+    /// Factors of the columns after subtraction of the offsets. The products are summed. Empty for none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub factors: Vec<f64>,
-    /// Value that means "not measured". A row is left out if all columns with a placeholder hold it.
+    /// Placeholder for "not measured". A row is left out if all columns with a placeholder contain it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placeholder: Option<f64>,
     /// Order of taxels: `place-first` or `channel-first`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub order: Option<String>,
-    /// The mean that is subtracted as the zero, in words.
+    /// Description of the mean that is subtracted as the zero.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub zero: Option<String>,
-    /// The weight that is subtracted, in words.
+    /// Description of the weight that is subtracted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<String>,
 }
 
-/// Remedy for a column that was recorded otherwise.
+/// Remedy for a column that was mapped differently before.
 const OTHER_COLUMN: &str =
     "if the column was recorded differently this time, rename it in the table";
 
@@ -66,7 +66,7 @@ impl MappedColumn {
         }
     }
 
-    /// The key of a map for the setting `word`.
+    /// Key in the map for the setting `word`.
     fn key(&self, word: &str) -> String {
         let is_matrix = self.from.len() > 1 && !self.factors.is_empty();
         match (self.label.as_str(), word) {
@@ -86,7 +86,7 @@ impl MappedColumn {
         other.from.iter().any(|column| self.from.contains(column))
     }
 
-    /// First setting that differs between `self`, from a new map, and `known`. Both read the same column for the same label.
+    /// First setting in which `self`, from a new map, differs from `known`. Both map the same column to the same label.
     fn differs_from(&self, known: &MappedColumn) -> Option<Misread> {
         let facts = |column: &MappedColumn| {
             let order = column.order.clone();
@@ -109,7 +109,7 @@ impl MappedColumn {
     }
 }
 
-/// The first column in `new`, from another map, that is read otherwise than in `known`. Columns of other names are ignored.
+/// First column in `new`, from another map, that is mapped differently in `known`. Columns with other names are ignored.
 pub(super) fn misread(known: &[MappedColumn], new: &[MappedColumn]) -> Option<Misread> {
     new.iter().find_map(|column| {
         let same_label = known.iter().filter(|known| known.label == column.label);

@@ -1,4 +1,4 @@
-//! Rows added to a recording after its import.
+//! Addition of rows to a recording after its import.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,13 +16,13 @@ use crate::digest::Digest;
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Extension {
-    /// Number of samples before: the added ones begin at this row, counted from 0.
+    /// Number of samples before the addition. Added rows begin at this index, from 0.
     pub rows: u64,
-    /// The digest of the dataset before.
+    /// Digest of the dataset before the addition.
     pub digest: Digest,
-    /// The day of the addition, UTC: `2026-11-23`.
+    /// Day of the addition, UTC: `2026-11-23`.
     pub date: String,
-    /// The folder of the import, as typed.
+    /// Folder of the import, as typed.
     pub from: String,
 }
 
@@ -44,7 +44,7 @@ impl Extension {
 }
 
 impl Header {
-    /// Digests of the recording with their numbers of samples: one before each extension, the present one last.
+    /// Digest and number of samples of each state of the recording: one before each addition, the present state last.
     pub fn stages(&self) -> impl Iterator<Item = (Digest, u64)> + '_ {
         let before = self.extended.iter();
         let before = before.map(|extension| (extension.digest, extension.rows));

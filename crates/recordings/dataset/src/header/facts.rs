@@ -1,4 +1,4 @@
-//! Facts of the sensor, the frames and the table in a header.
+//! Facts about the sensor, the frames and the table in a header.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use taceva_core::FrameInfo;
@@ -7,8 +7,7 @@ use super::reduction::ReducedFrames;
 use crate::decode::ChannelOrder;
 use crate::digest::Digest;
 
-/// Origin of the samples; stated in every report. It gets no further variant in a compatible version, because every reader must handle
-/// each.
+/// Origin of the samples, stated in every report. No further variant will be added, because every reader must handle each.
 ///
 /// ```
 /// use taceva_dataset::Source;
@@ -18,16 +17,16 @@ use crate::digest::Digest;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Source {
-    /// A real sensor.
+    /// Samples of a real sensor.
     #[default]
     Recorded,
-    /// A simulated bench: nothing was measured.
+    /// Samples of a simulated bench; nothing was measured.
     Simulated,
-    /// Numbers made up for a test.
+    /// Artificial numbers for a test.
     Synthetic,
 }
 
-/// A fact that may be unknown. It gets no further variant.
+/// Fact that may be unknown. No further variant will be added.
 ///
 /// ```
 /// use taceva_dataset::Known;
@@ -37,7 +36,7 @@ pub enum Source {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Known<T> {
-    /// Stated by the lab.
+    /// Fact stated by the lab.
     Is(T),
     /// Not stated; reports show `unknown`.
     #[default]
@@ -45,7 +44,7 @@ pub enum Known<T> {
 }
 
 impl<T: Copy> Known<T> {
-    /// The fact, if it is known.
+    /// Returns the fact, if known.
     pub fn known(self) -> Option<T> {
         match self {
             Known::Is(fact) => Some(fact),
@@ -88,7 +87,7 @@ impl<'de> Deserialize<'de> for Known<bool> {
     }
 }
 
-/// Facts of the sensor. A file must state each of them; `"unknown"` is accepted, a missing key is not.
+/// Facts about the sensor. A file must state each key; the value `"unknown"` is accepted.
 ///
 /// ```
 /// use taceva_dataset::{Known, SensorFacts};
@@ -101,18 +100,18 @@ impl<'de> Deserialize<'de> for Known<bool> {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SensorFacts {
-    /// The sensor model.
+    /// Name of the sensor model.
     pub model: String,
-    /// The serial number of the unit, or `unknown`.
+    /// Serial number of the unit, or `unknown`.
     pub serial: String,
-    /// The id of the gel, or `unknown`.
+    /// Id of the gel, or `unknown`.
     pub gel: String,
     /// True if ambient light cannot reach the camera.
     pub opaque: Known<bool>,
 }
 
 impl SensorFacts {
-    /// A sensor of `model` with unknown serial number, gel and opacity.
+    /// Sensor of `model` with unknown serial number, gel and opacity.
     pub fn new(model: impl Into<String>) -> SensorFacts {
         SensorFacts {
             model: model.into(),
@@ -122,7 +121,7 @@ impl SensorFacts {
         }
     }
 
-    /// The same with the serial number of the unit.
+    /// The same sensor with the serial number of the unit.
     #[must_use]
     pub fn with_serial(self, serial: impl Into<String>) -> SensorFacts {
         SensorFacts {
@@ -131,7 +130,7 @@ impl SensorFacts {
         }
     }
 
-    /// The same with the id of the gel.
+    /// The same sensor with the id of the gel.
     #[must_use]
     pub fn with_gel(self, gel: impl Into<String>) -> SensorFacts {
         SensorFacts {
@@ -150,7 +149,7 @@ impl SensorFacts {
     }
 }
 
-/// Properties that all frames of a recording share.
+/// Properties shared by all frames of a recording.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
@@ -172,23 +171,23 @@ impl SensorFacts {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FramesInfo {
-    /// Number of frames, without the one without contact.
+    /// Number of frames, not counting the reference frame.
     pub count: u64,
-    /// Width and height, pixels, and the pixel format of every decoded frame.
+    /// Width, height and pixel format of every decoded frame.
     #[serde(flatten)]
     pub info: FrameInfo,
-    /// The order of the colours in the files.
+    /// Order of the colours in the image files.
     pub channel_order: ChannelOrder,
-    /// Coding of the frames, if they came as a clip; for several clips that of the first.
+    /// Video coding of the frames, if they came from a clip; of the first clip if there are several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub codec: Option<FrameCodec>,
-    /// Other codings of frames of further clips, each once.
+    /// Other video codings of further clips, each once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub other_codecs: Vec<FrameCodec>,
-    /// The original form of reduced frames; `None` if they were recorded unchanged.
+    /// Original form of reduced frames; `None` if they were recorded unchanged.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reduced: Option<ReducedFrames>,
-    /// The frame without contact; `None` if unknown.
+    /// Frame without contact; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reference: Option<ReferenceInfo>,
 }
@@ -207,7 +206,7 @@ impl FramesInfo {
         }
     }
 
-    /// The form of a frame from the camera: before reduction, or as recorded.
+    /// Size and format of a camera frame: before reduction, or as recorded.
     pub fn of_camera(&self) -> FrameInfo {
         self.reduced
             .as_ref()
@@ -215,7 +214,7 @@ impl FramesInfo {
     }
 }
 
-/// Coding of frames in their clips, and the decoder.
+/// Video coding of frames in a clip, and their decoder.
 ///
 /// ```
 /// let codec: taceva_dataset::FrameCodec = toml::from_str("name = \"H.264 High\"\npixel_format = \"yuv420p\"\nlossy = true\n")?;
@@ -225,14 +224,14 @@ impl FramesInfo {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FrameCodec {
-    /// The codec, with its profile if known.
+    /// Name of the codec, with its profile if known.
     pub name: String,
-    /// Pixel format by the names of FFmpeg.
+    /// Name of the pixel format in FFmpeg.
     pub pixel_format: String,
-    /// True if it loses detail; `None` if it can be either.
+    /// True if the coding is lossy; `None` if it can be either.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lossy: Option<bool>,
-    /// The decoder, with its version if known; `None` if frames are stored as they came.
+    /// Decoder, with its version if known; `None` if frames are stored undecoded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub decoder: Option<String>,
     /// Bits of a sample in the clip, if above 8. Luma is stored in 16 bits without scaling.
@@ -263,7 +262,7 @@ impl FrameCodec {
     }
 }
 
-/// The frame without contact.
+/// Frame without contact.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
@@ -286,14 +285,14 @@ impl FrameCodec {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReferenceInfo {
-    /// File, relative to the folder of the dataset.
+    /// Path of the file, relative to the dataset folder.
     pub path: String,
-    /// The SHA-256 of the bytes of its file.
+    /// SHA-256 of the bytes of the file.
     pub sha256: Digest,
 }
 
 impl ReferenceInfo {
-    /// The file at `path`, relative to the folder of the dataset, with the digest of its bytes.
+    /// Reference frame at `path`, relative to the dataset folder, with the digest of its bytes.
     pub fn new(path: impl Into<String>, sha256: Digest) -> ReferenceInfo {
         ReferenceInfo {
             path: path.into(),
@@ -302,7 +301,7 @@ impl ReferenceInfo {
     }
 }
 
-/// Rows and digests of `samples.parquet`.
+/// Number of rows and digests of `samples.parquet`.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
@@ -328,9 +327,9 @@ impl ReferenceInfo {
 pub struct TableInfo {
     /// Number of samples.
     pub rows: u64,
-    /// The digest of the content of the table, independent of its encoding.
+    /// Digest of the table content, independent of its encoding.
     pub digest: Digest,
-    /// The SHA-256 of the bytes of `samples.parquet`, checked before it is parsed.
+    /// SHA-256 of the bytes of `samples.parquet`, checked before parsing.
     pub sha256: Digest,
 }
 

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The area of the gel that the sensor can sense.
+/// Area of the gel that the sensor can sense.
 ///
 /// # Units
-/// mm.
+/// Lengths in mm.
 ///
 /// ```
 /// use taceva_dataset::Footprint;
@@ -19,15 +19,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Footprint {
-    /// Shape of its outline, which decides the lengths below.
+    /// Shape of the outline, which determines the lengths below.
     pub shape: Shape,
     /// Radius of a disc, mm; `None` for a rectangle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius_mm: Option<f64>,
-    /// Half the width of a rectangle along x, mm; `None` for a disc.
+    /// Half width of a rectangle along x, mm; `None` for a disc.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half_x_mm: Option<f64>,
-    /// Half the width of a rectangle along y, mm; `None` for a disc.
+    /// Half width of a rectangle along y, mm; `None` for a disc.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half_y_mm: Option<f64>,
     /// Maximum indentation of the gel, mm; `None` if unknown.
@@ -46,14 +46,14 @@ pub struct Footprint {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
-    /// All points within a radius of the middle.
+    /// All points within a radius of the centre.
     Disc,
-    /// All points within half a width of the middle along x and along y.
+    /// All points within a half width of the centre, along x and along y.
     Rect,
 }
 
 impl Footprint {
-    /// A disc of this radius, mm.
+    /// Disc with this radius, mm.
     pub fn disc(radius_mm: f64) -> Footprint {
         Footprint {
             shape: Shape::Disc,
@@ -64,7 +64,7 @@ impl Footprint {
         }
     }
 
-    /// A rectangle, by half of its width along x and along y, mm.
+    /// Rectangle with these half widths along x and y, mm.
     pub fn rectangle(half_x_mm: f64, half_y_mm: f64) -> Footprint {
         Footprint {
             shape: Shape::Rect,
@@ -87,7 +87,7 @@ impl Footprint {
     /// The same area in whole nanometres, as metrics bin it.
     ///
     /// # Errors
-    /// A message if a length is missing, superfluous, not positive or beyond 10 m.
+    /// A message if a length is missing, unexpected, not positive or above 10 m.
     pub fn to_core(&self) -> Result<taceva_core::Footprint, String> {
         if let Some(problem) = self.problem() {
             return Err(problem);
@@ -104,7 +104,7 @@ impl Footprint {
         .map_err(|error| error.to_string())
     }
 
-    /// A message if a length is missing, superfluous or not positive.
+    /// Error message if a length is missing, unexpected or not positive.
     pub fn problem(&self) -> Option<String> {
         let is_disc = self.shape == Shape::Disc;
         let sides = [

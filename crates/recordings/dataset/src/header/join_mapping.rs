@@ -1,10 +1,10 @@
-//! Mapping of a joined table to the rows of the main one.
+//! Mapping of a joined table to the rows of the main table.
 
 use serde::{Deserialize, Serialize};
 
 use super::map_conflict::{Fact, number, or_none, quoted};
 
-/// Join of a table by an import. Another lag or pick would give readings of other instants.
+/// Join of a table by an import. Another lag or pick would select readings of other instants.
 ///
 /// ```
 /// let text = "name = \"ft\"\nby = \"time\"\ncolumn = \"t\"\nunit = \"s\"\npick = \"nearest\"\ntolerance_ms = 5.0\nlag_ms = 12.5\nunmatched = \"drop\"\n";
@@ -15,32 +15,32 @@ use super::map_conflict::{Fact, number, or_none, quoted};
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MappedJoin {
-    /// Prefix of the names of its columns.
+    /// Prefix of the column names.
     pub name: String,
     /// `columns`, `row`, `all`, `time` or `until`.
     pub by: String,
-    /// For a join by columns: `column of the main table = column of this one`.
+    /// Pairs for a join by columns: `column of the main table = column of this table`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub on: Vec<String>,
-    /// The column of the time, or of the number up to which its rows reach.
+    /// Column of the time, or of the row number up to which its rows apply.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column: Option<String>,
-    /// The unit of the time.
+    /// Unit of the time column.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
     /// `nearest`, `before` or `linear`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pick: Option<String>,
-    /// Maximum distance in time, ms.
+    /// Maximum time difference, ms.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance_ms: Option<f64>,
-    /// Delay of the clock of this table, ms; positive if it shows a later time.
+    /// Delay of the clock of this table, ms; positive if the clock is ahead.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lag_ms: Option<f64>,
-    /// Source of a lag that differs by row: the column with it, or `file = ms` for each file.
+    /// Source of a lag that differs by row: the column that contains it, or `file = ms` for each file.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lag_by: Vec<String>,
-    /// Treatment of a row of the main table without a match: `drop` or `refuse`.
+    /// Treatment of rows of the main table without a match: `drop` or `refuse`.
     pub unmatched: String,
     /// Excluded rows: `column = number`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -48,7 +48,7 @@ pub struct MappedJoin {
 }
 
 impl MappedJoin {
-    /// The table `name`, joined by `by`; a row without a match is rejected.
+    /// Table `name`, joined by `by`. A row without a match is rejected.
     pub fn new(name: &str, by: &str) -> MappedJoin {
         MappedJoin {
             name: name.to_owned(),
@@ -65,7 +65,7 @@ impl MappedJoin {
         }
     }
 
-    /// Settings that decide the matching of rows, by the keys of a map.
+    /// Settings that determine the matching of rows, by the keys of a map.
     pub(super) fn facts(&self) -> Vec<Fact> {
         let name = &self.name;
         let key = |word: &str| format!("join.{name}.{word}");

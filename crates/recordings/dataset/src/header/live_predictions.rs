@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::digest::Digest;
 
-/// Predictions of a model beside a recording, in `predictions.csv`: made while frames were taken; they are no labels.
+/// Predictions of a model beside a recording, in `predictions.csv`. They were made while frames were taken, and are not labels.
 ///
 /// ```
 /// use taceva_dataset::{Digest, LivePredictions};
@@ -17,18 +17,18 @@ use crate::digest::Digest;
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LivePredictions {
-    /// The name of the model.
+    /// Name of the model.
     pub by: String,
-    /// The digest of its file.
+    /// Digest of the model file.
     pub model: Digest,
     /// Number of predicted samples.
     pub rows: u64,
-    /// The digest of the table of predictions.
+    /// Digest of the table of predictions.
     pub sha256: Digest,
 }
 
 impl LivePredictions {
-    /// Predictions in `table`, a header line and one line for each sample, by the model called `by` whose file has the digest `model`.
+    /// Predictions in `table`, with a header line and one line per sample, by the model called `by` whose file has the digest `model`.
     pub fn new(by: impl Into<String>, model: Digest, table: &[u8]) -> LivePredictions {
         let lines = table.iter().filter(|byte| **byte == b'\n').count() as u64;
         LivePredictions {
@@ -40,7 +40,7 @@ impl LivePredictions {
     }
 }
 
-/// `predictions by ridge sha256:…`.
+/// Formats as `predictions by ridge sha256:…`.
 impl std::fmt::Display for LivePredictions {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "predictions by {} {}", self.by, self.model)

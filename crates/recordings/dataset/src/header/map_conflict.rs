@@ -1,23 +1,23 @@
 //! Conflicts between two maps, by key.
 
-/// A key of a map, and its value.
+/// Key of a map, and its value.
 pub(super) type Fact = (String, String);
 
-/// A key of a map whose value differs from an earlier map.
+/// Key of a map whose value differs from an earlier map.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Misread {
-    /// The key.
+    /// Name of the key.
     pub key: String,
-    /// Value before.
+    /// Value in the earlier map.
     pub own: String,
-    /// Value now.
+    /// Value in the new map.
     pub other: String,
-    /// Remedy if the map is right.
+    /// Remedy if the new map is right.
     pub mend: &'static str,
 }
 
-/// The first fact of `new` that differs from the same one of `known`.
+/// First fact of `new` that differs from the same fact of `known`.
 pub(super) fn differing(known: Vec<Fact>, new: Vec<Fact>, mend: &'static str) -> Option<Misread> {
     let mut pairs = known.into_iter().zip(new);
     let ((_, own), (key, other)) = pairs.find(|((_, own), (_, other))| own != other)?;

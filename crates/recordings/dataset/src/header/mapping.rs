@@ -6,38 +6,38 @@ use super::join_mapping::MappedJoin;
 use super::map_conflict::{Misread, differing};
 use super::picture_mapping::MappedPictures;
 
-/// Settings that decide the values that an import reads from the cells, the rows and the arrays of a lab.
+/// Settings that determine the values that an import reads from the cells, rows and arrays of a lab.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[doc(hidden)]
 pub struct Mapping {
-    /// Labels.
+    /// Mappings of the labels.
     pub columns: Vec<MappedColumn>,
-    /// Joined tables.
+    /// Mappings of the joined tables.
     pub joins: Vec<MappedJoin>,
-    /// Pictures.
+    /// Mappings of the pictures.
     pub pictures: Vec<MappedPictures>,
-    /// Classes.
+    /// Mappings of the classes.
     pub classes: Vec<MappedClass>,
-    /// Channels that are the parts of one rotation.
+    /// Channels that together are one rotation.
     pub rotations: Vec<Vec<String>>,
 }
 
-/// Remedy for a join that was recorded otherwise.
+/// Remedy for a join that was mapped differently before.
 const OTHER_JOIN: &str =
     "if that table was recorded differently this time, give the join another name in the map";
-/// Remedy for a longer list of classes.
+/// Remedy for a list of classes that became longer.
 const LONGER_LIST: &str = "keep the list as it was, and add new names at its end";
-/// Remedy for an array that was written otherwise.
+/// Remedy for an array that was mapped differently before.
 const OTHER_ARRAY: &str =
     "if the pictures were written differently this time, give their array another name";
 
 impl Mapping {
-    /// True if no map is known: the dataset was recorded.
+    /// True if no map is known, because the dataset was recorded.
     pub fn is_empty(&self) -> bool {
         *self == Mapping::default()
     }
 
-    /// The first key of `new`, another map, that contradicts `self`. Entries under other names are ignored.
+    /// First key of `new`, another map, that contradicts `self`. Entries with other names are ignored.
     pub fn misread(&self, new: &Mapping) -> Option<Misread> {
         let columns = misread(&self.columns, &new.columns);
         let joins = new.joins.iter().find_map(|join| {
@@ -65,7 +65,7 @@ impl Mapping {
         columns.or(joins).or(pictures).or(classes)
     }
 
-    /// The mapping after rows by `new` are added.
+    /// Combined mapping after rows were added with `new`.
     pub fn and(self, new: &Mapping) -> Mapping {
         Mapping {
             columns: united(self.columns, &new.columns),

@@ -1,10 +1,10 @@
-//! Data in the folder of a lab that an import did not use.
+//! Data in the folder of a lab that the import did not use.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-/// Data that an import left out. It is not in the dataset, but its readers should know of it.
+/// Data that the import left out. Readers of the dataset should know of it.
 ///
 /// Files are named relative to the folder of the lab. The first 64 files are named, and the others are counted together under `…`.
 ///
@@ -21,30 +21,30 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LeftOut {
-    /// Images beside the tables that no row names.
+    /// Images beside the tables that no row uses.
     #[serde(skip_serializing_if = "is_zero")]
     pub images: u64,
-    /// Columns that no key of the map names and whose names are not stored either: there are more than 256, or they are too long.
+    /// Number of unused columns whose names are not stored, because there are more than 256 or the names are too long.
     #[serde(skip_serializing_if = "is_zero")]
     pub columns: u64,
-    /// Rows of the tables, by the rule that excluded them; several rules may exclude one row.
+    /// Number of table rows excluded by each rule. Several rules may exclude the same row.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub rows: BTreeMap<String, u64>,
-    /// Rows of joined tables that match no row of the table, kept or dropped, by the name of the join.
+    /// Number of rows of each joined table that match no row of the main table, whether kept or dropped.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub joined_rows: BTreeMap<String, u64>,
-    /// Rows of joined tables that `skip` excludes, by the name of the join.
+    /// Number of rows of each joined table that `skip` excludes.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub skipped_rows: BTreeMap<String, u64>,
-    /// Frames in arrays and clips that no row of the dataset uses, by file.
+    /// Number of frames in each array or clip that no row of the dataset uses.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub frames: BTreeMap<String, u64>,
-    /// Chunks of arrays that were never written and are replaced by their fill value, by file and array.
+    /// Number of array chunks that were never written and have their fill value, by file and array.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub absent_chunks: BTreeMap<String, u64>,
 }
 
-/// Maximum stored names of one kind.
+/// Maximum number of stored names of one kind.
 const NAMED: usize = 64;
 /// Name under which the others are counted.
 const OTHERS: &str = "…";
@@ -55,7 +55,7 @@ impl LeftOut {
         *self == LeftOut::default()
     }
 
-    /// The sum with `other`, an import that added rows.
+    /// Sum with `other`, an import that added rows.
     #[must_use]
     pub fn and(mut self, other: LeftOut) -> LeftOut {
         self.images += other.images;

@@ -1,10 +1,10 @@
-//! Mapping of pictures to rows, and of numbers to pixels.
+//! Mapping of pictures to rows, and of values to pixels.
 
 use serde::{Deserialize, Serialize};
 
 use super::map_conflict::{Fact, number, or_none};
 
-/// Mapping of pictures by an import: in another range, or with another index column, the same numbers are other pictures.
+/// Mapping of pictures by an import. With another range or index column, the same values are other pictures.
 ///
 /// ```
 /// let text = "by = \"array\"\nfrom = \"/rgb\"\nindex = \"n\"\nrange = [0.0, 1.0]\nbits = 8\n";
@@ -15,24 +15,24 @@ use super::map_conflict::{Fact, number, or_none};
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MappedPictures {
-    /// The key of their source: `column`, `pattern`, `array`, `bytes` or `video`.
+    /// Key of the source: `column`, `pattern`, `array`, `bytes` or `video`.
     pub by: String,
-    /// The column, the pattern, the array in its file, or the clip; empty for the only array of a file.
+    /// Column, pattern, array in its file, or clip; empty for the only array of a file.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub from: String,
-    /// The column of the index in an array or a clip; `None` for the row number.
+    /// Column of the index in an array or clip; `None` for the row number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub index: Option<String>,
     /// Axes of an array: `nhwc`, `nhw` or `nchw`, if the map states them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layout: Option<String>,
-    /// The numbers of black and of full scale.
+    /// Values of black and full scale.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
-    /// Bits of the pixels that numbers in a range are converted to.
+    /// Bit depth of the pixels that values in a range are converted to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bits: Option<u8>,
-    /// The view, if samples have several pictures.
+    /// Name of the view, if samples have several pictures.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
 }
@@ -51,7 +51,7 @@ impl MappedPictures {
         }
     }
 
-    /// True if both have the same source: arrays of one name, or clips, whose names differ between recordings.
+    /// True if both have the same source: arrays with the same name, or clips, whose names differ between recordings.
     pub(super) fn is_of(&self, known: &MappedPictures) -> bool {
         self.by == known.by
             && self.view == known.view
@@ -62,7 +62,7 @@ impl MappedPictures {
             }
     }
 
-    /// Settings that decide the pixels and their rows, by the keys of a map.
+    /// Settings that determine the pixels and their rows, by the keys of a map.
     pub(super) fn facts(&self) -> Vec<Fact> {
         // Other layouts are distinguished by the lengths of the axes.
         let layout = match self.layout.as_deref() {

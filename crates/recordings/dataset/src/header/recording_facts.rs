@@ -1,4 +1,4 @@
-//! Facts of a recording that are known before its first sample.
+//! Facts about a recording that are known before its first sample.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -9,7 +9,7 @@ use taceva_core::{Clock, Date, Traceability};
 use super::{Footprint, Header, SensorFacts, Source};
 use crate::text::shown;
 
-/// Facts of a recording that are known before its first sample.
+/// Facts about a recording that are known before its first sample.
 ///
 /// ```
 /// use taceva_core::Clock;
@@ -24,22 +24,22 @@ use crate::text::shown;
 pub struct RecordingFacts {
     /// Origin of the samples: measured, simulated or synthetic.
     pub source: Source,
-    /// The clock that stamps the samples, which defines the origin of `t_s`.
+    /// Clock that stamps the samples, which defines the origin of `t_s`.
     pub clock: Clock,
     /// UTC day on which the recording began; `None` if nothing was measured, or for an import.
     pub recorded_on: Option<Date>,
     /// Model, serial number and gel of the sensor.
     pub sensor: SensorFacts,
-    /// The sensing area, if known.
+    /// Sensing area, if known.
     pub footprint: Option<Footprint>,
     /// Settings of camera, transducer (`force_…`) and robot (`robot_…`), read back, by name: `exposure_ms` is `15.7`; empty if unknown.
     pub settings: BTreeMap<String, String>,
-    /// Instruments of the labels with their certificates; empty if none is stated.
+    /// Instruments that measure the labels, with their certificates; empty if none is stated.
     pub traceability: Vec<Traceability>,
 }
 
 impl RecordingFacts {
-    /// Facts without a footprint.
+    /// Facts without a footprint, settings, day or instruments.
     pub fn new(source: Source, clock: Clock, sensor: SensorFacts) -> RecordingFacts {
         RecordingFacts {
             source,
@@ -52,7 +52,7 @@ impl RecordingFacts {
         }
     }
 
-    /// The same facts with settings of devices that were read back.
+    /// The same facts with the settings read back from devices.
     #[must_use]
     pub fn with_settings(self, settings: BTreeMap<String, String>) -> RecordingFacts {
         RecordingFacts { settings, ..self }
@@ -67,7 +67,7 @@ impl RecordingFacts {
         }
     }
 
-    /// The same facts with the instruments of the labels.
+    /// The same facts with the instruments that measure the labels.
     #[must_use]
     pub fn with_traceability(self, traceability: Vec<Traceability>) -> RecordingFacts {
         RecordingFacts {
@@ -85,7 +85,7 @@ impl RecordingFacts {
         }
     }
 
-    /// The same facts with the day, the settings and the instruments of `before`, a begun recording that may go on.
+    /// The same facts, with the day, the settings and the instruments of `before`, an interrupted recording that is resumed.
     pub(crate) fn resuming(self, before: &RecordingFacts) -> RecordingFacts {
         RecordingFacts {
             recorded_on: before.recorded_on,
@@ -95,7 +95,7 @@ impl RecordingFacts {
         }
     }
 
-    /// First setting that has another value in `now`, in words. A setting that only `now` has is none: earlier builds stored fewer.
+    /// First setting whose value differs in `now`, as text. A setting that only `now` has is ignored, because earlier builds stored fewer.
     pub(crate) fn other_setting(&self, now: &RecordingFacts) -> Option<String> {
         self.settings.iter().find_map(|(name, before)| {
             let found = match now.settings.get(name) {
@@ -132,7 +132,7 @@ impl RecordingFacts {
 }
 
 impl Header {
-    /// UTC day of the last of these times of samples, or on which the recording began; `None` if no clock gives it.
+    /// UTC day of the last of these sample times, or of the start of the recording; `None` if the clock gives no date.
     pub fn last_day(&self, t_s: &[Option<f64>]) -> Option<Date> {
         if self.clock != Clock::Unix {
             return self.recorded_on;

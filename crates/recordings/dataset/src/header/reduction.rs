@@ -1,4 +1,4 @@
-//! Reduction of frames before recording.
+//! Reduction of frames before they are recorded.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::FrameInfo;
@@ -16,10 +16,10 @@ use taceva_core::FrameInfo;
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReducedFrames {
-    /// Form of a frame of the camera.
+    /// Size and format of a camera frame.
     #[serde(flatten)]
     pub from: FrameInfo,
-    /// The method in words.
+    /// Description of the method.
     pub by: String,
 }
 
@@ -32,7 +32,7 @@ impl ReducedFrames {
         }
     }
 
-    /// True if frames of `info` can result from this reduction.
+    /// True if this reduction can produce frames of `info`.
     pub(crate) fn may_give(&self, info: FrameInfo) -> bool {
         let from = self.from;
         info.width <= from.width

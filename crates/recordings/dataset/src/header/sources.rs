@@ -1,10 +1,10 @@
-//! Files that an import read, with their digests.
+//! Source files of an import, with their digests.
 
 use serde::{Deserialize, Serialize};
 
 use crate::digest::Digest;
 
-/// List of digests in the dataset, in the form of `sha256sum`: a line for each file that an import read.
+/// List of the digests of all imported source files, in the format of `sha256sum`, one line per file.
 ///
 /// ```
 /// use taceva_dataset::{Digest, SourcesInfo};
@@ -18,12 +18,12 @@ use crate::digest::Digest;
 pub struct SourcesInfo {
     /// Number of files.
     pub files: u64,
-    /// Digest of the list.
+    /// Digest of the list itself.
     pub sha256: Digest,
 }
 
 impl SourcesInfo {
-    /// The facts of a list; lines that begin with `#` name no file.
+    /// Facts about a list; lines that begin with `#` name no file.
     pub fn of(list: &str) -> SourcesInfo {
         let files = list.lines().filter(|line| !line.starts_with('#'));
         SourcesInfo {

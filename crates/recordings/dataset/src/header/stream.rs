@@ -1,8 +1,8 @@
-//! Losses of a recorded stream.
+//! Frame losses of a recorded stream.
 
 use serde::{Deserialize, Serialize};
 
-/// Frames of a stream that are not in its recording, counted during it.
+/// Numbers of frames of a stream that its recording lacks, counted while recording.
 ///
 /// ```
 /// use taceva_dataset::StreamFacts;
@@ -13,9 +13,9 @@ use serde::{Deserialize, Serialize};
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StreamFacts {
-    /// True if the device or its link numbers frames, so that missing ones are detected.
+    /// True if the device or its link numbers frames, so that missing frames are detected.
     pub numbered: bool,
-    /// Frames dropped for lack of buffer space and, if the device numbers them, those not fetched in time.
+    /// Frames dropped because a buffer was full and, if the device numbers frames, frames not fetched in time.
     pub dropped: u64,
     /// Frames that arrived damaged.
     pub damaged: u64,
@@ -40,7 +40,7 @@ impl StreamFacts {
         }
     }
 
-    /// Number of frames that are not in the recording.
+    /// Number of frames that the recording lacks.
     pub fn lost(self) -> u64 {
         self.dropped.saturating_add(self.damaged)
     }

@@ -1,4 +1,4 @@
-//! A view: one of several pictures that every sample has.
+//! Views: the pictures that every sample has, one per finger, eye or camera.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,15 +15,15 @@ use super::FramesInfo;
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ViewInfo {
-    /// Name: a letter, then letters, digits or `_`.
+    /// Name of the view: a letter, then letters, digits or `_`.
     pub name: String,
-    /// Size, colours and number of its frames, and its frame without contact.
+    /// Size, colours and number of its frames, and its reference frame.
     #[serde(flatten)]
     pub frames: FramesInfo,
 }
 
 impl ViewInfo {
-    /// The view `name` of these frames.
+    /// View `name` with these frames.
     pub fn new(name: impl Into<String>, frames: FramesInfo) -> ViewInfo {
         ViewInfo {
             name: name.into(),

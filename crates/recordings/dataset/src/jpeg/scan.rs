@@ -357,7 +357,7 @@ fn halves(symbol: u8) -> (u8, u8) {
     (symbol >> 4, symbol & 15)
 }
 
-/// A mask of `count` ones at the low end.
+/// Mask with the lowest `count` bits set.
 fn mask(count: usize) -> u64 {
     if count < 64 {
         (1 << count) - 1

@@ -24,7 +24,7 @@ impl Recorder {
         let mut numbers = numbers.chain(sample.zero_u_mm);
         if let Some(number) = numbers.find(|number| !is_scorable(*number)) {
             return Err(refused(format!(
-                "{number:e} is no finite number up to {MAGNITUDE_MAX:.3e}"
+                "{number:e} is not a finite number up to {MAGNITUDE_MAX:.3e}"
             )));
         }
         let expected = self.signals.as_ref().map(|writer| writer.spec().info);

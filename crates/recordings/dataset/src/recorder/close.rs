@@ -1,4 +1,4 @@
-//! The end of a recording: it becomes a dataset.
+//! Closing of a recording, which turns it into a dataset.
 
 use std::fs::{self, File};
 use std::path::Path;
@@ -14,10 +14,10 @@ use crate::signals::{SignalsInfo, SignalsReader, SignalsWriter};
 use crate::store::{Beside, write_table_and_header};
 
 impl Recorder {
-    /// Closes the recording to a dataset. Until its header is written the journal stays and the recording can be resumed.
+    /// Closes the recording and turns it into a dataset. The journal remains until the header is written, so that the recording can be resumed.
     ///
     /// # Errors
-    /// [`DatasetError::Damaged`] if the written files do not read back; [`DatasetError::Io`].
+    /// [`DatasetError::Damaged`] if the written files cannot be read back; [`DatasetError::Io`].
     pub fn close(mut self) -> Result<Header, DatasetError> {
         let signals = self.signals.take().map(SignalsWriter::finish).transpose()?;
         let predictions = self.predictions.take();

@@ -1,4 +1,4 @@
-//! The folder of a recording at its beginning and at its end.
+//! Folder of a recording, when it begins and when it is resumed.
 
 use std::fs::{self, File};
 use std::io::ErrorKind;
@@ -10,7 +10,7 @@ use crate::journal::Journal;
 use crate::layout;
 use crate::lock::lock_folder;
 
-/// Locks a folder without a recording: a new one, or one whose creation was interrupted.
+/// Locks a folder without a recording: a new folder, or one whose creation was interrupted.
 pub(super) fn empty_folder(path: &Path) -> Result<File, DatasetError> {
     match fs::create_dir(path) {
         Ok(()) => return lock_folder(path),
@@ -61,9 +61,9 @@ pub(super) fn unclosed_folder(path: &Path) -> Result<File, DatasetError> {
     Ok(lock)
 }
 
-/// Refuses links in the recording at `path`, by which it would continue in another place.
+/// Rejects links in the recording at `path`, through which it would continue elsewhere.
 ///
-/// A link that is made after this check is followed. Whoever can write in the folder is trusted.
+/// A link created after this check is followed. Users with write access to the folder are trusted.
 fn refuse_links(path: &Path) -> Result<(), DatasetError> {
     for folder in [path.to_owned(), path.join(layout::FRAMES)] {
         let entries = match fs::read_dir(&folder) {

@@ -1,4 +1,4 @@
-//! Frames of a recording: each frame, and the name of its pack, is durable before the journal names it.
+//! Frames of a recording. Each frame and the name of its pack are durable before the journal names it.
 
 use taceva_core::{Frame, FrameError, Sample};
 use taceva_files::parent_of;
@@ -16,7 +16,7 @@ use crate::pack::{PackWriter, cut_behind, read_span};
 use crate::table::FrameEntry;
 
 impl Recorder {
-    /// Appends the frames of `samples` to the pack, and returns once all of them are durable; one entry for each sample.
+    /// Appends the frames of `samples` to the pack, and returns once all are durable. Returns one entry per sample.
     pub(super) fn write_frames(
         &mut self,
         samples: &[Sample],
@@ -65,7 +65,7 @@ impl Recorder {
         Ok(entries)
     }
 
-    /// Appends a frame, or its difference to the first of the pack if that is smaller.
+    /// Appends a frame, or its difference to the first frame of the pack if that is smaller.
     fn append_frame(
         &mut self,
         pack: &mut PackWriter,
@@ -120,7 +120,7 @@ impl Recorder {
         })
     }
 
-    /// The first frame of the current pack, and its digest.
+    /// First frame of the current pack, and its digest.
     fn first_of_pack(&self) -> Result<Option<(Digest, Frame)>, DatasetError> {
         let path = layout::pack_path(self.pack_end.number);
         let mut frames = self.table.frames().iter().flatten();
@@ -149,7 +149,7 @@ impl Recorder {
         )
     }
 
-    /// Writes a frame as its own file; its bytes and its name are durable.
+    /// Writes a frame as a separate file, whose bytes and name are durable on return.
     pub(super) fn write_image(
         &self,
         relative: &str,
@@ -166,7 +166,7 @@ impl Recorder {
         encode_png(frame).map_err(|problem| DatasetError::image(&self.path.join(relative), problem))
     }
 
-    /// Properties that all frames recorded so far share.
+    /// Properties shared by all frames recorded so far.
     pub(super) fn frames_info(&self) -> Option<FramesInfo> {
         let info = self.frame_info?;
         let is_gray = info.format.samples() == 1;

@@ -1,4 +1,4 @@
-//! Payloads of a journal: TOML, so that a broken recording can be read by eye.
+//! Payloads of the journal, in TOML, so that people can read a damaged recording.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -93,10 +93,10 @@ impl WrittenStart {
     }
 }
 
-/// A sample of a journal: its row, the kind of its frame, its taxel values.
+/// Sample of a journal: row, frame format, and taxel values.
 type Taken = (Row, Option<FrameInfo>, Option<Vec<f32>>);
 
-/// One sample; missing values are not written.
+/// Sample as written; missing values are omitted.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenSample {
     sample: String,
@@ -124,7 +124,7 @@ pub(super) struct WrittenSample {
     spacing_nm: Option<i64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     intensity: Option<f64>,
-    /// Double precision, because its text reads back to the same single-precision number.
+    /// Signals in double precision, whose text reads back to the same single-precision number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     signals: Option<Vec<f64>>,
     truth: BTreeMap<String, f64>,
@@ -136,7 +136,7 @@ pub(super) struct WrittenSample {
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenPress {
     pub(super) press: String,
-    /// Not written for a complete press.
+    /// Outcome of the press; omitted for a complete press.
     #[serde(default = "complete", skip_serializing_if = "is_complete")]
     pub(super) outcome: PressOutcome,
     pub(super) samples: Vec<WrittenSample>,
@@ -152,7 +152,7 @@ impl WrittenPress {
     }
 }
 
-/// Frames of a stream, and its losses so far.
+/// Frames of a stream as written, with the losses so far.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenStream {
     pub(super) stream: StreamFacts,
@@ -174,7 +174,7 @@ impl WrittenStream {
     }
 }
 
-/// The file of a frame.
+/// File of a frame as written.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenFrame {
     pub(super) path: String,
@@ -196,7 +196,7 @@ impl WrittenFrame {
 }
 
 impl WrittenSample {
-    /// A row with the kind of its frame and its taxel values, as far as present.
+    /// Row with its frame format and taxel values, as far as present.
     pub(super) fn new(
         row: &Row,
         channels: &Channels,
@@ -242,7 +242,7 @@ impl WrittenSample {
         from_toml(payload)
     }
 
-    /// The row, the kind of its frame, and its taxel values, which are not compared with the taxels of the recording.
+    /// Converts to the row, the frame format and the taxel values. The caller compares the values with the taxels of the recording.
     pub(super) fn into_row(self, channels: &Channels) -> Result<Taken, String> {
         let stranger = self
             .truth

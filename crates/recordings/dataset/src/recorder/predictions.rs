@@ -9,7 +9,7 @@ use crate::file::write_durable;
 use crate::header::LivePredictions;
 use crate::layout;
 
-/// A table of predictions, with its facts for the header.
+/// Table of predictions, with its facts for the header.
 #[derive(Debug)]
 pub(super) struct PredictedTable {
     text: Vec<u8>,

@@ -1,4 +1,4 @@
-//! A press of a protocol: one record of the journal, so that an interruption keeps either all of its samples or none.
+//! Presses of a protocol. A press is one record of the journal, so an interruption keeps either all of its samples or none.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,7 +11,7 @@ use crate::journal::RecordKind;
 use crate::table::FrameEntry;
 
 impl Recorder {
-    /// True if a press of this name is recorded.
+    /// True if a press with this name is recorded.
     pub fn has_press(&self, press: &str) -> bool {
         self.presses.contains_key(press)
     }
@@ -25,7 +25,7 @@ impl Recorder {
         counts
     }
 
-    /// Records a press, its outcome and all its samples, which may be none. Returns its number in the journal once it is durable.
+    /// Records a press, its outcome and all its samples, possibly none. Returns the number of its record once it is durable.
     ///
     /// # Errors
     /// As [`append`](Recorder::append), for the first rejected sample; [`DatasetError::Sample`] if the name of the press is empty or taken;
@@ -52,7 +52,7 @@ impl Recorder {
         Ok(sequence)
     }
 
-    /// Appends one record of `samples`, whose frames are written as `entries`; `payload` is the text of the record.
+    /// Appends one record with `samples`, whose frames are written as `entries`; `payload` is the text of the record.
     pub(super) fn append_all<'a>(
         &mut self,
         kind: RecordKind,
@@ -96,7 +96,7 @@ impl Recorder {
         self.check_together(samples)
     }
 
-    /// Checks that `samples` can be recorded at once.
+    /// Checks that `samples` can be recorded in one record.
     pub(super) fn check_together<'a>(
         &self,
         samples: impl IntoIterator<Item = &'a Sample>,

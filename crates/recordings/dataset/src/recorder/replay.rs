@@ -1,4 +1,4 @@
-//! Restoring a recording from its journal, record by record.
+//! Restores a recording from its journal, record by record.
 
 use super::Recorder;
 use super::payload::{WrittenFrame, WrittenPress, WrittenSample, WrittenStream};
@@ -7,9 +7,9 @@ use crate::journal::{JournalRecord, RecordKind};
 
 /// Error of restoring a record of a journal.
 pub(super) enum ReplayError {
-    /// A damaged record, with the fault.
+    /// Damaged record, with the fault.
     Damaged(String),
-    /// An error of the operating system.
+    /// Error of the operating system.
     Io(DatasetError),
 }
 

@@ -1,4 +1,4 @@
-//! Frames of a stream: several are recorded together, to sync the disk once for all of them.
+//! Frames of a stream, recorded several at a time so that the disk is synced once for all.
 
 use taceva_core::Sample;
 
@@ -9,7 +9,7 @@ use crate::error::DatasetError;
 use crate::header::StreamFacts;
 use crate::journal::RecordKind;
 
-/// A sample of a stream, with the file of its frame if the camera sends files.
+/// Sample of a stream, with the file of its frame if the camera sends files.
 ///
 /// ```
 /// use taceva_core::Sample;
@@ -21,14 +21,14 @@ use crate::journal::RecordKind;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Streamed {
-    /// The sample, with its frame.
+    /// Sample with its frame.
     pub sample: Sample,
-    /// The PNG, JPEG or TIFF file from which the frame was decoded: it is stored unchanged.
+    /// PNG, JPEG or TIFF file of the frame, stored unchanged.
     pub sent: Option<Vec<u8>>,
 }
 
 impl Streamed {
-    /// A sample whose frame, if it has one, is to be encoded.
+    /// Sample whose frame, if any, is still to be encoded.
     pub fn new(sample: Sample) -> Streamed {
         Streamed { sample, sent: None }
     }
@@ -36,7 +36,7 @@ impl Streamed {
     /// The same sample with the file of its frame as the camera sent it.
     ///
     /// # Errors
-    /// A message: the file is neither PNG nor JPEG nor TIFF, truncated, or damaged inside.
+    /// A message if the file is neither PNG nor JPEG nor TIFF, truncated, or damaged inside.
     pub fn with_sent(self, sent: Vec<u8>) -> Result<Streamed, String> {
         let kind = kind_of_whole(&sent)?;
         check_to_the_end(&sent, kind)?;

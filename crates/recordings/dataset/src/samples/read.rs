@@ -1,4 +1,4 @@
-//! The columns of a Parquet file, by name.
+//! Reads the columns of a Parquet file by name.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -10,7 +10,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 
 use crate::limits;
 
-/// The cells of a column in their stored type.
+/// Cells of a column in their stored type.
 pub(super) enum Stored {
     Text(Vec<Option<String>>),
     Number(Vec<Option<f64>>),

@@ -1,4 +1,4 @@
-//! Conversion of the columns of a file to rows of a table.
+//! Converts the columns of a file to rows of a table.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::read::Stored;
 use crate::digest::Digest;
 use crate::table::{FrameEntry, Row, RowFrame, Table, column_of};
 
-/// The columns of a file, by name.
+/// Columns of a file, by name.
 struct Columns(BTreeMap<String, Stored>);
 
 impl Columns {
@@ -65,7 +65,7 @@ impl Columns {
     }
 }
 
-/// The table of `columns`.
+/// Table with the rows of `columns`.
 pub(super) fn assemble(
     columns: BTreeMap<String, Stored>,
     channels: &Channels,
@@ -113,7 +113,7 @@ pub(super) fn assemble(
                 .number("spacing_mm", row)?
                 .map(|length| {
                     Nanometre::from_millimetres(length)
-                        .ok_or_else(|| format!("row {row}: {length} mm is no spacing"))
+                        .ok_or_else(|| format!("row {row}: {length} mm is not a valid spacing"))
                 })
                 .transpose()?,
             intensity: columns.number("intensity", row)?,
@@ -132,7 +132,7 @@ pub(super) fn assemble(
     Ok(table)
 }
 
-/// Parses the name in a cell; `None` if it is unknown.
+/// Parses the name in a cell, which may be empty; `None` for an unknown name.
 fn known<T>(name: Option<String>, of: impl Fn(&str) -> Option<T>) -> Option<Option<T>> {
     name.map_or(Some(None), |name| of(&name).map(Some))
 }

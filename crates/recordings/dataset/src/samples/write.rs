@@ -1,4 +1,4 @@
-//! A table as the bytes of a Parquet file.
+//! Encodes a table as a Parquet file.
 
 use std::io::Write;
 use std::ops::Range;
@@ -33,7 +33,7 @@ pub(super) fn write(table: &Table) -> Result<Vec<u8>, ParquetError> {
     writer.into_inner()
 }
 
-/// The unit of each channel, as metadata of a file.
+/// Unit of each channel, as file metadata.
 fn units(table: &Table) -> Vec<KeyValue> {
     let units = table.channels().iter().map(|channel| {
         KeyValue::new(
@@ -44,7 +44,7 @@ fn units(table: &Table) -> Vec<KeyValue> {
     units.collect()
 }
 
-/// Writer settings: the same table gives the same bytes.
+/// Writer settings that give the same bytes for the same table.
 fn properties(metadata: Vec<KeyValue>) -> WriterProperties {
     WriterProperties::builder()
         .set_compression(Compression::SNAPPY)

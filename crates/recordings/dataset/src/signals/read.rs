@@ -1,4 +1,4 @@
-//! Reader of signals: their file is verified once, then some row groups are in memory at a time.
+//! Reader of signals. Verifies the file once, then keeps a few row groups in memory.
 
 use std::collections::VecDeque;
 use std::fs::File;
@@ -16,7 +16,7 @@ use crate::decoder_panic::guarded;
 use crate::digest::Digest;
 use crate::error::DatasetError;
 
-/// Maximum cached row groups: 64 MiB.
+/// Maximum number of cached row groups: 64 MiB.
 const GROUPS: usize = 16;
 
 /// A verified file of signals, shared between threads.
@@ -25,14 +25,14 @@ pub struct SignalsReader {
     path: PathBuf,
     info: SignalsInfo,
     file: SerializedFileReader<File>,
-    /// The first row of each group, then the number of rows.
+    /// First row of each group, then the number of rows.
     starts: Vec<u64>,
-    /// Recently used groups, the newest last, each place first.
+    /// Recently used groups, the newest last, values place first.
     groups: Mutex<VecDeque<(usize, Arc<Vec<f32>>)>>,
 }
 
 impl SignalsReader {
-    /// The signals of `rows` samples in `file`, which is at `path` and must match `info`.
+    /// Opens the signals of `rows` samples in `file`, which is at `path` and must match `info`.
     pub fn open(
         path: &Path,
         mut file: File,
@@ -59,7 +59,7 @@ impl SignalsReader {
         })
     }
 
-    /// The signals of row `row`.
+    /// Signals of row `row`.
     pub fn row(&self, row: usize) -> Result<Signals, DatasetError> {
         let at = self.starts.partition_point(|start| *start <= row as u64);
         let number = at.saturating_sub(1);
@@ -74,7 +74,7 @@ impl SignalsReader {
         signals.map_err(|error| DatasetError::damaged(&self.path, format!("row {row}: {error}")))
     }
 
-    /// Reads every row, and compares the content with the recorded digest.
+    /// Reads every row and checks the content digest.
     pub fn verify(&self) -> Result<(), DatasetError> {
         let mut digest = self.info.spec.digest();
         for number in 0..self.starts.len() - 1 {
@@ -90,7 +90,7 @@ impl SignalsReader {
         }
     }
 
-    /// The values of a row group, cached or read now; concurrent requests for one group read it once.
+    /// Values of a row group, cached or read now. Concurrent requests for one group read it once.
     fn group(&self, number: usize) -> Result<Arc<Vec<f32>>, DatasetError> {
         let mut groups = self.groups.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(position) = groups.iter().position(|(kept, _)| *kept == number) {
@@ -123,7 +123,7 @@ impl std::fmt::Debug for SignalsReader {
     }
 }
 
-/// The first row of each group, after a check of schema and sizes against `info`: nothing is allocated by unchecked sizes.
+/// First row of each group, after a check of schema and sizes against `info`. Nothing is allocated by unchecked sizes.
 fn starts(
     file: &SerializedFileReader<File>,
     info: &SignalsInfo,
@@ -157,7 +157,7 @@ fn starts(
     }
 }
 
-/// The values of a row group, place first.
+/// Values of a row group, place first.
 fn read_group(group: &dyn RowGroupReader, length: usize) -> Result<Vec<f32>, ParquetError> {
     let rows = usize::try_from(group.metadata().num_rows())?;
     let mut values = vec![0.0; rows * length];

@@ -1,11 +1,11 @@
-//! Taxels of a recording, and the facts of their file in the header.
+//! Taxels of a recording, and the facts about their file in the header.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{Channel, SignalInfo, Unit};
 
 use crate::digest::{Digest, PartsDigest};
 
-/// The taxels of a recording.
+/// Taxels of a recording.
 ///
 /// ```
 /// use taceva_core::{SignalInfo, Unit};
@@ -20,19 +20,19 @@ use crate::digest::{Digest, PartsDigest};
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SignalsSpec {
-    /// The grid and the unit.
+    /// Grid and unit of the taxels.
     pub info: SignalInfo,
-    /// Names of the numbers of a place, in order.
+    /// Names of the values of a place, in order.
     pub channels: Vec<String>,
-    /// Runs of rows without contact, each by its first and its last row, from 0.
+    /// Runs of rows without contact, each as first and last row, from 0.
     pub rest: Vec<[u64; 2]>,
 }
 
 impl SignalsSpec {
-    /// Taxels of `info`, with numbers called `channels`; no rows are marked as without contact.
+    /// Taxels of `info` with values called `channels`, without rows marked as rest.
     ///
     /// # Errors
-    /// A message if there is not one name for each number of a place, or a name is duplicate or invalid for a column.
+    /// A message if there is not one name for each value of a place, or if a name is duplicate or invalid for a column.
     pub fn new<N: Into<String>>(
         info: SignalInfo,
         channels: impl IntoIterator<Item = N>,
@@ -46,7 +46,7 @@ impl SignalsSpec {
         Ok(spec)
     }
 
-    /// The same taxels with the runs of rows without contact, each by its first and its last row, from 0.
+    /// The same taxels with the runs of rows without contact, each as first and last row, from 0.
     #[must_use]
     pub fn with_rest(self, rest: impl IntoIterator<Item = [u64; 2]>) -> SignalsSpec {
         SignalsSpec {
@@ -55,7 +55,7 @@ impl SignalsSpec {
         }
     }
 
-    /// Names of its columns, in the order of the numbers: `taxel_ROW_COLUMN_CHANNEL`.
+    /// Column names, in the order of the values: `taxel_ROW_COLUMN_CHANNEL`.
     pub fn column_names(&self) -> impl Iterator<Item = String> + '_ {
         let SignalInfo { rows, columns, .. } = self.info;
         let places = (0..rows).flat_map(move |row| (0..columns).map(move |column| (row, column)));
@@ -65,7 +65,7 @@ impl SignalsSpec {
         })
     }
 
-    /// Checks values that may come from a file; the error is a message.
+    /// Checks values that may come from a file; returns a message as error.
     pub(super) fn check(&self) -> Result<(), String> {
         let info = self.info;
         if !info.is_valid() {
@@ -95,7 +95,7 @@ impl SignalsSpec {
         Ok(())
     }
 
-    /// Checks the rows without contact of a recording of `rows`; the error is a message.
+    /// Checks the rows without contact of a recording with `rows` rows; returns a message as error.
     pub(super) fn check_rest(&self, rows: u64) -> Result<(), String> {
         let wrong = |run: &&[u64; 2]| run[0] > run[1] || run[1] >= rows;
         match self.rest.iter().find(wrong) {
@@ -106,7 +106,7 @@ impl SignalsSpec {
         }
     }
 
-    /// The beginning of the digest of the file's content: everything but its numbers.
+    /// Digest of everything except the values, to which the values are added.
     pub(super) fn digest(&self) -> PartsDigest {
         let mut digest = PartsDigest::default();
         digest.part(b"taceva.signals/1");
@@ -125,7 +125,7 @@ impl SignalsSpec {
     }
 }
 
-/// Facts of the taxels of a recording in a header.
+/// Facts about the taxels of a recording in a header.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Readings, Sample, SignalInfo, Signals, Unit};
@@ -150,15 +150,15 @@ impl SignalsSpec {
 #[non_exhaustive]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SignalsInfo {
-    /// The taxels.
+    /// Taxels of the recording.
     pub spec: SignalsSpec,
-    /// The digest of the content of the file, independent of its storage.
+    /// Digest of the file content, independent of its storage.
     pub digest: Digest,
-    /// The SHA-256 of the bytes of the file.
+    /// SHA-256 of the bytes of the file.
     pub sha256: Digest,
 }
 
-/// The taxels in the form of `dataset.toml`.
+/// Taxels in the form of `dataset.toml`.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenSignals {
@@ -175,7 +175,7 @@ pub(crate) struct WrittenSignals {
 }
 
 impl WrittenSignals {
-    /// The form for a recording that is not closed.
+    /// Form for a recording that is not closed yet.
     pub(crate) fn of(spec: &SignalsSpec) -> WrittenSignals {
         WrittenSignals {
             rows: spec.info.rows,
@@ -188,7 +188,7 @@ impl WrittenSignals {
         }
     }
 
-    /// The taxels; the error is a message.
+    /// Converts to the taxels; returns a message as error.
     pub(crate) fn spec(&self) -> Result<SignalsSpec, String> {
         let channels = u32::try_from(self.channels.len()).unwrap_or(u32::MAX);
         let info = SignalInfo::new(self.rows, self.columns, channels, self.unit);

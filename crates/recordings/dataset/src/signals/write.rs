@@ -1,4 +1,4 @@
-//! Writer of signals, row by row: memory holds at most a row group.
+//! Writer of signals, row by row. Memory holds at most one row group.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -19,20 +19,20 @@ use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::file::create_anew;
 
-/// A file of signals that is being written.
+/// Signals file during writing.
 #[doc(hidden)]
 pub struct SignalsWriter {
     path: PathBuf,
     spec: SignalsSpec,
     writer: SerializedFileWriter<BufWriter<File>>,
-    /// Rows that are in no group yet, place first.
+    /// Rows not yet written to a group, values place first.
     held: Vec<f32>,
     rows: u64,
     digest: PartsDigest,
 }
 
 impl SignalsWriter {
-    /// Creates the file at `path`; an existing one is overwritten.
+    /// Creates the file at `path`, overwriting an existing file.
     pub fn create(path: &Path, spec: &SignalsSpec) -> Result<SignalsWriter, DatasetError> {
         let damaged = |problem| DatasetError::damaged(path, problem);
         spec.check().map_err(damaged)?;
@@ -52,12 +52,12 @@ impl SignalsWriter {
         })
     }
 
-    /// The taxels.
+    /// Taxels of the file.
     pub fn spec(&self) -> &SignalsSpec {
         &self.spec
     }
 
-    /// Adds the numbers of the next row.
+    /// Adds the values of the next row.
     ///
     /// # Shapes
     /// `values`: rows × columns × channels, place first.
@@ -86,7 +86,7 @@ impl SignalsWriter {
         }
     }
 
-    /// Ends the file; its bytes are synced, its name is not.
+    /// Closes the file and syncs its bytes, but not its name.
     pub fn finish(mut self) -> Result<SignalsInfo, DatasetError> {
         let problem = self.spec.check_rest(self.rows);
         problem.map_err(|problem| DatasetError::damaged(&self.path, problem))?;

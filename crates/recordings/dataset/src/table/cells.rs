@@ -5,7 +5,7 @@ use taceva_core::{Channel, Column, GratingKind, Limit, Nanometre, Phase, Unit};
 use super::FrameEntry;
 use crate::digest::PartsDigest;
 
-/// The names of the columns on disk that are no channels; channels and attributes must have other names.
+/// Reserved column names on disk. Channels and attributes must have other names.
 pub const RESERVED: [&str; 19] = [
     "sample",
     "point_id",
@@ -28,21 +28,21 @@ pub const RESERVED: [&str; 19] = [
     "frame_sha256",
 ];
 
-/// True if a text column may be called `name`.
+/// True if a text column may have the name `name`.
 pub fn is_attribute_name(name: &str) -> bool {
     !RESERVED.contains(&name) && Channel::named(name, Unit::One).is_ok()
 }
 
-/// A column with its name on disk.
+/// Column with its name on disk.
 #[doc(hidden)]
 pub struct NamedColumn<'a> {
-    /// Name.
+    /// Name on disk.
     pub name: &'a str,
-    /// Cells.
+    /// Cells of the column.
     pub cells: Cells<'a>,
 }
 
-/// The cells of a column of any kind.
+/// Cells of a column, by type.
 #[doc(hidden)]
 pub enum Cells<'a> {
     Name(&'a [String]),
@@ -74,12 +74,12 @@ impl Cells<'_> {
         }
     }
 
-    /// True if the cells are free texts.
+    /// True for free text.
     pub fn is_text(&self) -> bool {
         matches!(self, Cells::Name(_) | Cells::Text(_))
     }
 
-    /// The number in a row of a column of numbers.
+    /// Number in a row of a numeric column.
     pub fn number(&self, row: usize) -> Option<f64> {
         match self {
             Cells::Spacing(cells) => cells[row].map(Nanometre::to_millimetres),
@@ -89,7 +89,7 @@ impl Cells<'_> {
         }
     }
 
-    /// The cell as text; numbers in the shortest form that reads back to the same binary64.
+    /// Cell as text; numbers in the shortest form that reads back to the same binary64.
     pub fn text(&self, row: usize) -> Option<String> {
         match self {
             Cells::Name(cells) => Some(cells[row].clone()),

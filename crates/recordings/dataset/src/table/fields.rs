@@ -1,12 +1,12 @@
-//! Fields of some rows as the columns that metrics read.
+//! Fields of selected rows as columns for metrics.
 
 use taceva_core::{Column, Field, Labels, Nanometre};
 
 use super::Table;
 
 impl Table {
-    /// The texts of `field` in `rows`, in order: contact point, unit, scene, phase, kind of grating or digest of the frame. `None` for
-    /// fields without text.
+    /// Texts of `field` in `rows`, in order: contact point, unit, scene, phase, kind of grating or digest of the frame. `None` for fields without
+    /// text.
     ///
     /// # Panics
     /// If there is no such row.
@@ -33,8 +33,7 @@ impl Table {
         Some(labels)
     }
 
-    /// The numbers of `field` in `rows`, in order: depth step, repeat, time in s, spacing in whole nm, intensity. `None` for fields without
-    /// numbers.
+    /// Numbers of `field` in `rows`, in order: depth step, repeat, time in s, spacing in whole nm, intensity. `None` for fields without numbers.
     ///
     /// # Panics
     /// If there is no such row.

@@ -1,4 +1,4 @@
-//! One row of a table.
+//! Rows of a table.
 
 use std::borrow::Cow;
 
@@ -21,14 +21,14 @@ use crate::pack::Span;
 pub struct FrameEntry {
     /// File or pack of the frame, relative to the folder of the dataset, with `/`.
     pub path: String,
-    /// The bytes within that file; `None` for all of them.
+    /// Byte range within that file; `None` for the whole file.
     pub span: Option<Span>,
-    /// Digest of its bytes; for a difference, digest of its bytes and of the digest of the first frame.
+    /// Digest of its bytes; for a difference, digest of its bytes and of the digest of the first frame of the pack.
     pub digest: Digest,
 }
 
 impl FrameEntry {
-    /// The frame at `place` as tables write it: a path, followed by `@OFFSET+LENGTH` for a pack.
+    /// Frame at `place` as tables write it: a path, followed by `@OFFSET+LENGTH` for a pack.
     pub fn at(place: impl Into<String>, digest: Digest) -> FrameEntry {
         let place = place.into();
         let found = place.rfind('@').and_then(|at| {
@@ -44,12 +44,12 @@ impl FrameEntry {
         FrameEntry { path, span, digest }
     }
 
-    /// True if it is stored as the difference to the first frame of its pack.
+    /// True if the frame is stored as the difference to the first frame of its pack.
     pub fn is_difference(&self) -> bool {
         self.span.is_some_and(|span| span.is_difference)
     }
 
-    /// True if it is the first frame of the pack at `path`.
+    /// True if the frame is the first of the pack at `path`.
     pub(crate) fn begins(&self, path: &str) -> bool {
         self.path == path && self.span.is_some_and(|span| span.offset == 0)
     }
@@ -63,7 +63,7 @@ impl FrameEntry {
     }
 }
 
-/// The picture of one row in one view.
+/// Picture of one row in one view.
 ///
 /// ```
 /// use taceva_dataset::{Digest, FrameEntry, RowFrame};
@@ -75,15 +75,15 @@ impl FrameEntry {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct RowFrame {
-    /// The original picture, relative to the folder of its lab.
+    /// Original picture, relative to the lab's folder.
     pub source_frame: Option<String>,
     /// Mean luma, in steps of an 8-bit camera.
     pub intensity: Option<f64>,
-    /// The picture.
+    /// Location of the picture.
     pub frame: Option<FrameEntry>,
 }
 
-/// One row of a [`Table`](super::Table); missing values are `None`.
+/// Row of a [`Table`](super::Table); missing values are `None`.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels};
@@ -99,52 +99,52 @@ pub struct RowFrame {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Row {
-    /// Name, unique in a table.
+    /// Name of the sample, unique in a table.
     pub sample: String,
-    /// The contact point, which repeats share.
+    /// Contact point, which repeats share.
     pub point_id: Option<String>,
-    /// The sensor unit.
+    /// Sensor unit of the sample.
     pub unit_id: Option<String>,
-    /// The lighting scene or the like.
+    /// Light scene of the sample.
     pub scene: Option<String>,
     /// Index of the depth step at this contact point.
     pub depth_step: Option<u32>,
-    /// The number of the repeat.
+    /// Number of the repeat.
     pub repeat: Option<u32>,
-    /// Load or unload.
+    /// Phase: load or unload.
     pub phase: Option<Phase>,
-    /// The limit of the gel that stopped the tip before its target.
+    /// Gel limit that stopped the tip before its target.
     pub limited_by: Option<Limit>,
-    /// Standard uncertainty of the height from which the depth counts, mm.
+    /// Standard uncertainty of the height from which the depth is measured, mm.
     pub zero_u_mm: Option<f64>,
-    /// The table of the import, relative to the folder of the lab, or the file that was the row.
+    /// Imported table relative to the lab's folder, or the imported file of this row.
     pub source_table: Option<String>,
-    /// The row in that table, from 0.
+    /// Row number in that table, from 0.
     pub source_row: Option<u32>,
-    /// The original picture, relative to the folder of its lab: a file, or a file and the index in it, from 0: `clip.mp4#12`.
+    /// Original picture relative to the lab's folder: a file, or a file with the index of a frame, from 0, such as `clip.mp4#12`.
     pub source_frame: Option<String>,
-    /// The part of a declared split.
+    /// Declared part of a split.
     pub part: Option<String>,
-    /// The time by the recording's clock, s.
+    /// Time on the clock of the recording, s.
     pub t_s: Option<f64>,
-    /// The relief of the grating touched.
+    /// Relief of the touched grating.
     pub kind: Option<GratingKind>,
-    /// The spacing of that grating.
+    /// Spacing of the touched grating.
     pub spacing: Option<Nanometre>,
-    /// The mean luma of the full-size frame, in steps of an 8-bit camera.
+    /// Mean luma of the full-size frame, in steps of an 8-bit camera.
     pub intensity: Option<f64>,
     /// One value for each channel of the table.
     pub truth: Vec<Option<f64>>,
     /// One text for each attribute of the table.
     pub attributes: Vec<Option<String>>,
-    /// The picture.
+    /// Location of the picture.
     pub frame: Option<FrameEntry>,
-    /// One picture for each view of the table; rows then have no other.
+    /// Pictures of all views of the table; `frame` is then unused.
     pub views: Vec<RowFrame>,
 }
 
 impl Row {
-    /// The row of the sample called `sample`, without other values.
+    /// Row of the sample called `sample`, without other values.
     pub fn new(sample: impl Into<String>) -> Row {
         Row {
             sample: sample.into(),

@@ -1,4 +1,4 @@
-//! Copying rows between tables, and identity of rows.
+//! Copies rows between tables, and identifies equal rows.
 
 use taceva_core::Channel;
 
@@ -6,7 +6,7 @@ use super::views::{ViewFrames, column_kind};
 use super::{FrameEntry, Row, Table};
 use crate::digest::{Digest, PartsDigest};
 
-/// Names of a row of another table in this one, and the location of its frame.
+/// Names for a row of another table in this table, and the location of its frame.
 #[doc(hidden)]
 pub struct RowNames {
     /// Name of the sample.
@@ -18,8 +18,7 @@ pub struct RowNames {
 }
 
 impl Table {
-    /// Adds the row at `row` of `other`, a table of the same channels in any order. An attribute of only one table is missing in the rows
-    /// of the other.
+    /// Adds row `row` of `other`, a table with the same channels in any order. An attribute of only one table is missing in the rows of the other.
     ///
     /// # Panics
     /// If `other` lacks a channel, or has no such row.
@@ -59,7 +58,7 @@ impl Table {
         self.push(row);
     }
 
-    /// The digest of each row's content, independent of its names and origin: its labels, its time, and the digest of its frame.
+    /// Digest of the content of each row, independent of names and origin: labels, time, and digest of the frame.
     pub fn row_digests(&self) -> Vec<Digest> {
         const NAMES: [&str; 6] = [
             "sample",

@@ -1,12 +1,12 @@
-//! Pictures of a table with several views: one column for each view.
+//! Pictures of a table with several views, in one column per view.
 
 use super::{Cells, FrameEntry, NamedColumn, RowFrame, Table};
 use crate::digest::{Digest, PartsDigest};
 
-/// Separator between the name of a column on disk and its view; no attribute or channel contains it.
+/// Separator between a column name on disk and its view. Attributes and channels do not contain it.
 const SEPARATOR: char = ':';
 
-/// The pictures of one view, one for each row.
+/// Pictures of one view, one per row.
 ///
 /// ```
 /// use taceva_core::Channels;
@@ -19,19 +19,19 @@ const SEPARATOR: char = ':';
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewFrames {
     name: String,
-    /// The names of its columns on disk: source, intensity, frame and digest.
+    /// Column names on disk: source, intensity, frame and digest.
     columns: [String; 4],
     source_frame: Vec<Option<String>>,
     intensity: Vec<Option<f64>>,
     frames: Vec<Option<FrameEntry>>,
 }
 
-/// The name on disk of the column `column` of the view `view`.
+/// Name on disk of the column `column` of the view `view`.
 pub fn column_of(column: &str, view: &str) -> String {
     format!("{column}{SEPARATOR}{view}")
 }
 
-/// Kind of a column on disk, without its view.
+/// Column name on disk without its view.
 pub fn column_kind(column: &str) -> &str {
     column.split(SEPARATOR).next().unwrap_or(column)
 }
@@ -48,27 +48,27 @@ impl ViewFrames {
         }
     }
 
-    /// The name of the view.
+    /// Name of the view.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The picture of each row.
+    /// Picture of each row.
     pub fn frames(&self) -> &[Option<FrameEntry>] {
         &self.frames
     }
 
-    /// The mean luma of each picture, in steps of an 8-bit camera.
+    /// Mean luma of each picture, in steps of an 8-bit camera.
     pub fn intensity(&self) -> &[Option<f64>] {
         &self.intensity
     }
 
-    /// The original picture of each row in the folder of its lab.
+    /// Original picture of each row in the lab's folder.
     pub fn source_frame(&self) -> &[Option<String>] {
         &self.source_frame
     }
 
-    /// The picture of a row.
+    /// Picture of a row.
     ///
     /// # Panics
     /// If there is no such row.
@@ -99,10 +99,10 @@ impl ViewFrames {
 }
 
 impl Table {
-    /// The same table without rows; each row will have a picture in every one of these views.
+    /// The same table without rows, with a picture in each of these views per row.
     ///
     /// # Panics
-    /// If there are rows.
+    /// If the table has rows.
     #[must_use]
     pub fn with_views<'n>(mut self, names: impl IntoIterator<Item = &'n str>) -> Table {
         assert_eq!(self.rows(), 0, "no row has pictures of other views");
@@ -110,17 +110,17 @@ impl Table {
         self
     }
 
-    /// The views, in the order of the dataset; empty if a row has at most one picture.
+    /// Views in the order of the dataset; empty if rows have at most one picture.
     pub fn views(&self) -> &[ViewFrames] {
         &self.views
     }
 
-    /// The view called `name`.
+    /// View called `name`.
     pub fn view(&self, name: &str) -> Option<&ViewFrames> {
         self.views.iter().find(|view| view.name == name)
     }
 
-    /// Sets the file and the brightness of a row's frame in the view at index `view`.
+    /// Sets the file and the brightness of the frame of a row in the view at index `view`.
     ///
     /// # Panics
     /// If there is no such view or row.
@@ -130,8 +130,8 @@ impl Table {
         view.intensity[row] = Some(intensity);
     }
 
-    /// The same table with the frames of the views at `positions`. Several views have the location of the first, a digest of all, and the
-    /// mean intensity weighted by `widths`.
+    /// The same table with the frames of the views at `positions`. For several views, frames have the location of the first, a digest of all, and
+    /// the mean intensity weighted by `widths`.
     pub(crate) fn seen_by(&self, positions: &[usize], widths: &[u32]) -> Table {
         let mut seen = self.clone();
         let views: Vec<&ViewFrames> = positions.iter().map(|at| &self.views[*at]).collect();
@@ -146,7 +146,7 @@ impl Table {
     }
 }
 
-/// The pictures of one row side by side, as one.
+/// Pictures of one row side by side, combined to one entry.
 fn beside(rows: &[RowFrame], widths: &[u32]) -> RowFrame {
     if let [only] = rows {
         return only.clone();
@@ -175,7 +175,7 @@ fn beside(rows: &[RowFrame], widths: &[u32]) -> RowFrame {
     }
 }
 
-/// The digest of pictures side by side.
+/// Combined digest of pictures side by side.
 pub(crate) fn digest_of(pictures: impl Iterator<Item = Digest>) -> Digest {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.frames/1 side by side");

@@ -71,7 +71,7 @@ fn samples_that_cannot_be_recorded_are_refused_and_lose_nothing() {
         ),
         (
             sample(2).with_truth(Readings::from_values([f64::NAN])),
-            "NaN is no finite number",
+            "NaN is not a finite number",
         ),
         (
             sample(2).with_truth(Readings::from_values([0.0; 3])),
@@ -82,7 +82,7 @@ fn samples_that_cannot_be_recorded_are_refused_and_lose_nothing() {
                 valid_s: f64::INFINITY,
                 received_s: None,
             }),
-            "inf is no finite number",
+            "inf is not a finite number",
         ),
         (
             sample(2).with_frame(Frame::new(small, vec![0]).expect("one byte")),

@@ -7,14 +7,14 @@ use taceva_core::Unit;
 
 use super::error::BudgetProblem;
 
-/// An amount as written.
+/// Amount as written in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Amount {
     Number(f64),
     Text(String),
 }
 
-/// The quantity that an amount must be of.
+/// Quantity expected of an amount.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Wanted {
     /// A value of this unit.
@@ -23,9 +23,9 @@ pub(super) enum Wanted {
     Share,
     /// An angle, converted to radians.
     Angle,
-    /// Anything: a number as it is, an angle in radians, other units as they are kept.
+    /// Any quantity: a plain number unchanged, an angle in radians, other units as written.
     Any,
-    /// A number, a share or an angle in radians: the unit of the measurand is none that TacEva converts.
+    /// A plain number, a share or an angle in radians, if TacEva cannot convert the unit of the measurand.
     Plain,
 }
 
@@ -65,7 +65,7 @@ impl fmt::Display for Amount {
 }
 
 impl Amount {
-    /// The number in the wanted unit, finite.
+    /// Number in the expected unit, checked to be finite.
     pub(super) fn resolve(&self, wanted: Wanted) -> Result<f64, BudgetProblem> {
         let wrong = |expected: &str| BudgetProblem::Value {
             found: taceva_core::shown(&self.to_string()).to_string(),

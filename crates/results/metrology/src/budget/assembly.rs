@@ -1,4 +1,4 @@
-//! From the text and measured figures to finished budgets.
+//! Computes budgets from the text and the measured figures.
 
 use super::correlation::Correlations;
 use super::error::{BudgetError, BudgetProblem};
@@ -15,7 +15,7 @@ use super::text::BudgetText;
 use taceva_metrics::distributions::student_t;
 
 impl BudgetText {
-    /// One budget for each value of `at`, or one alone for an expression without it.
+    /// One budget for each value of `at`; a single budget for an expression without `at`.
     ///
     /// Source estimates are corrections: Y = ŷ·cos(tilt)·Π(1 + δ_relative) + Σ δ_absolute, or the expression.
     ///
@@ -131,7 +131,7 @@ impl BudgetText {
         Ok(budget)
     }
 
-    /// The expression as written, or the one of the ways in which sources enter. The names are those of the sources, then the measurand's.
+    /// The expression as written, or the default product and sum. The names are those of the sources, then the measurand's.
     fn model(&self, inputs: &[Input], at: Option<f64>) -> Result<Expression, BudgetError> {
         if let Some(written) = &self.written.expression {
             let mut names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
@@ -195,7 +195,7 @@ impl Budget {
         self.warnings.push(warning.into());
     }
 
-    /// Adds the result of the draws. They give the interval if that of first order is not confirmed.
+    /// Adds the Monte Carlo result. It gives the interval if the first-order interval is not confirmed.
     fn take_draws(
         &mut self,
         mut drawn: MonteCarloResult,
@@ -243,7 +243,7 @@ impl Budget {
     }
 }
 
-/// Reason why the interval of first order is not confirmed.
+/// Reason why the first-order interval is not confirmed.
 fn reason(drawn: &MonteCarloResult, inputs: &[Input], combined: &Combined) -> String {
     let missed = 1.0 - combined.u / drawn.u;
     let is_curved = combined.second_order_u > combined.u * 1.01;

@@ -4,7 +4,7 @@ use super::freedom::Freedom;
 use taceva_core::{Date, Traceability};
 use taceva_metrics::distributions::student_t;
 
-/// Meaning of an expanded uncertainty: its coverage factor, or its coverage probability.
+/// Meaning of an expanded uncertainty: coverage factor, or coverage probability.
 ///
 /// This type gets no further variant: a certificate states one of these.
 ///
@@ -52,7 +52,7 @@ impl Coverage {
     }
 }
 
-/// Certificate of the reference, reduced to the measurand's channel; numbers in the unit of the measurand.
+/// Certificate of the reference for the measured channel; numbers in the unit of the measurand.
 ///
 /// ```
 /// use taceva_metrology::budget::{Certificate, Coverage};
@@ -70,7 +70,7 @@ pub struct Certificate {
     pub laboratory: String,
     /// Serial number in the certificate.
     pub serial: String,
-    /// Serial number that the instrument's driver reads, if it reads one.
+    /// Serial number read by the instrument's driver, if any.
     pub instrument_serial: Option<String>,
     /// Coverage of the expanded uncertainties.
     pub coverage: Coverage,
@@ -87,7 +87,7 @@ pub struct Certificate {
 }
 
 impl Certificate {
-    /// A certificate of no uncertainty and no range yet.
+    /// A certificate with zero uncertainty and no range.
     pub fn new(number: &str, laboratory: &str, serial: &str, coverage: Coverage) -> Certificate {
         Certificate {
             number: number.to_owned(),
@@ -103,7 +103,7 @@ impl Certificate {
         }
     }
 
-    /// The certificate of a recording's instrument, reduced to `channel`; `None` if it has none, or none with an uncertainty of this channel.
+    /// Certificate of a recording's instrument, reduced to `channel`; `None` without a certificate or an uncertainty of this channel.
     ///
     /// ```
     /// use taceva_core::{Coverage, Instrument, Traceability};
@@ -158,7 +158,7 @@ impl Certificate {
         }
     }
 
-    /// The sentence of a certificate that had expired when the recording was made, or may have. Dates of one form compare as texts.
+    /// Warning about a certificate that had expired, or may have, when the recording was made. Dates of one form compare as texts.
     pub(super) fn expiry(&self) -> Option<String> {
         let (number, until) = (&self.number, self.valid_until.as_ref()?);
         match &self.recorded_on {

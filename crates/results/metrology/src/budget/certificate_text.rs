@@ -1,4 +1,4 @@
-//! Certificate of a reference in a file: a rig, the header of a recording, or the table of a certificate alone.
+//! Reads the certificate of a reference from a rig, from the header of a recording, or from a file of its own.
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -8,17 +8,17 @@ use super::certificate::Certificate;
 use super::error::{BudgetError, BudgetProblem};
 use super::text::explained;
 
-/// Instruments that labels come from.
+/// Instruments that measure the labels.
 const REFERENCES: [Instrument; 2] = [Instrument::Force, Instrument::Robot];
 
-/// Tables of a file that may hold certificates; others are left alone.
+/// Tables of a file that may hold certificates; other tables are ignored.
 #[derive(Deserialize)]
 struct Tables {
     #[serde(default)]
     traceability: Vec<Traceability>,
     force: Option<Device>,
     robot: Option<Device>,
-    /// Key of a certificate whose table is the whole file.
+    /// Number of the certificate, if its table is the whole file.
     number: Option<IgnoredAny>,
 }
 
@@ -29,7 +29,7 @@ struct Device {
 }
 
 impl Certificate {
-    /// Reads the certificate of the reference of `channel`, of a recording of this day.
+    /// Reads the certificate of the reference of `channel` for a recording of this day.
     ///
     /// ```
     /// use taceva_metrology::budget::Certificate;
@@ -48,7 +48,7 @@ impl Certificate {
     /// ```
     ///
     /// # Errors
-    /// [`BudgetError`] with the line of bad TOML or of a certificate that contradicts itself, or if none or several state this channel.
+    /// [`BudgetError`] with the line of bad TOML or of an inconsistent certificate, or if none or several state this channel.
     pub fn read(
         text: &str,
         channel: &str,
@@ -84,7 +84,7 @@ impl Certificate {
         }
     }
 
-    /// Certificates of `channel` among those of the instruments that labels come from.
+    /// Certificates of `channel` among the instruments that measure labels.
     pub fn of_references(
         all: &[Traceability],
         channel: &str,

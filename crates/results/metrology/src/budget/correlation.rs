@@ -1,4 +1,4 @@
-//! Correlations of inputs: stated, computed from rows read together, or of the worst sign.
+//! Correlations of inputs: stated, computed from paired rows, or worst case.
 
 use super::amount::{Amount, Wanted};
 use super::error::{BudgetError, BudgetProblem};
@@ -7,7 +7,7 @@ use super::input::Input;
 use super::source::{deviations, unknown};
 use super::text::{BudgetText, value};
 
-/// Least eigenvalue of rounding alone.
+/// Least eigenvalue that rounding alone explains.
 const ROUNDING: f64 = -1e-12;
 
 /// A symmetric matrix of correlations.
@@ -18,7 +18,7 @@ pub(super) struct Correlations {
 }
 
 impl Correlations {
-    /// Correlations of `inputs`; `contributions` give the sign of unknown ones.
+    /// Correlations of `inputs`; the signs of `contributions` give the worst case for unknown correlations.
     pub(super) fn of(
         text: &BudgetText,
         inputs: &[Input],
@@ -86,7 +86,7 @@ impl Correlations {
         Ok(found)
     }
 
-    /// Correlations of inputs whose rows were read together; one freedom for each set.
+    /// Adds correlations of inputs whose rows were read together. Each set shares one number of degrees of freedom.
     fn add_rows(&mut self, text: &BudgetText, inputs: &[Input]) -> Result<(), BudgetError> {
         for second in 0..inputs.len() {
             for first in 0..second {
@@ -101,7 +101,7 @@ impl Correlations {
                         written,
                         "set",
                         BudgetProblem::Keys(format!(
-                            "`{one}` and `{other}` are of one set, but differ in their {what}"
+                            "`{one}` and `{other}` belong to the same set, but differ in their {what}"
                         )),
                     )
                 };
@@ -174,7 +174,7 @@ impl Correlations {
         (0..n).map(|at| a[at * n + at]).fold(1.0, f64::min)
     }
 
-    /// Lower triangle L with L Lᵀ = R, row by row; columns of no length are 0.
+    /// Lower triangle L with L Lᵀ = R, row by row; columns of zero length are 0.
     pub(super) fn factor(&self) -> Vec<f64> {
         let n = self.count;
         let mut lower = vec![0.0; n * n];
@@ -199,12 +199,12 @@ impl Correlations {
 }
 
 impl Input {
-    /// True if both belong to one set.
+    /// True if both inputs belong to the same set.
     pub(super) fn is_of_set_of(&self, other: &Input) -> bool {
         self.set.is_some() && self.set == other.set
     }
 
-    /// True if both have rows of one set.
+    /// True if both inputs have rows of the same set.
     fn is_read_with(&self, other: &Input) -> bool {
         self.is_of_set_of(other) && !self.rows.is_empty() && !other.rows.is_empty()
     }

@@ -1,6 +1,6 @@
-//! Digits of an expanded uncertainty, and of the value beside it.
+//! Rounding of an expanded uncertainty, and of the value beside it.
 
-/// An expanded uncertainty to two digits: the nearest, or the next greater if the nearest is lower by 5 % or more.
+/// Rounds an expanded uncertainty to two digits: to the nearest, or up if the nearest is lower by 5 % or more.
 ///
 /// ```
 /// use taceva_metrology::budget::two_digits;
@@ -18,7 +18,7 @@ pub fn two_digits(expanded: f64) -> f64 {
     }
 }
 
-/// Exponent of the first digit once the number has two digits; 0 for 0.
+/// Exponent of the first digit after rounding to two digits; 0 for 0.
 pub(super) fn exponent(number: f64) -> i32 {
     let text = format!("{number:.1e}");
     text.rsplit('e')
@@ -27,12 +27,12 @@ pub(super) fn exponent(number: f64) -> i32 {
         .unwrap_or_default()
 }
 
-/// Half of the last place of a standard uncertainty of two digits, JCGM 101, 7.9.2.
+/// Half of the last place of a standard uncertainty rounded to two digits, JCGM 101, 7.9.2.
 pub(super) fn tolerance(u: f64) -> f64 {
     0.5 * 10_f64.powi(exponent(u) - 1)
 }
 
-/// `number` with the decimals of `uncertainty` to two digits.
+/// `number` with as many decimals as `uncertainty` in two digits.
 pub(super) fn beside(number: f64, uncertainty: f64) -> String {
     let decimals = usize::try_from(1 - exponent(uncertainty)).unwrap_or_default();
     format!("{number:.decimals$}")

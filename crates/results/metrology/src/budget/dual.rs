@@ -1,16 +1,16 @@
-//! Numbers with their first and second derivatives: dual numbers of second order.
+//! Second-order dual numbers: values with their first and second derivatives.
 
-/// A number that an expression is evaluated with.
+/// Number type that expressions are evaluated with.
 pub(super) trait Scalar: Clone {
-    /// A constant beside `like`.
+    /// Constant with as many derivatives as `like`.
     fn constant(value: f64, like: &Self) -> Self;
-    /// The number itself.
+    /// Value without derivatives.
     fn value(&self) -> f64;
     fn plus(self, other: &Self) -> Self;
     fn times(self, other: &Self) -> Self;
-    /// g(self) by g, g′ and g″ there.
+    /// Chain rule: g(self), given g, g′ and g″ at this value.
     fn chained(self, derivatives: [f64; 3]) -> Self;
-    /// True if it depends on no input.
+    /// True if the number depends on no input.
     fn is_constant(&self) -> bool;
 }
 
@@ -47,7 +47,7 @@ impl Scalar for f64 {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expansion {
-    /// Value.
+    /// Value of the expression.
     pub value: f64,
     /// First derivative by each input.
     pub gradient: Vec<f64>,
@@ -56,7 +56,7 @@ pub struct Expansion {
 }
 
 impl Expansion {
-    /// Input `index` of `count`.
+    /// Number of input `index` among `count` inputs.
     pub(super) fn input(value: f64, index: usize, count: usize) -> Expansion {
         let slope = |at: usize| if at == index { 1.0 } else { 0.0 };
         Expansion {

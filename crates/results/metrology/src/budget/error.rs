@@ -1,4 +1,4 @@
-//! Errors of a budget file: line, key, what was found and what is expected.
+//! Errors of a budget file: line, key, content found and content expected.
 
 use std::fmt;
 
@@ -18,7 +18,7 @@ pub struct BudgetError {
     pub line: Option<usize>,
     /// Key at fault, or the table.
     pub key: Option<String>,
-    /// Problem.
+    /// Problem found.
     pub problem: Box<BudgetProblem>,
 }
 
@@ -95,28 +95,28 @@ pub enum BudgetProblem {
     NotMeasured {
         /// Name of the figure.
         name: String,
-        /// Reason.
+        /// Reason why it has no value.
         reason: String,
     },
-    /// Two sources of one name, or two that use one figure.
+    /// Two sources with the same name, or that use the same figure.
     #[error("`{name}` is used twice, here and in line {other}")]
     Twice {
-        /// Name.
+        /// Name of the source or figure.
         name: String,
-        /// Line of the first.
+        /// Line of the first source.
         other: usize,
     },
-    /// A source that another one holds already.
+    /// A source that another source already includes.
     #[error("`{inner}` is inside `{outer}` (line {line}); remove one of them")]
     Inside {
-        /// Figure that is held.
+        /// Included figure.
         inner: String,
-        /// Figure that holds it.
+        /// Figure that includes it.
         outer: String,
         /// Line of `outer`.
         line: usize,
     },
-    /// Correlations that no variables can have.
+    /// Contradicting correlations: the matrix has a negative eigenvalue.
     #[error(
         "the correlations contradict each other: the least eigenvalue of their matrix is {eigenvalue:.3e}, expected 0 or more"
     )]
@@ -127,7 +127,7 @@ pub enum BudgetProblem {
     /// An expression that cannot be read or has no value.
     #[error("{0}")]
     Expression(ExpressionError),
-    /// A certificate that does not hold for the instrument or the value.
+    /// A certificate that does not apply to the instrument or the value.
     #[error("{0}")]
     Certificate(String),
 }

@@ -15,24 +15,24 @@ use super::freedom::Freedom;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Figure {
-    /// Estimate: a correction that is added to the reading, 0 for most; of `drift` the slope per hour.
+    /// Estimate, a correction added to the reading (usually 0). For `drift`, the slope per hour.
     pub value: f64,
     /// Standard uncertainty.
     pub u: f64,
     /// Degrees of freedom of `u`.
     pub freedom: Freedom,
-    /// Number of rows behind it.
+    /// Number of rows that the figure is computed from.
     pub n: Option<u64>,
     /// Number of clusters of these rows, such as contact points.
     pub clusters: Option<u64>,
-    /// Digest of the file it was read from.
+    /// Digest of the file that the figure comes from.
     pub digest: Option<String>,
-    /// Reservation that every output repeats.
+    /// Caveat that every output repeats.
     pub note: Option<String>,
 }
 
 impl Figure {
-    /// A figure of the estimate 0.
+    /// A figure with the estimate 0.
     pub fn new(u: f64, freedom: Freedom) -> Figure {
         Figure {
             value: 0.0,
@@ -79,7 +79,7 @@ impl Figure {
     }
 }
 
-/// All that a recording and its results can feed into a budget.
+/// Measured figures and the certificate that a budget can use.
 ///
 /// ```
 /// use taceva_metrology::budget::{Evidence, Figure, Freedom};

@@ -1,4 +1,4 @@
-//! Expressions over the names of sources: read, evaluated, and differentiated exactly.
+//! Expressions over the names of sources: parser, evaluation and exact derivatives.
 
 mod reader;
 
@@ -23,7 +23,7 @@ pub struct Expression {
     steps: Vec<(Step, usize)>,
 }
 
-/// An expression that cannot be read, or has no value at the estimates.
+/// An expression with a syntax error, or without a value at the estimates.
 ///
 /// ```
 /// use taceva_metrology::budget::Expression;
@@ -35,7 +35,7 @@ pub struct Expression {
 pub struct ExpressionError {
     /// Column, from 1, in characters.
     pub column: usize,
-    /// Problem.
+    /// Problem found.
     pub problem: String,
 }
 
@@ -73,7 +73,7 @@ pub(super) enum Function {
 }
 
 impl Expression {
-    /// Reads `text`; `names` are the inputs, in their order. A name with blanks stands in `'…'`.
+    /// Parses `text`; `names` lists the inputs in order. A name with blanks stands in `'…'`.
     ///
     /// # Errors
     /// [`ExpressionError`] with the column, and for an unknown name the nearest one.
@@ -82,7 +82,7 @@ impl Expression {
         Ok(Expression { steps })
     }
 
-    /// The expression of these steps, which no text has.
+    /// The expression of these steps, without a text.
     pub(super) fn of_steps(steps: Vec<Step>) -> Expression {
         let steps = steps.into_iter().map(|step| (step, 0)).collect();
         Expression { steps }
@@ -91,7 +91,7 @@ impl Expression {
     /// Value and derivatives at `inputs`, in the order of the names.
     ///
     /// # Errors
-    /// [`ExpressionError`] with the column of a division by 0, of a root or logarithm without a value or derivative, or of an overflow.
+    /// [`ExpressionError`] with the column of a division by 0, of an overflow, or of a root or logarithm without a value or derivative.
     pub fn expand(&self, inputs: &[f64]) -> Result<Expansion, ExpressionError> {
         let count = inputs.len();
         let dual = |at: usize| Expansion::input(inputs[at], at, count);
@@ -100,7 +100,7 @@ impl Expression {
         self.evaluate(&duals, &zero, &mut Vec::new())
     }
 
-    /// Value at `inputs`; `None` if there is none. `stack` is kept between calls.
+    /// Value at `inputs`; `None` if undefined. `stack` is a buffer reused between calls.
     pub(super) fn value(&self, inputs: &[f64], stack: &mut Vec<f64>) -> Option<f64> {
         self.evaluate(inputs, &0.0, stack).ok()
     }

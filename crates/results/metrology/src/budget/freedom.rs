@@ -1,4 +1,4 @@
-//! Degrees of freedom of an uncertainty: a number, infinitely many, or the reason why there is none.
+//! Degrees of freedom of an uncertainty: a number, infinity, or the reason why undefined.
 
 use std::fmt;
 
@@ -17,9 +17,9 @@ use serde::{Deserialize, Serialize};
 pub enum Freedom {
     /// A number above 0.
     Finite(f64),
-    /// The uncertainty is known exactly.
+    /// Infinite: the uncertainty is known exactly.
     Infinite,
-    /// No number is defined.
+    /// Undefined, with the reason.
     Undefined(Undefined),
 }
 
@@ -32,7 +32,7 @@ pub enum Freedom {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Undefined {
-    /// Sources of finite freedom are correlated, but not through the same rows; Welch and Satterthwaite's formula does not hold.
+    /// Sources with finite degrees of freedom are correlated, but not through the same rows. The Welch–Satterthwaite formula does not apply.
     #[error("sources of finite freedom are correlated, but not through the same rows")]
     CorrelatedFreedom,
     /// The combined uncertainty is 0.
@@ -41,7 +41,7 @@ pub enum Undefined {
 }
 
 impl Freedom {
-    /// The number, infinity included; `None` if it is undefined.
+    /// Degrees of freedom, infinity included; `None` if undefined.
     pub fn number(self) -> Option<f64> {
         match self {
             Freedom::Finite(number) => Some(number),
@@ -50,7 +50,7 @@ impl Freedom {
         }
     }
 
-    /// Freedom of the standard uncertainty known to the relative accuracy q: ν = 1 / (2 q²), GUM G.4.2.
+    /// Degrees of freedom of a standard uncertainty with relative accuracy q: ν = 1 / (2 q²), GUM G.4.2.
     pub fn of_reliability(relative: f64) -> Freedom {
         match relative > 0.0 {
             true => Freedom::Finite(0.5 / (relative * relative)),
@@ -60,7 +60,7 @@ impl Freedom {
 }
 
 impl fmt::Display for Freedom {
-    /// To one decimal, cut off so that it never says more than there is.
+    /// Rounds down to one decimal, so that the text never overstates the degrees of freedom.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Freedom::Finite(number) => write!(f, "{:.1}", (number * 10.0).floor() / 10.0),
@@ -70,7 +70,7 @@ impl fmt::Display for Freedom {
     }
 }
 
-/// Form of a freedom in JSON.
+/// JSON form of degrees of freedom.
 #[derive(Serialize, Deserialize)]
 #[serde(untagged)]
 enum Record {

@@ -18,29 +18,29 @@ pub(super) struct Input {
     pub(super) freedom: Freedom,
     pub(super) enters: Enters,
     pub(super) from: Option<String>,
-    /// Inputs of one set were read together, row by row.
+    /// Name of a set whose inputs were read together, row by row.
     pub(super) set: Option<String>,
     pub(super) rows: Vec<f64>,
     pub(super) covers: Option<String>,
-    /// The measured figure that it names.
+    /// Measured figure named by the source.
     pub(super) figure: Option<Figure>,
 }
 
 impl Input {
-    /// Number of rows behind it.
+    /// Number of rows of its figure.
     pub(super) fn n(&self) -> Option<u64> {
         let rows = (!self.rows.is_empty()).then_some(self.rows.len() as u64);
         rows.or(self.figure.as_ref().and_then(|figure| figure.n))
     }
 
-    /// Reservation of its figure.
+    /// Caveat of its figure.
     pub(super) fn note(&self) -> Option<String> {
         let note = self.figure.as_ref()?.note.as_ref()?;
         Some(format!("{}: {note}", self.name))
     }
 }
 
-/// The way a source enters the model without an expression.
+/// Effect of a source on a model without an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Enters {
     /// + δ.

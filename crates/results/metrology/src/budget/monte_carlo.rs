@@ -10,11 +10,11 @@ use super::freedom::Freedom;
 use super::input::Input;
 use taceva_metrics::distributions::{chi_square, normal};
 
-/// Draws of a block.
+/// Number of draws in a block.
 const BLOCK: u64 = 10_000;
-/// Least number of blocks whose scatter tells that results are stable.
+/// Least number of blocks before the results may count as stable.
 const LEAST_BLOCKS: usize = 10;
-/// Purposes of draws: inputs have their index, normal numbers of correlated inputs and factors of Student's distribution these and their index.
+/// Stream numbers of random draws. Inputs use their index; correlated normal numbers and Student factors use these constants plus the index.
 const JOINT: u64 = 1 << 32;
 const FACTOR: u64 = 1 << 33;
 
@@ -30,11 +30,11 @@ const FACTOR: u64 = 1 << 33;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct MonteCarlo {
-    /// Greatest number of draws, rounded up to whole blocks.
+    /// Maximum number of draws, rounded up to whole blocks.
     pub draws: u64,
-    /// Seed.
+    /// Seed of the random draws.
     pub seed: u64,
-    /// True if the draws end once the results are stable in two digits of u, JCGM 101, 7.9.
+    /// True if drawing stops once the results are stable in two digits of u, JCGM 101, 7.9.
     pub is_adaptive: bool,
 }
 
@@ -49,19 +49,19 @@ impl Default for MonteCarlo {
 }
 
 impl MonteCarlo {
-    /// The same with another greatest number of draws.
+    /// The same request with another maximum number of draws.
     #[must_use]
     pub fn with_draws(self, draws: u64) -> MonteCarlo {
         MonteCarlo { draws, ..self }
     }
 
-    /// The same with another seed.
+    /// The same request with another seed.
     #[must_use]
     pub fn with_seed(self, seed: u64) -> MonteCarlo {
         MonteCarlo { seed, ..self }
     }
 
-    /// The same without an early end.
+    /// The same request, without stopping early.
     #[must_use]
     pub fn to_the_end(self) -> MonteCarlo {
         MonteCarlo {
@@ -87,23 +87,23 @@ impl MonteCarlo {
 pub struct MonteCarloResult {
     /// Number of draws.
     pub draws: u64,
-    /// Seed.
+    /// Seed of the random draws.
     pub seed: u64,
-    /// Mean.
+    /// Mean of the draws.
     pub mean: f64,
-    /// Standard deviation.
+    /// Standard deviation of the draws.
     pub u: f64,
-    /// Shortest interval of the coverage.
+    /// Shortest interval with the coverage probability.
     pub shortest: [f64; 2],
-    /// Interval with equal shares beyond both ends.
+    /// Interval with equal tail probabilities.
     pub symmetric: [f64; 2],
     /// Standard errors of both ends of the symmetric interval.
     pub end_errors: [f64; 2],
-    /// True if the interval of first order agrees with the symmetric one within the tolerance and twice the standard errors of the ends.
+    /// True if the first-order and symmetric intervals agree within the tolerance and twice the standard errors of the ends.
     pub validated: bool,
-    /// Half of the last place of u in two digits.
+    /// Half of the last place of u rounded to two digits.
     pub tolerance: f64,
-    /// True if the draws ended because the results were stable.
+    /// True if drawing stopped because the results were stable.
     pub is_stable: bool,
 }
 
@@ -111,7 +111,7 @@ pub struct MonteCarloResult {
 pub(super) struct Sampler<'a> {
     pub(super) expression: &'a Expression,
     pub(super) inputs: &'a [Input],
-    /// Values of names beyond the inputs.
+    /// Values of names other than the inputs.
     pub(super) constants: &'a [f64],
     pub(super) correlations: &'a Correlations,
     pub(super) coverage: f64,
@@ -182,13 +182,13 @@ impl Sampler<'_> {
     }
 }
 
-/// Inputs that are drawn together: correlated ones, and those of one set.
+/// Inputs that are drawn together: correlated inputs, and inputs of one set.
 struct Joint<'a> {
     inputs: &'a [Input],
     members: Vec<usize>,
     lower: Vec<f64>,
     normals: Vec<Draws>,
-    /// Factor of Student's distribution of each member, one for a set.
+    /// Factor of Student's distribution of each member; a single factor for a set.
     factors: Vec<Draws>,
 }
 
@@ -263,7 +263,7 @@ impl Summary {
     }
 }
 
-/// Number of values of an interval, JCGM 101, 7.7.2.
+/// Number of sorted values that an interval spans, JCGM 101, 7.7.2.
 fn width(count: usize, coverage: f64) -> usize {
     whole(coverage * count as f64 + 0.5).min(count.saturating_sub(1))
 }

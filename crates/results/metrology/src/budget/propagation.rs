@@ -5,22 +5,22 @@ use super::expression::Expansion;
 use super::freedom::{Freedom, Undefined};
 use super::input::Input;
 
-/// Combined uncertainty of first order.
+/// First-order combined uncertainty.
 pub(super) struct Combined {
     pub(super) u: f64,
     pub(super) freedom: Freedom,
-    /// Standard uncertainty with the terms of second order.
+    /// Standard uncertainty including second-order terms.
     pub(super) second_order_u: f64,
-    /// Greatest of these terms: the places of its inputs.
+    /// Indices of the two inputs of the greatest second-order term.
     pub(super) greatest_term: Option<[usize; 2]>,
 }
 
-/// Combines the inputs at the expansion of the model; derivatives beyond the inputs are of constants.
+/// Combines the inputs at the expansion of the model; derivatives beyond the inputs belong to constants.
 ///
-/// u² = Σ cᵢ²uᵢ² + 2 ΣΣ cᵢcⱼuᵢuⱼrᵢⱼ; ν by Welch and Satterthwaite over components, in which inputs of one set are one (GUM H.2).
+/// u² = Σ cᵢ²uᵢ² + 2 ΣΣ cᵢcⱼuᵢuⱼrᵢⱼ. Degrees of freedom by Welch and Satterthwaite; inputs of one set count as one component (GUM H.2).
 ///
 /// # Reference
-/// GUM 5.1.2, 5.2.2 and G.4.1. The terms of second order are ½ tr((HΣ)²); those of third derivatives are left out.
+/// GUM 5.1.2, 5.2.2 and G.4.1. The second-order terms are ½ tr((HΣ)²); terms with third derivatives are left out.
 pub(super) fn combine(inputs: &[Input], expansion: &Expansion, r: &Correlations) -> Combined {
     let contributions = contributions(inputs, expansion);
     let covariance = |i: usize, j: usize| contributions[i] * contributions[j] * r.get(i, j);
@@ -61,13 +61,13 @@ pub(super) fn combine(inputs: &[Input], expansion: &Expansion, r: &Correlations)
     }
 }
 
-/// cᵢuᵢ of each input.
+/// Contribution cᵢuᵢ of each input.
 pub(super) fn contributions(inputs: &[Input], expansion: &Expansion) -> Vec<f64> {
     let slopes = inputs.iter().zip(&expansion.gradient);
     slopes.map(|(input, slope)| slope * input.u).collect()
 }
 
-/// ½ Σ (HΣ)ᵢⱼ (HΣ)ⱼᵢ, and the places of the greatest |Hᵢⱼ| uᵢuⱼ.
+/// ½ Σ (HΣ)ᵢⱼ (HΣ)ⱼᵢ, and the indices of the greatest |Hᵢⱼ| uᵢuⱼ.
 fn second_order(
     inputs: &[Input],
     expansion: &Expansion,

@@ -1,4 +1,4 @@
-//! A finished budget, `taceva.budget/1`.
+//! Computed budget, `taceva.budget/1`.
 
 use std::fmt;
 
@@ -9,10 +9,10 @@ use super::digits::{beside, two_digits};
 use super::freedom::Freedom;
 use super::monte_carlo::MonteCarloResult;
 
-/// Name and version of the form in JSON.
+/// Name and version of the JSON form.
 pub const BUDGET_SCHEMA: &str = "taceva.budget/1";
 
-/// An uncertainty budget of one value, all numbers in `unit` and with all digits. It prints as text with U in two digits.
+/// Uncertainty budget of one value. Numbers are unrounded and in `unit`; printed text rounds U to two digits.
 ///
 /// ```
 /// # use taceva_metrology::budget::{BudgetText, Evidence, MonteCarlo};
@@ -24,48 +24,48 @@ pub const BUDGET_SCHEMA: &str = "taceva.budget/1";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Budget {
-    /// [`BUDGET_SCHEMA`].
+    /// Schema of the JSON form: [`BUDGET_SCHEMA`].
     pub schema: String,
     /// Name of the measurand.
     pub measurand: String,
-    /// Reading for which the budget holds; `None` if an expression alone gives the value.
+    /// Reading that the budget applies to; `None` if an expression alone gives the value.
     pub at: Option<f64>,
-    /// Unit.
+    /// Unit of all values and uncertainties.
     pub unit: String,
-    /// Value, corrected.
+    /// Corrected value.
     pub value: f64,
-    /// Combined standard uncertainty of first order.
+    /// First-order combined standard uncertainty.
     pub u: f64,
-    /// Standard uncertainty with the terms of second order.
+    /// Standard uncertainty including second-order terms.
     pub second_order_u: f64,
     /// Effective degrees of freedom.
     pub nu_eff: Freedom,
-    /// Coverage factor, of `nu_eff` cut to a whole number.
+    /// Coverage factor, for `nu_eff` rounded down to a whole number.
     pub k: Option<f64>,
     /// Coverage probability.
     pub p: f64,
-    /// Expanded uncertainty k u, not rounded.
+    /// Expanded uncertainty k u, unrounded.
     #[serde(rename = "U")]
     pub expanded: Option<f64>,
-    /// Interval of the coverage, by `method`.
+    /// Coverage interval, computed by `method`.
     pub interval: Option<[f64; 2]>,
-    /// Origin of the interval.
+    /// Method that gave the interval.
     pub method: Method,
-    /// Sources, in the order of the file.
+    /// Sources, in order of the file.
     pub sources: Vec<Source>,
-    /// Correlations that are not 0.
+    /// Nonzero correlations.
     pub correlations: Vec<Correlation>,
-    /// Result of the draws, if they were asked for.
+    /// Monte Carlo result, if requested.
     pub mcm: Option<MonteCarloResult>,
     /// Effects that no source covers.
     pub missing: Vec<Missing>,
-    /// The certificate of the reference.
+    /// Certificate of the reference; `None` without one.
     pub traceability: Option<Traceability>,
-    /// Sentences that every output repeats.
+    /// Warnings that every output repeats.
     pub warnings: Vec<String>,
 }
 
-/// Origin of an interval. It gets no further variant: there are two ways.
+/// Method that gave an interval. No further variant will be added.
 ///
 /// ```
 /// use taceva_metrology::budget::Method;
@@ -76,7 +76,7 @@ pub struct Budget {
 pub enum Method {
     /// Law of propagation and a coverage factor.
     FirstOrder,
-    /// Symmetric interval of the draws.
+    /// Symmetric interval of the Monte Carlo draws.
     MonteCarlo,
 }
 
@@ -101,7 +101,7 @@ impl fmt::Display for Method {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Source {
-    /// Name.
+    /// Name of the source.
     pub name: String,
     /// `A`, from statistics, or `B`, from other knowledge.
     #[serde(rename = "type")]
@@ -116,17 +116,17 @@ pub struct Source {
     pub nu: Freedom,
     /// Sensitivity, unit of the measurand over that of the source.
     pub c: f64,
-    /// c u, signed.
+    /// Signed contribution c u.
     pub contribution: f64,
-    /// (c u)² over the square of the combined uncertainty; the sum is 1 without correlation. `None` if that is 0.
+    /// (c u)² over the squared combined uncertainty, `None` if that is 0. Without correlation the shares sum to 1.
     pub share: Option<f64>,
-    /// Measured figure.
+    /// Measured figure that the source names.
     pub from: Option<String>,
-    /// Number of rows behind it.
+    /// Number of rows of the figure.
     pub n: Option<u64>,
-    /// Number of clusters behind it.
+    /// Number of clusters of the figure.
     pub clusters: Option<u64>,
-    /// Digest of the file it was read from.
+    /// Digest of the file that the figure comes from.
     pub digest: Option<String>,
 }
 
@@ -156,9 +156,9 @@ pub struct Correlation {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Missing {
-    /// Figure that would cover it.
+    /// Name of the figure that would cover it.
     pub source: String,
-    /// Effect, and reason.
+    /// Effect, and the reason why it matters.
     pub reason: String,
 }
 
@@ -172,7 +172,7 @@ impl Missing {
     }
 }
 
-/// The certificate that a budget rests on.
+/// Certificate behind a budget.
 ///
 /// ```
 /// # use taceva_metrology::budget::Traceability;
@@ -186,7 +186,7 @@ impl Missing {
 pub struct Traceability {
     /// Number of the certificate.
     pub number: String,
-    /// Laboratory.
+    /// Laboratory that issued the certificate.
     pub laboratory: String,
     /// Serial number of the instrument.
     pub serial: String,
@@ -195,12 +195,12 @@ pub struct Traceability {
 }
 
 impl Budget {
-    /// The expanded uncertainty in two digits.
+    /// Expanded uncertainty rounded to two digits.
     pub fn rounded(&self) -> Option<f64> {
         self.expanded.map(two_digits)
     }
 
-    /// Half-width of the interval, the greater one if its ends are unequally far from the value. It is U, unless the interval is of draws.
+    /// Half-width of the interval: the greater one if the interval is asymmetric. It equals U unless the interval comes from draws.
     pub fn half_width(&self) -> Option<f64> {
         match self.method {
             Method::FirstOrder => self.expanded,
@@ -226,20 +226,20 @@ impl Budget {
         format!("{name} = {value} {unit}, {uncertainty}, p = {p} %, nu_eff {freedom})")
     }
 
-    /// Interval with its method, in words.
+    /// Interval and its method, as text.
     pub fn interval_in_words(&self) -> Option<String> {
         let [low, high] = self.interval?.map(|end| beside(end, self.scale()));
         let unit = shown(&self.unit);
         Some(format!("interval {low} to {high} {unit}, {}", self.method))
     }
 
-    /// Uncertainty whose two digits give the decimals of values.
+    /// Uncertainty whose two digits set the decimals of printed values.
     fn scale(&self) -> f64 {
         let wide = self.expanded.filter(|expanded| *expanded > 0.0);
         wide.unwrap_or(self.u)
     }
 
-    /// Correlation of the values of two budgets of the same sources; `None` if either has no uncertainty.
+    /// Correlation of the values of two budgets with the same sources; `None` if either has no uncertainty.
     ///
     /// # Reference
     /// GUM H.2.3: r = ΣΣ cᵢuᵢ cⱼ′uⱼ′ rᵢⱼ / (u u′).

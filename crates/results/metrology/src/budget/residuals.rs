@@ -8,7 +8,7 @@ use taceva_metrics::{ExactSum, Moments, OneWaySums};
 use super::evidence::{Evidence, Figure};
 use super::freedom::Freedom;
 
-/// Residuals d = truth − prediction by contact point, as exact sums. States of parts merge, in any order.
+/// Residuals d = truth − prediction by contact point, as exact sums. Partial sums merge in any order.
 ///
 /// ```
 /// use taceva_metrology::budget::Residuals;
@@ -24,11 +24,11 @@ use super::freedom::Freedom;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Residuals {
     points: BTreeMap<String, Moments>,
-    /// Rows whose truth or prediction is no number.
+    /// Number of rows whose truth or prediction is not finite.
     n_invalid: u64,
 }
 
-/// Components of the one-way random model by contact point, in the unit of the channel.
+/// Variance components of the random model with one factor, the contact point, in the unit of the channel.
 ///
 /// ```
 /// # use taceva_metrology::budget::{Evidence, Residuals};
@@ -55,15 +55,15 @@ pub struct Components {
     pub between: Figure,
     /// Standard deviation within points, √MS_w.
     pub within: Figure,
-    /// Mean residual, a correction of the prediction, with u² = s_b² Σ nₚ²/n² + MS_w/n, which is MS_b/n for points of one size.
+    /// Mean residual, a correction of the prediction. u² = s_b² Σ nₚ²/n² + MS_w/n, which is MS_b/n for points with equally many rows.
     pub bias: Figure,
-    /// Root of the mean square of residuals; freedom by Satterthwaite, since the rows of a point depend on each other.
+    /// Root mean square residual. Degrees of freedom by Satterthwaite, since rows of a point are correlated.
     pub rmse: Figure,
-    /// True if MS_b is below MS_w, so that `between` counts as 0.
+    /// True if MS_b is below MS_w, so that `between` is set to 0.
     pub is_negative: bool,
 }
 
-/// Rows that give no components: fewer than two points, or no point with two rows.
+/// Reason why there are no components: fewer than two points, or no point with two rows.
 ///
 /// This type gets no further field.
 ///
@@ -82,7 +82,7 @@ pub struct TooFewRows {
 }
 
 impl Residuals {
-    /// Adds a row of a contact point; truth and prediction in the unit of the channel.
+    /// Adds one row. Truth and prediction are in the unit of the channel.
     pub fn add(&mut self, point: &str, truth: f64, prediction: f64) {
         let residual = truth - prediction;
         if !(is_scorable(truth) && is_scorable(prediction)) {
@@ -104,12 +104,12 @@ impl Residuals {
         }
     }
 
-    /// Number of rows without a valid truth and prediction, which are left out.
+    /// Number of rows skipped because truth or prediction is not finite.
     pub fn n_invalid(&self) -> u64 {
         self.n_invalid
     }
 
-    /// The components.
+    /// Computes the variance components.
     ///
     /// # Errors
     /// [`TooFewRows`] if there is one point, or no point with two rows.
@@ -152,7 +152,7 @@ impl Residuals {
 }
 
 impl Components {
-    /// Adds the components to the figures that sources name: `error`, `error.between`, `error.within` and `bias`.
+    /// Adds the components as figures: `error`, `error.between`, `error.within` and `bias`.
     #[must_use]
     pub fn feed(&self, evidence: Evidence) -> Evidence {
         evidence

@@ -1,4 +1,4 @@
-//! Form of a budget file: tables and keys, each with its place in the text.
+//! Tables and keys of a budget file, each with its position in the text.
 
 use serde::Deserialize;
 use toml::Spanned;

@@ -1,4 +1,4 @@
-//! Shapes of the distribution of a source, their standard uncertainty and their draws.
+//! Distribution shapes of a source, their standard uncertainty and their random draws.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use taceva_core::random::{Draws, open_unit};
 use super::freedom::Freedom;
 use taceva_metrics::distributions::normal;
 
-/// Shape of the distribution of a source, with half-widths in the unit of the source.
+/// Distribution shape of a source. Half-widths are in the unit of the source.
 ///
 /// ```
 /// use taceva_metrology::budget::Shape;
@@ -20,17 +20,17 @@ use taceva_metrics::distributions::normal;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Shape {
-    /// Normal, u = `u`; drawn as Student's distribution if the freedom is finite.
+    /// Normal, u = `u`; drawn from Student's distribution if the degrees of freedom are finite.
     Normal {
         /// Standard uncertainty.
         u: f64,
     },
-    /// Mean of readings, u = s/√n; drawn as Student's distribution.
+    /// Mean of readings, u = s/√n; drawn from Student's distribution.
     Student {
         /// Standard uncertainty.
         u: f64,
     },
-    /// Rectangular, u = a/√3; drawn as a curvilinear trapezoid if the freedom is finite.
+    /// Rectangular, u = a/√3; drawn from a curvilinear trapezoid if the degrees of freedom are finite.
     Rectangular {
         /// Half-width a.
         half_width: f64,
@@ -49,14 +49,14 @@ pub enum Shape {
     Trapezoid {
         /// Half-width a.
         half_width: f64,
-        /// Width of the top over that of the base, 0 to 1.
+        /// Ratio of top width to base width, 0 to 1.
         beta: f64,
     },
     /// Curvilinear trapezoid, u = √(a²/3 + d²/9).
     CurvilinearTrapezoid {
         /// Half-width a.
         half_width: f64,
-        /// Greatest error d of each limit.
+        /// Greatest error d of either limit.
         limits: f64,
     },
 }
@@ -78,7 +78,7 @@ impl Shape {
         }
     }
 
-    /// The name in files and reports.
+    /// Name in files and reports.
     pub fn name(&self) -> &'static str {
         match self {
             Shape::Normal { .. } => "normal",
@@ -91,12 +91,12 @@ impl Shape {
         }
     }
 
-    /// True if it is drawn from a normal or Student distribution.
+    /// True for shapes drawn from a normal or Student distribution.
     pub(super) fn is_bell(&self) -> bool {
         matches!(self, Shape::Normal { .. } | Shape::Student { .. })
     }
 
-    /// Deviation number `counter` from the estimate.
+    /// Deviation from the estimate in draw number `counter`.
     pub(super) fn draw(&self, freedom: Freedom, draws: Draws, counter: u64) -> f64 {
         let unit = |which: u64| draws.unit(2 * counter + which);
         let signed = |which: u64| 2.0 * unit(which) - 1.0;
@@ -122,7 +122,7 @@ impl Shape {
     }
 }
 
-/// Number from the standard normal distribution, or from Student's if the freedom is finite.
+/// Draw from the standard normal distribution, or from Student's if the degrees of freedom are finite.
 ///
 /// # Reference
 /// Bailey, Mathematics of Computation 62 (1994): √(ν (U^(−2/ν) − 1)) cos(2πV) has Student's distribution.

@@ -1,4 +1,4 @@
-//! Sources: from their table in the file, and measured figures, to inputs of the model.
+//! Converts sources of the file, with measured figures, to inputs of the model.
 
 mod keys;
 mod measurement;
@@ -17,7 +17,7 @@ use super::schema::WrittenSource;
 use super::shape::Shape;
 use super::text::{BudgetText, value};
 
-/// A source under way from its table to an input.
+/// Conversion of one table to an input.
 pub(super) struct Reader<'a> {
     pub(super) text: &'a BudgetText,
     pub(super) evidence: &'a Evidence,
@@ -54,7 +54,7 @@ impl Numbers {
 }
 
 impl Reader<'_> {
-    /// All sources, in the order of the file.
+    /// Inputs of all sources, in order of the file.
     pub(super) fn inputs(&self) -> Result<Vec<Input>, BudgetError> {
         let mut inputs: Vec<Input> = Vec::new();
         for written in &self.text.written.source {
@@ -129,14 +129,14 @@ impl Reader<'_> {
         found.map_err(|problem| self.text.error(of, key, problem))
     }
 
-    /// An amount that is 0 or more.
+    /// Amount that must not be negative.
     fn width(&self, of: &Spanned<Amount>, key: &str, wanted: Wanted) -> Result<f64, BudgetError> {
         let found = self.amount(of, key, wanted)?;
         let problem = || self.text.error(of, key, value(found, "0 or more"));
         (found >= 0.0).then_some(found).ok_or_else(problem)
     }
 
-    /// A number of a range.
+    /// Number that must be within `range`.
     fn number(&self, of: &Spanned<f64>, key: &str, range: &Range) -> Result<f64, BudgetError> {
         let found = *of.get_ref();
         let problem = || self.text.error(of, key, value(found, range.words));
@@ -184,7 +184,7 @@ fn owned<T: Clone>(of: Option<&Spanned<T>>) -> Option<T> {
     of.map(|of| of.get_ref().clone())
 }
 
-/// q − q̄ of each row, rounded twice.
+/// Deviation q − q̄ of each row, rounded twice.
 pub(super) fn deviations(rows: &[f64]) -> Vec<f64> {
     let n = rows.len() as f64;
     let sum: ExactSum = rows.iter().copied().collect();

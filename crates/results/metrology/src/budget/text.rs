@@ -1,4 +1,4 @@
-//! Text of a budget: `budget.toml`, checked as far as it can be without measured figures.
+//! Parser of `budget.toml`, with all checks that need no measured figures.
 
 use taceva_core::{Channel, Unit, nearest, shown, suggestion};
 
@@ -6,7 +6,7 @@ use super::amount::{Amount, Wanted};
 use super::error::{BudgetError, BudgetProblem};
 use super::schema::WrittenBudget;
 
-/// A budget as written, `budget_version = 1`.
+/// Parsed budget file, `budget_version = 1`.
 ///
 /// ```
 /// use taceva_metrology::budget::{BudgetText, Evidence, MonteCarlo};
@@ -29,18 +29,18 @@ use super::schema::WrittenBudget;
 #[derive(Clone, Debug)]
 pub struct BudgetText {
     pub(super) written: WrittenBudget,
-    /// Offsets of the beginnings of lines.
+    /// Byte offset of each line.
     starts: Vec<usize>,
     /// Unit of the measurand that sources are converted to; `None` if it is free text.
     pub(super) kept_unit: Option<Unit>,
     pub(super) unit: String,
     pub(super) coverage: f64,
-    /// Values of the measurand at which a budget is made.
+    /// Values of the measurand for which budgets are made.
     pub(super) at: Vec<f64>,
 }
 
 impl BudgetText {
-    /// Reads the text of a budget.
+    /// Parses a budget file.
     ///
     /// # Errors
     /// [`BudgetError`] with line, key and expectation.
@@ -146,7 +146,7 @@ impl BudgetText {
         &self.unit
     }
 
-    /// Values of the measurand at which a budget is made, in its unit.
+    /// Values of the measurand for which budgets are made, in its unit.
     pub fn at(&self) -> &[f64] {
         &self.at
     }
@@ -157,14 +157,14 @@ impl BudgetText {
         BudgetText { at, ..self }
     }
 
-    /// Measured figures that sources name by `from`, in the order of the file.
+    /// Measured figures that sources name by `from`, in order of the file.
     pub fn figures(&self) -> impl Iterator<Item = &str> {
         let named = self.written.source.iter();
         let named = named.filter_map(|source| source.get_ref().from.as_ref());
         named.map(|from| from.get_ref().as_str())
     }
 
-    /// Refusal of the source that names `figure`, for a figure without a value.
+    /// Error of the source that uses `figure`, if the figure has no value.
     pub fn not_measured(&self, figure: &str, reason: &str) -> BudgetError {
         let mut named = self.written.source.iter();
         let from = named.find_map(|source| {
@@ -178,7 +178,7 @@ impl BudgetText {
         BudgetError::new(from.map(|from| self.line(from)), "from", problem)
     }
 
-    /// The quantity of the measurand, and of what is added to it.
+    /// Quantity of the measurand and of absolute sources.
     pub(super) fn wanted(&self) -> Wanted {
         match (self.kept_unit, &self.written.expression) {
             (Some(unit), None) => Wanted::In(unit),
@@ -187,7 +187,7 @@ impl BudgetText {
         }
     }
 
-    /// Line of a value.
+    /// Line of a value, from 1.
     pub(super) fn line<T>(&self, of: &toml::Spanned<T>) -> usize {
         let offset = of.span().start;
         self.starts.partition_point(|start| *start <= offset)
@@ -203,7 +203,7 @@ impl BudgetText {
     }
 }
 
-/// The problem of a number out of its range.
+/// Problem for a number outside its range.
 pub(super) fn value(found: f64, expected: &str) -> BudgetProblem {
     BudgetProblem::Value {
         found: found.to_string(),
@@ -211,7 +211,7 @@ pub(super) fn value(found: f64, expected: &str) -> BudgetProblem {
     }
 }
 
-/// The parser's message in one line, with the nearest key for an unknown one.
+/// The parser's message in one line, with the nearest key for an unknown key.
 pub(super) fn explained(message: &str) -> String {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match quoted.as_slice() {

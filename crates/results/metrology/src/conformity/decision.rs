@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{ConformityError, DecisionRule, Limits, Measurement};
 
-/// Word of a decision, as ILAC-G8 has it.
+/// ILAC-G8 word for a decision.
 ///
 /// ```
 /// use taceva_metrology::conformity::Word;
@@ -28,13 +28,13 @@ pub enum Word {
     /// Refused by the rule.
     #[serde(rename = "fail")]
     Fail,
-    /// Without an uncertainty, or with one greater than agreed.
+    /// No decision: the uncertainty is unknown, or exceeds the agreed one.
     #[serde(rename = "undecided")]
     Undecided,
 }
 
 impl Word {
-    /// True for a pass without condition.
+    /// True for an unconditional pass.
     #[must_use]
     pub fn is_pass(self) -> bool {
         self == Word::Pass
@@ -53,7 +53,7 @@ impl fmt::Display for Word {
     }
 }
 
-/// Decision on one measured value, with all that it rests on.
+/// Decision on one measured value, with the numbers behind it.
 ///
 /// ```
 /// use taceva_metrology::conformity::{DecisionRule, Limits, Measurement, decide};
@@ -72,17 +72,17 @@ pub struct Decision {
     pub value: f64,
     /// Standard uncertainty, in the unit of the value.
     pub standard_uncertainty: Option<f64>,
-    /// Degrees of freedom; none if infinite or unknown.
+    /// Degrees of freedom; `None` if infinite or unknown.
     pub freedom: Option<f64>,
     /// Coverage factor of the expanded uncertainty.
     pub coverage_factor: Option<f64>,
-    /// Expanded uncertainty at the coverage of the rule, in the unit of the value; on a logarithmic scale to first order.
+    /// Expanded uncertainty at the coverage of the rule, in the unit of the value. On a logarithmic scale, a first-order approximation.
     pub expanded_uncertainty: Option<f64>,
     /// Limits of the tolerance.
     pub limits: Limits,
     /// The rule.
     pub rule: DecisionRule,
-    /// Limits of acceptance; none where no value would be accepted, or without an uncertainty.
+    /// Acceptance limits; `None` without an uncertainty, or if no value would be accepted.
     pub acceptance: Option<Limits>,
     /// Probability of conformity.
     pub conformance_probability: Option<f64>,
@@ -90,7 +90,7 @@ pub struct Decision {
     pub word: Word,
 }
 
-/// Decision on `measured` by `rule`.
+/// Decides on `measured` by `rule`.
 ///
 /// ```
 /// use taceva_metrology::conformity::{DecisionRule, Limits, Measurement, Word, decide};
@@ -171,7 +171,7 @@ fn word(is_accepted: bool, is_within: bool, is_refused: bool) -> Word {
     }
 }
 
-/// Limits moved inwards by `guard` on the scale of the distribution; `None` if they leave no room.
+/// Limits moved inwards by `guard` on the scale of the distribution; `None` if no range is left.
 fn moved(measured: &Measurement, limits: &Limits, guard: f64) -> Option<Limits> {
     limits.map(
         |least| measured.moved(least, guard),
@@ -179,7 +179,7 @@ fn moved(measured: &Measurement, limits: &Limits, guard: f64) -> Option<Limits> 
     )
 }
 
-/// Values that have at least this probability of conformity; `None` if there is none.
+/// Range of values with at least this probability of conformity; `None` if empty.
 fn acceptance_of(measured: &Measurement, limits: &Limits, least: f64) -> Option<Limits> {
     let u = measured.expanded(0.5)?;
     if u <= 0.0 {

@@ -1,4 +1,4 @@
-//! Reasons that nothing can be decided.
+//! Reasons why no decision is possible.
 
 use taceva_core::{shown, suggestion};
 use thiserror::Error;
@@ -6,7 +6,7 @@ use thiserror::Error;
 /// Names of all rules.
 const RULES: [&str; 4] = ["simple", "guarded", "probability", "shared"];
 
-/// Reason that nothing can be decided.
+/// Reason why no decision is possible.
 ///
 /// ```
 /// use taceva_metrology::conformity::{ConformityError, Limits};
@@ -26,15 +26,15 @@ pub enum ConformityError {
         /// Accepted values.
         expected: &'static str,
     },
-    /// Limits that leave no room.
-    #[error("the limits are {least} and {most}, expected a lower one below an upper one")]
+    /// Limits that exclude every value.
+    #[error("the limits are {least} and {most}, expected a lower limit below an upper limit")]
     Limits {
         /// Lower limit.
         least: f64,
         /// Upper limit.
         most: f64,
     },
-    /// A setting of another rule.
+    /// A setting that belongs to another rule.
     #[error(
         "`{setting}` with rule = \"{}\": expected it with rule = \"{expected}\" alone; remove one of both",
         shown(.rule)
@@ -63,7 +63,7 @@ pub enum ConformityError {
     },
 }
 
-/// Refuses `value` unless `is_right`.
+/// Rejects `value` unless `is_right`.
 pub(super) fn check(
     name: &'static str,
     value: f64,

@@ -20,7 +20,7 @@ pub struct Limits {
     most: Option<f64>,
 }
 
-/// Limits as they are read.
+/// Limits as parsed, before their check.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Ends {
@@ -60,7 +60,7 @@ impl Limits {
         Limits::of(Some(least), Some(most))
     }
 
-    /// Values from `least` on, up to `most`; without one of both on that side unlimited.
+    /// Values from `least` to `most`; a missing limit leaves that side unbounded.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a limit that is not finite, [`ConformityError::Limits`] unless the lower limit is below the upper one.
@@ -94,7 +94,7 @@ impl Limits {
         self.least.is_none_or(|least| value >= least) && self.most.is_none_or(|most| value <= most)
     }
 
-    /// The limits changed by `change`; `None` if they leave no room.
+    /// The limits changed by `change`; `None` if no range is left.
     pub(super) fn map(
         &self,
         change_least: impl Fn(f64) -> f64,

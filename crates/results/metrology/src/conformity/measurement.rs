@@ -7,7 +7,7 @@ use super::error::check;
 use super::scale::OpenScale;
 use super::{ConformityError, Limits};
 
-/// A measured value, and its standard uncertainty with degrees of freedom if there is one.
+/// Measured value with its standard uncertainty and degrees of freedom, if known.
 ///
 /// ```
 /// use taceva_metrology::conformity::{Limits, Measurement};
@@ -31,7 +31,7 @@ struct Uncertainty {
 }
 
 impl Measurement {
-    /// Value and standard uncertainty in one unit; `freedom` may be infinite.
+    /// Value and standard uncertainty in the same unit; `freedom` may be infinite.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a value that is not finite, an uncertainty below 0 or degrees of freedom not above 0.
@@ -58,10 +58,10 @@ impl Measurement {
         })
     }
 
-    /// A value with an interval of 95 %, whose ends are symmetric about it on `scale`.
+    /// Value with a 95 % confidence interval whose ends are symmetric about it on `scale`.
     ///
-    /// The uncertainty is half of the distance between the ends on that scale, over Student's t. For a share by Wilson the scale is the
-    /// logarithm of its odds. If value or end have no place on the scale, it is the distance of the farther end.
+    /// The uncertainty is half the width of the interval on that scale, divided by Student's t. For a Wilson interval, the scale is the log odds.
+    /// If the value or an end is outside the scale, the linear distance to the farther end is used.
     ///
     /// ```
     /// use taceva_metrics::Scale;
@@ -109,7 +109,7 @@ impl Measurement {
         })
     }
 
-    /// A value whose uncertainty is unknown, on which no rule decides but the simple one.
+    /// Value with unknown uncertainty, on which only the simple rule decides.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a value that is not finite.
@@ -122,7 +122,7 @@ impl Measurement {
         })
     }
 
-    /// The same value, the logarithm of which has the distribution; as for errors that cannot be below 0.
+    /// The same value with a distribution on the logarithmic scale, for errors that are always positive.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a value that is not above 0.
@@ -178,7 +178,7 @@ impl Measurement {
         Some(self.coverage_factor(coverage)? * self.uncertainty?.scaled)
     }
 
-    /// Probability that the measured quantity is within `limits`; none without an uncertainty.
+    /// Probability that the measured quantity is within `limits`; `None` without an uncertainty.
     ///
     /// # Reference
     /// JCGM 106:2012, 7.2 to 7.5.
@@ -210,22 +210,22 @@ impl Measurement {
         }
     }
 
-    /// An uncertainty on the scale of the distribution in the unit of the value.
+    /// Converts an uncertainty from the scale of the distribution to the unit of the value.
     pub(super) fn in_unit(&self, scaled: f64) -> f64 {
         self.scale.in_unit(self.value, scaled)
     }
 
-    /// An uncertainty in the unit of the value, on the scale of the distribution.
+    /// Converts an uncertainty from the unit of the value to the scale of the distribution.
     pub(super) fn on_scale(&self, standard: f64) -> f64 {
         standard / self.in_unit(1.0)
     }
 
-    /// Place of `value` on the scale of the distribution, from the measured value on.
+    /// Distance of `value` from the measured value on the scale of the distribution.
     pub(super) fn place(&self, value: f64) -> f64 {
         self.scale.distance(self.value, value)
     }
 
-    /// True for a value that has a place on the scale of the distribution.
+    /// True if `value` is inside the domain of the scale.
     pub(super) fn holds(&self, value: f64) -> bool {
         self.scale.holds(value)
     }
@@ -235,7 +235,7 @@ impl Measurement {
         self.scale.moved(limit, by)
     }
 
-    /// The same uncertainty, on the scale of the distribution, about another value.
+    /// The same uncertainty on the same scale, for another value.
     pub(super) fn at(&self, value: f64) -> Measurement {
         Measurement { value, ..*self }
     }

@@ -1,12 +1,12 @@
-//! Units of one process, known by measurements of many.
+//! Process that makes units, known from measurements of several units.
 
 use super::error::check;
 use super::{ConformityError, GlobalRisk, Limits, Measurement, Process};
 
-/// Least number of units from which a process is known.
+/// Least number of units that characterise a process.
 const LEAST_UNITS: usize = 5;
 
-/// Units of one process, normal on the scale of a measurement, by which one more unit is measured.
+/// Units of one process, normally distributed on the scale of a measurement. One more unit is measured on that scale.
 ///
 /// ```
 /// use taceva_metrology::conformity::{Limits, Measurement, Population};
@@ -31,13 +31,13 @@ pub struct Population {
 }
 
 impl Population {
-    /// The process of `units`, of which further ones are measured as `measured` is.
+    /// Process estimated from `units`; further units are measured with the uncertainty of `measured`.
     ///
-    /// The variance between units is that of their values less the mean variance of their measurement, on the scale of `measured`.
+    /// The variance between units is the variance of their values minus the mean variance of their measurements, on the scale of `measured`.
     ///
     /// # Errors
-    /// [`ConformityError::Number`] for fewer than five units, a value that has no place on the scale, a measurement without an uncertainty, or
-    /// units that differ no more than by their uncertainties.
+    /// [`ConformityError::Number`] for fewer than five units, a value outside the scale, a measurement without an uncertainty, or units whose
+    /// differences their uncertainties explain.
     pub fn of(
         units: &[Measurement],
         measured: &Measurement,
@@ -91,14 +91,14 @@ impl Population {
         })
     }
 
-    /// Risks if values within `acceptance` are accepted, and units within `limits` conform; `None` for a limit that has no place on the scale.
+    /// Risks if values within `acceptance` are accepted and units within `limits` conform; `None` for a limit outside the scale.
     #[must_use]
     pub fn risk(&self, limits: &Limits, acceptance: &Limits) -> Option<GlobalRisk> {
         let (limits, acceptance) = (self.on_scale(limits)?, self.on_scale(acceptance)?);
         Some(self.process.risk(&limits, &acceptance))
     }
 
-    /// Limits of acceptance for which the consumer's risk is `target`; `None` if no guard that leaves room reaches it.
+    /// Acceptance limits that reach the consumer's risk `target`; `None` if no possible guard band does.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a target outside 0..1.
@@ -127,7 +127,7 @@ impl Population {
     }
 }
 
-/// Sum that does not depend on the order of `numbers`.
+/// Sum that is independent of the order of `numbers`.
 fn sum(numbers: &mut [f64]) -> f64 {
     numbers.sort_by(f64::total_cmp);
     numbers.iter().sum()

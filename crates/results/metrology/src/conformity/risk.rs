@@ -1,14 +1,14 @@
-//! Global risks of accepting and of refusing, for units of one process.
+//! Global risks of false acceptance and false rejection, for units of one process.
 
 use taceva_metrics::distributions::{integral, normal};
 
 use super::error::check;
 use super::{ConformityError, Limits};
 
-/// Distance in standard deviations beyond which nothing is left.
+/// Distance in standard deviations beyond which the normal density is negligible.
 const FAR: f64 = 12.0;
 
-/// Units of a process, normal about a mean, and the uncertainty with which one is measured.
+/// Process with normally distributed units, measured with a known uncertainty.
 ///
 /// ```
 /// use taceva_metrology::conformity::{Limits, Process};
@@ -29,7 +29,7 @@ pub struct Process {
     uncertainty: f64,
 }
 
-/// Shares of all units that are decided wrongly.
+/// Shares of all units with a wrong decision.
 ///
 /// ```
 /// use taceva_metrology::conformity::{Limits, Process};
@@ -41,14 +41,14 @@ pub struct Process {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct GlobalRisk {
-    /// Share of units that are accepted and do not conform: probability of false acceptance.
+    /// Share of all units that are accepted although they do not conform.
     pub consumer: f64,
-    /// Share of units that are refused and conform: probability of false rejection.
+    /// Share of all units that are rejected although they conform.
     pub producer: f64,
 }
 
 impl Process {
-    /// Mean and standard deviation of the units, and the standard uncertainty of a measurement, in one unit.
+    /// Mean and standard deviation of the units, and standard uncertainty of one measurement, in the same unit.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a mean that is not finite, or a deviation or uncertainty not above 0.
@@ -83,9 +83,9 @@ impl Process {
         }
     }
 
-    /// Guard for which the consumer's risk is `target`: the distance of the limits of acceptance inwards; 0 if it is lower without one.
+    /// Guard band that reaches the consumer's risk `target`: inward distance of the acceptance limits. 0 if the risk is lower without a guard band.
     ///
-    /// `None` if no guard that leaves room reaches it.
+    /// `None` if no possible guard band reaches the target.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a target outside 0..1.
@@ -133,7 +133,7 @@ impl Process {
         below + above
     }
 
-    /// Limits, or the ends of the process in the place of a missing one.
+    /// Both limits; the end of the process replaces a missing limit.
     fn ends(&self, limits: &Limits) -> [f64; 2] {
         let far = FAR * self.deviation;
         let (low, high) = (self.mean - far, self.mean + far);
@@ -170,7 +170,7 @@ impl Process {
         below + above
     }
 
-    /// Share of units between `ends` that have the outcome `share`. Panels are fine where the outcome changes.
+    /// Share of units between `ends`, weighted by `share`. Panels are narrow where `share` changes.
     fn integral(
         &self,
         [from, to]: [f64; 2],

@@ -1,11 +1,11 @@
-//! Rules by which a measured value is accepted.
+//! Decision rules for measured values.
 
 use serde::{Deserialize, Serialize};
 
 use super::ConformityError;
 use super::error::check;
 
-/// Rule by which a measured value is accepted.
+/// Rule that decides on a measured value.
 ///
 /// ```
 /// use taceva_metrology::conformity::DecisionRule;
@@ -17,19 +17,19 @@ use super::error::check;
 pub enum DecisionRule {
     /// The value alone meets the limit.
     Simple,
-    /// The value is inside the limit by a guard w = r U.
+    /// The value is inside the limit by a guard band w = r U.
     Guarded {
         /// Factor of the expanded uncertainty, from 0 on.
         r: f64,
         /// Coverage of the expanded uncertainty, in 0..1.
         coverage: f64,
     },
-    /// The probability of conformity is at least this.
+    /// The probability of conformity reaches a threshold.
     Probability {
-        /// Least probability, above 0.5 and below 1.
+        /// Least probability of conformity, above 0.5 and below 1.
         p_conformity: f64,
     },
-    /// The value meets the limit, and the expanded uncertainty is no greater than both sides agreed.
+    /// The value meets the limit, and the expanded uncertainty does not exceed the agreed maximum.
     Shared {
         /// Greatest expanded uncertainty, in the unit of the value.
         most_uncertainty: f64,
@@ -38,11 +38,11 @@ pub enum DecisionRule {
     },
 }
 
-/// Coverage of the expanded uncertainty where none is stated.
+/// Default coverage of the expanded uncertainty.
 const COVERAGE: f64 = 0.95;
 
 impl DecisionRule {
-    /// Coverage of the expanded uncertainty: that of the rule, or 0.95.
+    /// Coverage of the expanded uncertainty: the setting of the rule, or 0.95.
     #[must_use]
     pub fn coverage(&self) -> f64 {
         match *self {
@@ -53,7 +53,7 @@ impl DecisionRule {
         }
     }
 
-    /// Refuses settings outside their range.
+    /// Rejects settings outside their range.
     pub(super) fn check(&self) -> Result<(), ConformityError> {
         let covers = |coverage: f64| {
             let is_share = coverage > 0.0 && coverage < 1.0;
@@ -111,7 +111,7 @@ impl std::fmt::Display for DecisionRule {
     }
 }
 
-/// Settings of a rule as a limit file has them; the rule is `simple` by default, the coverage 0.95.
+/// Settings of a rule in a limits file. The default rule is `simple`, the default coverage 0.95.
 ///
 /// ```
 /// use taceva_metrology::conformity::{DecisionRule, RuleSettings};
@@ -137,10 +137,10 @@ pub struct RuleSettings {
 }
 
 impl RuleSettings {
-    /// The rule that the settings describe.
+    /// Rule described by the settings.
     ///
     /// # Errors
-    /// An unknown rule, a setting of another rule or outside its range, or a missing one.
+    /// An unknown rule, a setting of another rule or outside its range, or a missing setting.
     pub fn decision_rule(&self) -> Result<DecisionRule, ConformityError> {
         let rule = self.rule.as_deref().unwrap_or("simple");
         let settings = [

@@ -6,7 +6,7 @@ use taceva_metrics::elementary::{exponential, logarithm};
 /// Scale on which a measured value has Student's distribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum OpenScale {
-    /// Scale of the value itself.
+    /// Identity: the value itself.
     Own,
     /// Logarithm of the value, as for errors.
     Logarithm,
@@ -17,7 +17,7 @@ pub(super) enum OpenScale {
 }
 
 impl OpenScale {
-    /// The scales on which the ends of an interval may be symmetric, other than that of the value.
+    /// Scales, other than that of the value, on which the ends of an interval may be symmetric.
     pub(super) fn candidates(scale: Scale) -> &'static [OpenScale] {
         match scale {
             Scale::Logarithm => &[OpenScale::Logarithm, OpenScale::Remainder],
@@ -31,7 +31,7 @@ impl OpenScale {
         }
     }
 
-    /// Ends of the values that the scale has.
+    /// Ends of the domain of the scale.
     fn domain(self) -> [f64; 2] {
         match self {
             OpenScale::Own => [f64::NEG_INFINITY, f64::INFINITY],
@@ -41,13 +41,13 @@ impl OpenScale {
         }
     }
 
-    /// True for a value between the ends of the scale.
+    /// True for a value inside the domain of the scale.
     pub(super) fn holds(self, value: f64) -> bool {
         let [low, high] = self.domain();
         low < value && value < high
     }
 
-    /// Distance from one value of the scale to another; infinite beyond its ends.
+    /// Distance from one value to another on the scale; infinite outside the domain.
     pub(super) fn distance(self, from: f64, to: f64) -> f64 {
         let [low, high] = self.domain();
         match self {
@@ -60,7 +60,7 @@ impl OpenScale {
         }
     }
 
-    /// `value` moved by `by` on the scale; a value beyond its ends stays. A move by 0 changes no bit.
+    /// `value` moved by `by` on the scale; a value outside the domain stays. Moving by 0 returns the identical value.
     pub(super) fn moved(self, value: f64, by: f64) -> f64 {
         match self {
             _ if by.abs() <= 0.0 || !self.holds(value) => value,
@@ -73,7 +73,7 @@ impl OpenScale {
         }
     }
 
-    /// An uncertainty of `value` on the scale, in its unit; to first order.
+    /// Converts an uncertainty of `value` from the scale to its unit, to first order.
     pub(super) fn in_unit(self, value: f64, scaled: f64) -> f64 {
         match self {
             OpenScale::Own => scaled,

@@ -1,11 +1,11 @@
-//! Bands about a curve.
+//! Confidence and prediction bands of a curve.
 
 use super::fit::{Clustered, CurveFit};
 use super::squares::{Square, form};
 use super::undefined::{CurveUndefined, probability};
 use taceva_metrics::distributions::{f_ratio, student_t};
 
-/// Origin of a covariance. It gets no further variant: rows are independent or clustered.
+/// Origin of a covariance. No further variant will be added: rows are independent or clustered.
 ///
 /// ```
 /// use taceva_metrology::curve::CovarianceOf;
@@ -15,7 +15,7 @@ use taceva_metrics::distributions::{f_ratio, student_t};
 pub enum CovarianceOf {
     /// Residuals of independent rows, s²(XᵀX)⁻¹.
     Rows,
-    /// Fits without one contact point each.
+    /// Jackknife over contact points: one fit without each point.
     Points {
         /// Number of points.
         clusters: usize,
@@ -31,7 +31,7 @@ impl std::fmt::Display for CovarianceOf {
     }
 }
 
-/// Value of a curve with the ends of a band, in the unit of y. If both covariances are defined, the wider band is given and named.
+/// Value of a curve with the ends of a band, in the unit of y. If both covariances are defined, the wider band is used.
 ///
 /// ```
 /// use taceva_metrology::curve::{CovarianceOf, CurveFit, CurveRow};
@@ -44,13 +44,13 @@ impl std::fmt::Display for CovarianceOf {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Band {
-    /// y(x).
+    /// Value y(x) of the curve.
     pub value: f64,
     /// Lower end.
     pub low: f64,
     /// Upper end.
     pub high: f64,
-    /// Standard uncertainty of which the half-width is a multiple.
+    /// Standard uncertainty; the half-width is a multiple of it.
     pub u: f64,
     /// Degrees of freedom.
     pub freedom: f64,
@@ -58,7 +58,7 @@ pub struct Band {
     pub covariance: CovarianceOf,
 }
 
-/// Standard uncertainty of a coefficient. If both covariances are defined, the greater one is given and named.
+/// Standard uncertainty of a coefficient. If both covariances are defined, the greater uncertainty is used.
 ///
 /// ```
 /// use taceva_metrology::curve::{CovarianceOf, CurveFit, CurveRow};
@@ -80,7 +80,7 @@ pub struct CoefficientUncertainty {
     pub covariance: CovarianceOf,
 }
 
-/// A covariance of the coefficients of z with its degrees of freedom.
+/// Covariance of the coefficients of z, with its degrees of freedom.
 pub(super) struct Spread {
     pub(super) covariance: Square,
     pub(super) freedom: f64,
@@ -126,7 +126,7 @@ impl CurveFit {
         Some(points.filter(|points| points.u > rows.u).unwrap_or(rows))
     }
 
-    /// The widest of the bands factor(ν) √(extra + z₀ᵀ cov z₀).
+    /// Widest of the bands factor(ν) √(extra + z₀ᵀ cov z₀).
     fn widest(&self, x: f64, extra: f64, factor: impl Fn(f64) -> f64) -> Band {
         let (value, powers) = (self.value(x), self.axis.powers(x));
         let band = |spread: Spread| {
@@ -160,7 +160,7 @@ impl CurveFit {
         }))
     }
 
-    /// Band of the mean of `readings` new readings at one x: y ± t √(s²/m + u²(y)).
+    /// Prediction band for the mean of m = `readings` new readings at one x: y ± t √(s²/m + u²(y)).
     ///
     /// # Errors
     /// [`CurveUndefined::Probability`]; [`CurveUndefined::NotPositive`] for no reading.
@@ -186,7 +186,7 @@ impl CurveFit {
         }))
     }
 
-    /// s²/m.
+    /// Variance s²/m of the mean of m readings.
     pub(super) fn reading_variance(&self, readings: u32) -> Result<f64, CurveUndefined> {
         let readings = super::undefined::positive("the number of readings", f64::from(readings))?;
         Ok(self.residual_deviation().powi(2) / readings)

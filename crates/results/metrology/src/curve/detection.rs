@@ -1,12 +1,12 @@
-//! Limits of detection of a calibration line.
+//! Detection limits of a calibration line.
 
 use super::fit::CurveFit;
 use super::undefined::{CurveUndefined, positive, probability};
 use taceva_metrics::distributions::{noncentral_t, student_t};
 
-/// Risks and repeats of a detection.
+/// Error risks and number of averaged readings.
 ///
-/// This type gets no further field.
+/// No further field will be added.
 ///
 /// ```
 /// use taceva_metrology::curve::DetectionRisks;
@@ -15,11 +15,11 @@ use taceva_metrics::distributions::{noncentral_t, student_t};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DetectionRisks {
-    /// Risk of a false alarm at x = 0.
+    /// Risk of a false detection at x = 0.
     pub alpha: f64,
-    /// Risk of a miss at the detectable value.
+    /// Risk of a missed detection at the detectable value.
     pub beta: f64,
-    /// Readings K that are averaged.
+    /// Number K of averaged readings.
     pub readings: u32,
 }
 
@@ -33,7 +33,7 @@ impl Default for DetectionRisks {
     }
 }
 
-/// Limits of detection in the unit of x, of independent rows.
+/// Detection limits in the unit of x, for independent rows.
 ///
 /// ```
 /// use taceva_metrology::curve::{CurveFit, CurveRow, DetectionRisks};
@@ -45,13 +45,13 @@ impl Default for DetectionRisks {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Detection {
-    /// x_C: a reading above it shows that x is not 0.
+    /// Critical value x_C: a reading above its y value shows that x is not 0.
     pub critical: f64,
-    /// x_D: the least x that is missed with `beta` at most.
+    /// Detectable value x_D: the least x that is missed with at most the risk `beta`.
     pub detectable: f64,
-    /// δ(ν; α, β), the noncentrality.
+    /// Noncentrality parameter δ(ν; α, β).
     pub factor: f64,
-    /// Twice the critical value, the detectable one of DIN 32645.
+    /// Twice the critical value: the detection limit of DIN 32645.
     pub twice_critical: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Fit of a calibration curve.
+//! Least-squares fit of a calibration curve.
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -8,7 +8,7 @@ use taceva_metrics::LEAST_CLUSTERS;
 use super::squares::{Axis, Coefficients, MOST, Solution, Square, form, solve};
 use super::undefined::CurveUndefined;
 
-/// A reading y at the reference value x, each in its own unit.
+/// Reading y at a reference value x, each in its own unit.
 ///
 /// ```
 /// use taceva_metrology::curve::CurveRow;
@@ -19,9 +19,9 @@ use super::undefined::CurveUndefined;
 pub struct CurveRow {
     /// Reference value.
     pub x: f64,
-    /// Reading.
+    /// Reading, in its own unit.
     pub y: f64,
-    /// Contact point, whose rows are not independent; `None` for an independent row.
+    /// Contact point, whose rows are correlated; `None` for an independent row.
     pub point: Option<u64>,
 }
 
@@ -31,7 +31,7 @@ impl CurveRow {
         CurveRow { x, y, point: None }
     }
 
-    /// The same row as one of a contact point.
+    /// The same row, assigned to a contact point.
     #[must_use]
     pub const fn of_point(self, point: u64) -> CurveRow {
         CurveRow {
@@ -64,7 +64,7 @@ pub struct CurveFit {
     pub(super) clustered: Option<Clustered>,
 }
 
-/// Covariance between clusters.
+/// Covariance of the coefficients between clusters.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Clustered {
     pub(super) covariance: Square,
@@ -75,7 +75,7 @@ impl CurveFit {
     /// Fits a polynomial of `order` 1 to 3.
     ///
     /// # Errors
-    /// [`CurveUndefined`] for another order, numbers that are not finite, `order` + 1 rows or fewer, and too few different x.
+    /// [`CurveUndefined`] for another order, numbers that are not finite, at most `order` + 1 rows, or too few different x.
     pub fn of(rows: &[CurveRow], order: usize) -> Result<CurveFit, CurveUndefined> {
         let count = order + 1;
         if order == 0 || count > MOST {
@@ -139,7 +139,7 @@ impl CurveFit {
         ]
     }
 
-    /// y(x).
+    /// Value y(x) of the curve.
     pub fn value(&self, x: f64) -> f64 {
         let powers = self.axis.powers(x);
         let terms = powers.iter().zip(&self.solution.coefficients);
@@ -155,7 +155,7 @@ impl CurveFit {
         all.iter().take(self.count).map(coefficient).collect()
     }
 
-    /// Covariance of these coefficients, s²(XᵀX)⁻¹, row by row.
+    /// Covariance s²(XᵀX)⁻¹ of the coefficients of x, row by row.
     pub fn covariance(&self) -> Vec<Vec<f64>> {
         let all = self.powers_of_x();
         let square = self.residual_deviation().powi(2);
@@ -164,7 +164,7 @@ impl CurveFit {
         (0..self.count).map(row).collect()
     }
 
-    /// Row i: share of each coefficient of z in that of xⁱ, by the binomial theorem.
+    /// Row i: weights of the coefficients of z in the coefficient of xⁱ, by the binomial theorem.
     pub(super) fn powers_of_x(&self) -> Square {
         const CHOOSE: Square = [
             [1.0, 1.0, 1.0, 1.0],
@@ -184,7 +184,7 @@ impl CurveFit {
     }
 }
 
-/// Rows by their x, in order.
+/// Rows grouped by their x, ascending.
 pub(super) fn levels(rows: &[CurveRow]) -> Vec<Vec<CurveRow>> {
     let mut sorted = rows.to_vec();
     sorted.sort_by(|one, other| one.x.total_cmp(&other.x));
@@ -192,7 +192,7 @@ pub(super) fn levels(rows: &[CurveRow]) -> Vec<Vec<CurveRow>> {
     levels.map(<[CurveRow]>::to_vec).collect()
 }
 
-/// (G − 1)/G Σ (β₋ₚ − β̄)(β₋ₚ − β̄)ᵀ over fits without one point; `None` if no point has two rows, or a fit without one is undetermined.
+/// Jackknife covariance (G − 1)/G Σ (β₋ₚ − β̄)(β₋ₚ − β̄)ᵀ over fits without one point. `None` if no point has two rows, or a fit is undetermined.
 ///
 /// # Reference
 /// Efron and Tibshirani, An Introduction to the Bootstrap (1993), chapter 11.

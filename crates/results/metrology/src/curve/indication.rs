@@ -1,9 +1,9 @@
-//! Relative errors of indicated forces, like those of ISO 7500-1.
+//! Relative errors of indicated forces, similar to ISO 7500-1.
 
 use super::limits::{Figure, Standing, Table};
 use super::undefined::{CurveUndefined, all_positive, positive, range};
 
-/// Ends of q, b, v, f_0 and a in %, as a laboratory's workbook has them. The standard's text was not at hand.
+/// Upper limits of q, b, v, f_0 and a in %, from a laboratory's workbook, not checked against the text of the standard.
 const LIMITS: Table = Table {
     standard: "ISO 7500-1",
     figures: &["q", "b", "v", "f_0", "a"],
@@ -15,10 +15,10 @@ const LIMITS: Table = Table {
     ],
 };
 
-/// Fewest repeats of a range b.
+/// Fewest repeats that define the range b.
 const LEAST_REPEATS: usize = 3;
 
-/// A force as indicated, with the true force, in one unit. It gets no further field.
+/// Indicated force and true force, in the same unit. No further field will be added.
 ///
 /// ```
 /// use taceva_metrology::curve::Indication;
@@ -27,25 +27,25 @@ const LEAST_REPEATS: usize = 3;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Indication {
-    /// F_i.
+    /// Indicated force F_i.
     pub indicated: f64,
-    /// F.
+    /// True force F.
     pub truth: f64,
 }
 
 impl Indication {
-    /// A pair.
+    /// Pairs an indicated force with the true force.
     pub const fn new(indicated: f64, truth: f64) -> Indication {
         Indication { indicated, truth }
     }
 
-    /// q = (F_i − F)/F in %; `None` for a blank, which is NaN, and for a true force that is not above 0.
+    /// Relative error q = (F_i − F)/F in %; `None` for a blank (NaN), and for a true force that is not above 0.
     pub fn error_percent(&self) -> Option<f64> {
         let is_there = self.indicated.is_finite() && self.truth > 0.0 && self.truth.is_finite();
         is_there.then(|| 100.0 * (self.indicated - self.truth) / self.truth)
     }
 
-    /// True over indicated force.
+    /// Ratio of true force to indicated force.
     fn ratio(&self) -> Option<f64> {
         self.error_percent()
             .filter(|_| self.indicated > 0.0)
@@ -53,7 +53,7 @@ impl Indication {
     }
 }
 
-/// Readings of one level of force.
+/// Readings at one level of force.
 ///
 /// ```
 /// use taceva_metrology::curve::{Indication, IndicationLevel};
@@ -65,13 +65,13 @@ impl Indication {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct IndicationLevel {
-    /// Repeats while loading; blanks are NaN and are left out.
+    /// Repeats while loading; blanks are NaN and are skipped.
     pub up: Vec<Indication>,
     /// Reading while unloading, after the last repeat.
     pub down: Option<Indication>,
-    /// Readings without force.
+    /// Readings at zero force.
     pub zeros: Vec<f64>,
-    /// Resolution.
+    /// Resolution of the indication, in the unit of the force.
     pub resolution: Option<f64>,
 }
 
@@ -86,24 +86,24 @@ pub struct IndicationLevel {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct IndicationFigures {
-    /// q of each repeat.
+    /// Relative error q of each repeat.
     pub q: Vec<f64>,
     /// Mean of q.
     pub q_mean: f64,
-    /// Standard uncertainty of that mean, s/√n; `None` for one repeat.
+    /// Standard uncertainty of `q_mean`, s/√n; `None` for one repeat.
     pub q_mean_u: Option<f64>,
-    /// b = max q − min q; `None` for fewer than three repeats.
+    /// Range b = max q − min q; `None` for fewer than three repeats.
     pub b: Option<f64>,
-    /// v = (F_up − F_down)/F̄ at one indicated force; `None` without a downward reading.
+    /// Reversibility v = (F_up − F_down)/F̄ at one indicated force; `None` without an unloading reading.
     pub v: Option<f64>,
-    /// f_0 = max |zero|/F_N.
+    /// Zero error f_0 = max |zero|/F_N.
     pub f_0: Option<f64>,
-    /// a = resolution/F.
+    /// Relative resolution a = resolution/F.
     pub a: Option<f64>,
 }
 
 impl IndicationLevel {
-    /// A level of these repeats alone.
+    /// A level with these repeats and no other readings.
     pub fn new(up: &[Indication]) -> IndicationLevel {
         IndicationLevel {
             up: up.to_vec(),
@@ -111,7 +111,7 @@ impl IndicationLevel {
         }
     }
 
-    /// The figures; `full_scale` is F_N.
+    /// Computes the figures; `full_scale` is F_N.
     ///
     /// # Errors
     /// [`CurveUndefined::MissingSeries`] without a repeat, [`CurveUndefined::NotPositive`] for a full scale or resolution that is not above 0.
@@ -149,7 +149,7 @@ impl IndicationLevel {
 }
 
 impl IndicationFigures {
-    /// Place among limits like those of ISO 7500-1, q by its mean.
+    /// Place among limits like those of ISO 7500-1, using the mean of q.
     pub fn standing(&self) -> Standing {
         let figures: [Figure; 5] = [
             Ok(self.q_mean.abs()),
@@ -162,7 +162,7 @@ impl IndicationFigures {
     }
 }
 
-/// Magnitudes of q of many presses.
+/// Magnitude of the relative error q over many presses.
 ///
 /// ```
 /// use taceva_metrology::curve::{Indication, IndicationSummary};
@@ -175,21 +175,21 @@ impl IndicationFigures {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct IndicationSummary {
-    /// Number of presses with a q.
+    /// Number of presses with a defined q.
     pub n: usize,
     /// Median of |q|, %.
     pub median_abs: f64,
     /// 95th percentile of |q|, %, interpolated between neighbours.
     pub p95_abs: f64,
-    /// Share of presses with |q| up to 3 %, the end of the last row.
+    /// Share of presses with |q| up to 3 %, the limit of the last row.
     pub share_within_3: f64,
 }
 
 impl IndicationSummary {
-    /// The summary of presses; those without a q are left out.
+    /// Summarises presses; skips those without a defined q.
     ///
     /// # Errors
-    /// [`CurveUndefined::TooFewRows`] for no press.
+    /// [`CurveUndefined::TooFewRows`] without any press.
     pub fn of(presses: &[Indication]) -> Result<IndicationSummary, CurveUndefined> {
         let mut sizes: Vec<f64> = presses
             .iter()

@@ -1,4 +1,4 @@
-//! Inverse prediction: the reference value of a reading.
+//! Inverse prediction: reference value of a given reading.
 
 use super::band::CovarianceOf;
 use super::fit::CurveFit;
@@ -17,25 +17,25 @@ use taceva_metrics::distributions::student_t;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct InversePrediction {
-    /// x with y(x) = reading.
+    /// Reference value x at which y(x) equals the reading.
     pub x: f64,
     /// Lower end.
     pub low: f64,
     /// Upper end.
     pub high: f64,
-    /// Half-width without Fieller's correction, t u(x): that of DIN 32645.
+    /// Half-width t u(x) without Fieller's correction, as in DIN 32645.
     pub half_width: f64,
-    /// Fieller's g, (t u(b)/b)²: 0 for a slope without uncertainty.
+    /// Fieller's g, (t u(b)/b)²; 0 for an exact slope.
     pub g: f64,
-    /// Origin of the covariance, the one of the wider interval.
+    /// Origin of the covariance with the wider interval.
     pub covariance: CovarianceOf,
 }
 
 impl CurveFit {
-    /// The reference value at which the mean of `readings` readings is `y`, with the probability `p`.
+    /// Reference value whose curve equals `y`, the mean of `readings` readings, with an interval of coverage `p`.
     ///
     /// # Errors
-    /// [`CurveUndefined::SlopeNotShown`] if g is 1 or more, [`CurveUndefined::NotALine`] for another order than 1.
+    /// [`CurveUndefined::SlopeNotShown`] if g is 1 or more, [`CurveUndefined::NotALine`] for an order other than 1.
     ///
     /// # Reference
     /// Fieller, Journal of the Royal Statistical Society B 16 (1954); DIN 32645:2008 for the plain half-width.

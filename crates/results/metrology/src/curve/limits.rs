@@ -1,8 +1,8 @@
-//! Limits of relative errors like those of a standard, and the place of measured figures among them.
+//! Limits of relative errors, similar to those of a standard, and the row that measured figures meet.
 
 use std::fmt;
 
-/// Multiples of the row of class 1 that are not a standard's.
+/// Multiples of the class 1 limits, which no standard defines.
 const MULTIPLES: [u32; 6] = [5, 10, 20, 50, 100, 200];
 
 /// A table of limits in %.
@@ -10,16 +10,17 @@ pub(super) struct Table {
     pub(super) standard: &'static str,
     /// Names of the figures.
     pub(super) figures: &'static [&'static str],
-    /// Name of each row and the ends of its figures, from the strictest.
+    /// Name of each row and the limits of its figures, strictest first.
     pub(super) rows: &'static [(&'static str, &'static [f64])],
 }
 
-/// A figure with its magnitude in %, or the series it lacks.
+/// Magnitude of a figure in %, or the name of the missing series.
 pub(super) type Figure = Result<f64, &'static str>;
 
-/// Place of figures among limits like a standard's. No class is given: neither the procedure nor the limits are the standard's own.
+/// Place of figures among limits similar to those of a standard. No class is claimed, because neither the procedure nor the limits are the
+/// standard's own.
 ///
-/// This type gets no further variant: figures are within a row, beyond all, or incomplete.
+/// No further variant will be added: figures are within a row, beyond all rows, or incomplete.
 ///
 /// ```
 /// use taceva_metrology::curve::{Indication, IndicationLevel};
@@ -30,33 +31,33 @@ pub(super) type Figure = Result<f64, &'static str>;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Standing {
-    /// All figures are within this row.
+    /// All figures meet the limits of this row.
     Within {
         /// Name of the row.
         row: &'static str,
-        /// Standard whose limits these are like.
+        /// Standard that the limits resemble.
         standard: &'static str,
     },
-    /// A figure is beyond the last row.
+    /// A figure exceeds the last row.
     Beyond {
-        /// Name of the figure that exceeds its limit most.
+        /// Figure that exceeds its limit most.
         figure: &'static str,
         /// Magnitude of the figure, %.
         value: f64,
         /// Name of the last row.
         row: &'static str,
-        /// End of that row, %.
+        /// Limit of that row, %.
         end: f64,
-        /// Least multiple of the row of class 1 that holds all known figures, of 5 to 200.
+        /// Least multiple of the class 1 limits that covers all known figures; one of 5 to 200.
         multiple: Option<u32>,
-        /// True if no series is missing, so that all figures are within the multiple.
+        /// True if no series is missing, so that the multiple covers all figures.
         is_complete: bool,
-        /// Standard whose limits these are like.
+        /// Standard that the limits resemble.
         standard: &'static str,
     },
-    /// Series are missing, and no figure that there is is beyond the last row.
+    /// Series are missing, and no known figure exceeds the last row.
     Unknown {
-        /// The missing series.
+        /// Names of the missing series.
         missing: Vec<&'static str>,
     },
 }
@@ -104,7 +105,7 @@ impl fmt::Display for Standing {
 }
 
 impl Table {
-    /// Place of `figures`, in the order of the table; `may_have` leaves out rows that other conditions exclude.
+    /// Place of `figures`, in the order of the table. `may_have` excludes rows by other conditions.
     pub(super) fn standing(&self, figures: &[Figure], may_have: impl Fn(&str) -> bool) -> Standing {
         let places = || figures.iter().enumerate();
         let known = || places().filter_map(|(at, figure)| Some((at, figure.ok()?)));

@@ -1,10 +1,10 @@
-//! Relative errors of a force proving instrument, like those of ISO 376.
+//! Relative errors of a force-proving instrument, similar to ISO 376.
 
 use super::fit::{CurveFit, CurveRow};
 use super::limits::{Figure, Standing, Table};
 use super::undefined::{CurveUndefined, all_positive, range};
 
-/// Ends of b, b', f_c, f_0, v and c in %. The standard's text was not at hand.
+/// Upper limits of b, b', f_c, f_0, v and c in %, not checked against the text of the standard.
 const LIMITS: Table = Table {
     standard: "ISO 376",
     figures: &["b", "b'", "f_c", "f_0", "v", "c"],
@@ -16,11 +16,11 @@ const LIMITS: Table = Table {
     ],
 };
 
-/// Least force of a row in resolutions.
+/// Least force of each row, in multiples of the resolution.
 const LEAST_FORCES: [(&str, f64); 4] =
     [("00", 4000.0), ("0.5", 2000.0), ("1", 1000.0), ("2", 500.0)];
 
-/// Series of readings by level of force: X1 and X2 in one mounting, X3 and X5 in others, X4' and X6' while unloading.
+/// Readings by force level: X1 and X2 in one mounting, X3 and X5 in others, X4' and X6' while unloading.
 ///
 /// ```
 /// use taceva_metrology::curve::ProvingSeries;
@@ -31,11 +31,11 @@ const LEAST_FORCES: [(&str, f64); 4] =
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ProvingSeries {
-    /// Forces F, rising.
+    /// Forces F, ascending.
     pub forces: Vec<f64>,
-    /// First series; empty if it was not made, as each of the others.
+    /// First series. Like every series, it is empty if not recorded.
     pub x1: Vec<f64>,
-    /// Second series in the mounting of the first.
+    /// Second series, in the mounting of the first.
     pub x2: Vec<f64>,
     /// Series in the second mounting.
     pub x3: Vec<f64>,
@@ -45,17 +45,17 @@ pub struct ProvingSeries {
     pub x5: Vec<f64>,
     /// Unloading after `x5`.
     pub x6: Vec<f64>,
-    /// Readings without force before and after.
+    /// Readings at zero force, before and after.
     pub zeros: Option<[f64; 2]>,
-    /// Readings at the greatest force after 30 s and 300 s.
+    /// Readings at the greatest force after 30 s and after 300 s.
     pub creep: Option<[f64; 2]>,
     /// Resolution in the unit of the force.
     pub resolution: Option<f64>,
-    /// X_N in the unit of the readings; X̄_r at the greatest force if it is not stated.
+    /// Full-scale reading X_N, in the unit of the readings; defaults to X̄_r at the greatest force.
     pub full_scale: Option<f64>,
 }
 
-/// Figures of one level, in % unless said.
+/// Figures of one level, in % unless stated otherwise.
 ///
 /// ```
 /// # use taceva_metrology::curve::ProvingSeries;
@@ -68,7 +68,7 @@ pub struct ProvingSeries {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ProvingLevel {
-    /// Force.
+    /// Force of the level, in the unit of the reference.
     pub force: f64,
     /// X̄_r, mean of X1, X3 and X5, in the unit of the readings.
     pub mean: f64,
@@ -84,7 +84,7 @@ pub struct ProvingLevel {
     pub w_rotation: f64,
 }
 
-/// Figures of all levels, like those of ISO 376.
+/// Figures of all levels, similar to those of ISO 376.
 ///
 /// ```
 /// # use taceva_metrology::curve::ProvingSeries;
@@ -116,14 +116,14 @@ impl ProvingSeries {
         }
     }
 
-    /// The figures.
+    /// Computes the figures.
     ///
     /// # Errors
     /// [`CurveUndefined::MissingSeries`] without X1, X3 or X5, [`CurveUndefined::Levels`], and [`CurveUndefined::NotPositive`] for a force, a
     /// reading or a resolution that is not above 0; [`CurveUndefined`] of the cubic of fewer than four levels.
     ///
     /// # Reference
-    /// Definitions like those of ISO 376:2011, 7.5; the cubic passes near 0, which is one of its rows.
+    /// Definitions like those of ISO 376:2011, 7.5. The cubic is fitted with an additional row at 0.
     pub fn figures(&self) -> Result<ProvingFigures, CurveUndefined> {
         let all = [
             ("X1", &self.x1, true),
@@ -216,8 +216,8 @@ impl ProvingFigures {
         LIMITS.standing(&figures, may_have)
     }
 
-    /// Relative standard uncertainty of a level, as a ratio: √Σw² of the reference (`machine`, its U/2), rotation, b'/√3, resolution/(F√6), c/√3,
-    /// f_0, `temperature` and f_c. Figures that are missing count as 0.
+    /// Relative standard uncertainty of a level, as a ratio: √Σw² over reference (`machine`, its U/2), rotation, b'/√3, resolution/(F√6), c/√3,
+    /// f_0, `temperature` and f_c. Missing figures count as 0.
     ///
     /// # Panics
     /// If there is no such level.

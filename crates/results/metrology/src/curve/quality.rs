@@ -1,11 +1,11 @@
-//! Lack of fit of a curve against the scatter of repeated readings.
+//! Lack of fit of a curve, tested against the scatter of repeated readings.
 
 use super::fit::{CurveFit, levels};
 use taceva_metrics::distributions::f_ratio;
 
-/// Test of the residuals of level means against the scatter at equal x.
+/// F test of level means against the scatter of readings at equal x.
 ///
-/// This type gets no further field.
+/// No further field will be added.
 ///
 /// ```
 /// use taceva_metrology::curve::{CurveFit, CurveRow};
@@ -21,7 +21,7 @@ use taceva_metrics::distributions::f_ratio;
 pub struct LackOfFit {
     /// Ratio of mean squares.
     pub f: f64,
-    /// Probability of a greater ratio if the curve holds.
+    /// Probability of a greater ratio if the curve is correct.
     pub p: f64,
     /// Degrees of freedom of numerator and denominator.
     pub freedoms: [f64; 2],
@@ -30,7 +30,7 @@ pub struct LackOfFit {
 }
 
 impl CurveFit {
-    /// The test; `None` without repeats at equal x, without more levels than coefficients, or with equal repeats alone.
+    /// Computes the test. `None` without repeats at equal x, with too few levels for the coefficients, or if all repeats agree.
     pub fn lack_of_fit(&self) -> Option<LackOfFit> {
         let levels = levels(&self.rows);
         let freedoms = [

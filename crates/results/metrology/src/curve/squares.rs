@@ -1,4 +1,4 @@
-//! Least squares of a polynomial by Householder's reflections, in a centred and scaled variable.
+//! Polynomial least squares by Householder reflections, in a centred and scaled variable.
 
 /// Greatest number of coefficients.
 pub(super) const MOST: usize = 4;
@@ -9,7 +9,7 @@ pub(super) type Coefficients = [f64; MOST];
 /// A symmetric matrix over the coefficients.
 pub(super) type Square = [[f64; MOST]; MOST];
 
-/// The place and width of x.
+/// Centre and scale of x.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Axis {
     pub(super) centre: f64,
@@ -17,7 +17,7 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Mean and greatest distance from it; `None` if all are equal.
+    /// Centre (mean) and scale (greatest distance from it); `None` if all x are equal.
     pub(super) fn of(x: &[f64]) -> Option<Axis> {
         let first = x.first()?;
         let off = x.iter().map(|x| x - first).sum::<f64>() / x.len() as f64;
@@ -41,7 +41,7 @@ pub(super) struct Solution {
     pub(super) inverse: Square,
 }
 
-/// Least squares over rows of `count` powers; `None` if the columns depend on each other.
+/// Solves least squares over rows of `count` powers; `None` if the columns are linearly dependent.
 ///
 /// # Reference
 /// Golub and Van Loan, Matrix Computations, 5.2.1 and 5.3.2.
@@ -99,7 +99,7 @@ fn inverse_of_square(r: &Square, count: usize) -> Square {
     std::array::from_fn(|i| std::array::from_fn(|j| cell(i, j)))
 }
 
-/// aᵀ M b.
+/// Bilinear form aᵀ M b.
 pub(super) fn form(a: &Coefficients, matrix: &Square, b: &Coefficients) -> f64 {
     let row = |row: &Coefficients| row.iter().zip(b).map(|(cell, b)| cell * b).sum::<f64>();
     a.iter().zip(matrix).map(|(a, cells)| a * row(cells)).sum()

@@ -1,10 +1,10 @@
-//! Reasons why a curve, or a figure of it, has no value.
+//! Reasons why a curve or one of its figures is undefined.
 
-/// Reason for a missing curve or figure.
+/// Reason why a curve or a figure is undefined.
 ///
 /// ```
 /// use taceva_metrology::curve::CurveUndefined;
-/// assert_eq!(CurveUndefined::EqualX.to_string(), "all x are equal, expected two different ones or more");
+/// assert_eq!(CurveUndefined::EqualX.to_string(), "all x are equal, expected at least two different values");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -12,7 +12,7 @@ pub enum CurveUndefined {
     /// The order is not 1, 2 or 3.
     #[error("order {0} is found, expected 1, 2 or 3")]
     Order(usize),
-    /// No degree of freedom is left.
+    /// Too few rows: no degree of freedom is left.
     #[error("{}, expected {least} or more", taceva_core::counted(*have, "row"))]
     TooFewRows {
         /// Number of rows.
@@ -21,7 +21,7 @@ pub enum CurveUndefined {
         least: usize,
     },
     /// All x are equal.
-    #[error("all x are equal, expected two different ones or more")]
+    #[error("all x are equal, expected at least two different values")]
     EqualX,
     /// Fewer different x than coefficients.
     #[error("{have} different x, expected {least} or more")]
@@ -40,24 +40,24 @@ pub enum CurveUndefined {
     /// A probability outside 0..1.
     #[error("probability {0} is found, expected a number between 0 and 1")]
     Probability(f64),
-    /// The slope does not differ from 0, so that an inverse has no end: Fieller's g is 1 or more.
+    /// The slope does not differ significantly from 0, so the inverse is unbounded: Fieller's g is 1 or more.
     #[error("the slope is not shown to differ from 0: Fieller's g is {g:.3}, expected below 1")]
     SlopeNotShown {
         /// Fieller's g, (t u(b)/b)².
         g: f64,
     },
-    /// The figure is defined for a straight line alone.
+    /// The figure is defined only for a straight line.
     #[error("order {0} is found, expected 1: the figure is defined for a straight line")]
     NotALine(usize),
     /// A force, a reading or a resolution that must be above 0.
     #[error("{what} {value} is found, expected a number above 0")]
     NotPositive {
-        /// Quantity.
+        /// Name of the quantity.
         what: &'static str,
-        /// Value.
+        /// Value found.
         value: f64,
     },
-    /// A series that has another number of levels than the forces.
+    /// A series whose number of levels differs from the number of forces.
     #[error("series {series} has {}, expected {expected}", taceva_core::counted(*have, "level"))]
     Levels {
         /// Name of the series.
@@ -67,19 +67,19 @@ pub enum CurveUndefined {
         /// Number of forces.
         expected: usize,
     },
-    /// A series that a figure needs.
+    /// A missing series; the name of the series.
     #[error("series {0} is missing")]
     MissingSeries(&'static str),
 }
 
-/// `p` if it is in 0..1.
+/// Returns `p` if it is in 0..1.
 pub(super) fn probability(p: f64) -> Result<f64, CurveUndefined> {
     (p > 0.0 && p < 1.0)
         .then_some(p)
         .ok_or(CurveUndefined::Probability(p))
 }
 
-/// All of `values` are above 0 and finite.
+/// Checks that all `values` are positive and finite.
 pub(super) fn all_positive<'a>(
     what: &'static str,
     values: impl IntoIterator<Item = &'a f64>,
@@ -88,13 +88,13 @@ pub(super) fn all_positive<'a>(
     values.try_for_each(|value| positive(what, *value).map(|_| ()))
 }
 
-/// Greatest less least of `values`.
+/// Range of `values`: greatest minus least.
 pub(super) fn range(values: &[f64]) -> f64 {
     let greatest = values.iter().copied().fold(f64::MIN, f64::max);
     greatest - values.iter().copied().fold(f64::MAX, f64::min)
 }
 
-/// `value` if it is above 0 and finite.
+/// Returns `value` if it is positive and finite.
 pub(super) fn positive(what: &'static str, value: f64) -> Result<f64, CurveUndefined> {
     let is_right = value > 0.0 && value.is_finite();
     is_right

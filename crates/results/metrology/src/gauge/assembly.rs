@@ -1,4 +1,4 @@
-//! Reports put together from components, intervals and remarks.
+//! Assembles reports from components, intervals and remarks.
 
 use taceva_metrics::Fraction;
 
@@ -11,9 +11,9 @@ use super::report::{
 };
 use super::{Design, GaugeSettings, Method, RangeConstants};
 
-/// Fewest operators without a remark on their degrees of freedom.
+/// Fewest operators without a remark on degrees of freedom.
 const FEW_OPERATORS: usize = 5;
-/// Standard deviations that span a tolerance, as AIAG counts them.
+/// Number of standard deviations that AIAG compares with the tolerance.
 const SPAN: f64 = 6.0;
 
 /// Estimate of one component.
@@ -22,7 +22,7 @@ struct Estimate {
     raw: Option<f64>,
     variance: f64,
     sd: f64,
-    /// Variance and deviation over those of the total; none without variation.
+    /// Ratios of variance and of standard deviation to the total; `None` without variation.
     shares: Option<[f64; 2]>,
 }
 
@@ -138,7 +138,7 @@ fn whole(value: f64) -> u64 {
     whole
 }
 
-/// Components of an analysis of variance, negative ones counted as 0.
+/// Components of an analysis of variance; negative values become 0.
 fn by_anova(raw: &Raw) -> Vec<Estimate> {
     let repeatability = raw.repeatability.at_least_zero();
     let operator = raw.operator.at_least_zero();

@@ -1,4 +1,4 @@
-//! Studies with as many readings in every cell.
+//! Balanced studies: equally many readings in every cell.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,10 +16,10 @@ pub(super) struct Names<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct Balanced {
     pub(super) operators: usize,
-    /// Parts of the study if crossed, of each operator if nested.
+    /// Number of parts: of the study if crossed, of each operator if nested.
     pub(super) parts: usize,
     pub(super) trials: usize,
-    /// Parts left out because a cell was incomplete.
+    /// Number of parts dropped because of an incomplete cell.
     pub(super) dropped: usize,
     /// Readings by operator, then part, then trial.
     values: Vec<f64>,
@@ -101,7 +101,7 @@ impl Balanced {
     }
 }
 
-/// Identity of the part of a cell: below another operator a nested part is another one.
+/// Part of a cell with its operator, since nested parts of different operators differ.
 fn key(cell: &Cell, design: Design) -> [usize; 2] {
     match design {
         Design::Crossed => [cell.part, 0],
@@ -136,7 +136,7 @@ fn cells(readings: &[Reading], names: &Names<'_>) -> Result<Vec<Cell>, GaugeErro
     Ok(cells)
 }
 
-/// Cells sorted by part and operator, with an empty one for each part that an operator did not measure.
+/// Cells sorted by part and operator, with an empty cell for each part that an operator did not measure.
 fn with_empty_cells(cells: Vec<Cell>, names: &Names<'_>) -> Vec<Cell> {
     let mut all = Vec::with_capacity(names.parts.len() * names.operators.len());
     let mut given = cells.into_iter().peekable();
@@ -153,7 +153,7 @@ fn with_empty_cells(cells: Vec<Cell>, names: &Names<'_>) -> Vec<Cell> {
     all
 }
 
-/// The most frequent count, the greatest of several; 0 for none.
+/// Most frequent count, the greatest in case of a tie; 0 for none.
 fn most_frequent(counts: impl Iterator<Item = usize>) -> usize {
     let mut frequency: BTreeMap<usize, usize> = BTreeMap::new();
     for count in counts {

@@ -1,8 +1,8 @@
-//! Reasons that a gauge study has no result.
+//! Reasons why a gauge study has no result.
 
 use thiserror::Error;
 
-/// Reason that a gauge study has no result.
+/// Reason why a gauge study has no result.
 ///
 /// ```
 /// use taceva_metrology::gauge::{GaugeError, GaugeSettings, GaugeStudy};
@@ -37,7 +37,7 @@ pub enum GaugeError {
         /// Value found.
         value: f64,
     },
-    /// Two readings of one part, operator and trial.
+    /// Two readings with the same part, operator and trial.
     #[error(
         "part {part}, operator {operator}, trial {trial}: two readings, expected one; give each repeat its own trial"
     )]
@@ -49,7 +49,7 @@ pub enum GaugeError {
         /// Label of the trial.
         trial: String,
     },
-    /// A cell with another number of readings than most.
+    /// A cell whose number of readings differs from most cells.
     #[error(
         "part {part}, operator {operator}: {have} readings where most cells have {expected}; `--drop-incomplete` leaves such parts out"
     )]
@@ -60,7 +60,7 @@ pub enum GaugeError {
         operator: String,
         /// Readings found.
         have: usize,
-        /// Readings of most cells.
+        /// Number of readings in most cells.
         expected: usize,
     },
     /// A nested study in which operators have different numbers of parts.
@@ -72,7 +72,7 @@ pub enum GaugeError {
         operator: String,
         /// Parts found.
         have: usize,
-        /// Parts of most operators.
+        /// Number of parts of most operators.
         expected: usize,
     },
     /// Fewer than two operators.
@@ -97,7 +97,7 @@ pub enum GaugeError {
         /// Trials found.
         have: usize,
     },
-    /// The range method of a nested study.
+    /// The range method requested for a nested study.
     #[error(
         "the range method needs parts that every operator measures; use `--method anova` for a nested study"
     )]

@@ -1,6 +1,6 @@
-//! Intervals of 95 % of components and their ratios.
+//! 95 % confidence intervals of components and their ratios.
 //!
-//! They use the mean squares of the full model, also where the interaction was pooled: an interval that follows a test is too short.
+//! They use the mean squares of the full model even if the interaction was pooled, because intervals after a test are too short.
 
 use taceva_core::random::Draws;
 use taceva_metrics::distributions::chi_square;
@@ -10,13 +10,13 @@ use super::anova::{Square, Squares, count, real};
 use super::cells::Balanced;
 use super::report::ComponentName;
 
-/// Probability outside each end.
+/// Probability outside each end of an interval.
 const TAIL: f64 = 0.025;
 
-/// Ends of an interval.
+/// Lower and upper end of an interval.
 pub(super) type Ends = [f64; 2];
 
-/// Weighted mean square of a sum of components.
+/// Mean square and its weight in a linear combination.
 #[derive(Clone, Copy, Debug)]
 struct Term {
     weight: f64,
@@ -24,13 +24,13 @@ struct Term {
     freedom: f64,
 }
 
-/// A variance estimated with `freedom` degrees of freedom.
+/// Interval of a variance estimated with `freedom` degrees of freedom.
 fn of_variance(variance: f64, freedom: f64) -> Ends {
     let end = |share| freedom * variance / chi_square::quantile(share, freedom);
     [end(1.0 - TAIL), end(TAIL)]
 }
 
-/// Sum of `terms` with positive weights, by modified large samples.
+/// Interval of a sum of positively weighted mean squares, by the modified large-sample method.
 ///
 /// # Reference
 /// Graybill and Wang, Confidence intervals on nonnegative linear combinations of variances, JASA 75 (1980).
@@ -52,7 +52,7 @@ pub(super) struct Drawn {
 }
 
 impl Drawn {
-    /// Quantiles of both tails, linear between neighbours.
+    /// Quantiles of both tails, linearly interpolated.
     fn ends(mut self) -> Ends {
         self.values.sort_by(f64::total_cmp);
         let last = self.values.len() - 1;
@@ -75,16 +75,16 @@ impl Drawn {
     }
 }
 
-/// Intervals of all figures of a report.
+/// Intervals of all figures in a report.
 pub(super) struct Intervals {
-    /// Variance by component.
+    /// Interval of the variance of each component.
     pub(super) variances: Vec<(ComponentName, Ends)>,
-    /// Share of the study, as a ratio of standard deviations, by component.
+    /// Interval of each component's standard deviation over the total.
     pub(super) shares: Vec<(ComponentName, Ends)>,
     pub(super) ndc: Ends,
 }
 
-/// Components of one draw.
+/// Variance components of one draw.
 struct Pivot {
     repeatability: f64,
     operator: f64,
@@ -166,7 +166,7 @@ impl Pivots {
     }
 }
 
-/// Intervals of the components `names` of a study.
+/// Intervals of the components `names`.
 pub(super) fn intervals(
     squares: &Squares,
     study: &Balanced,

@@ -1,4 +1,4 @@
-//! The method of average and range.
+//! Average and range method.
 
 use taceva_metrics::distributions::{integral, normal};
 use taceva_metrics::{Dyadic, ExactSum, Fraction};
@@ -6,9 +6,9 @@ use taceva_metrics::{Dyadic, ExactSum, Fraction};
 use super::anova::{count, real};
 use super::cells::Balanced;
 
-/// Factors from a range to a standard deviation: 1 / d2 of the trials, 1 / d2* of the operators and of the parts.
+/// Factors from a range to a standard deviation: 1 / d2 for trials, 1 / d2* for operators and parts.
 ///
-/// d2 is the mean of the range of normal numbers, d3 its standard deviation, and d2* = √(d2² + d3²) that of a single range.
+/// d2 is the mean range of standard normal numbers, and d3 its standard deviation. d2* = √(d2² + d3²) is for a single range.
 ///
 /// ```
 /// use taceva_metrology::gauge::RangeConstants;
@@ -25,14 +25,14 @@ use super::cells::Balanced;
 pub struct RangeConstants {
     /// Factor of the mean range of the trials.
     pub k1: f64,
-    /// Factor of the range of the means of operators.
+    /// Factor of the range of operator means.
     pub k2: f64,
-    /// Factor of the range of the means of parts.
+    /// Factor of the range of part means.
     pub k3: f64,
 }
 
 impl RangeConstants {
-    /// Factors given by a printed table.
+    /// Factors from a printed table.
     ///
     /// ```
     /// use taceva_metrology::gauge::RangeConstants;
@@ -43,7 +43,7 @@ impl RangeConstants {
         RangeConstants { k1, k2, k3 }
     }
 
-    /// Factors to full precision; at least two of each.
+    /// Factors at full precision, for at least two parts, operators and trials.
     #[must_use]
     pub fn of(parts: usize, operators: usize, trials: usize) -> RangeConstants {
         let one = |n| 1.0 / moment(2, n).sqrt();
@@ -55,9 +55,9 @@ impl RangeConstants {
     }
 }
 
-/// Mean of the range of `n` normal numbers, or of its square.
+/// Mean range of `n` standard normal numbers, or mean squared range, by `power`.
 fn moment(power: usize, n: usize) -> f64 {
-    /// Distance in standard deviations beyond which nothing is left, and width of a panel.
+    /// Distance in standard deviations beyond which the density is negligible, and width of a panel.
     const FAR: f64 = 9.0;
     const WIDTH: f64 = 1.0;
     let between_count = n.saturating_sub(2);
@@ -75,7 +75,7 @@ fn moment(power: usize, n: usize) -> f64 {
     integral(weighted, 0.0, 2.0 * FAR, WIDTH)
 }
 
-/// base^exponent by multiplications alone.
+/// base^exponent by repeated multiplication.
 fn whole_power(base: f64, exponent: usize) -> f64 {
     let (mut result, mut factor, mut left) = (1.0, base, exponent);
     while left > 0 {
@@ -105,15 +105,15 @@ fn whole_power(base: f64, exponent: usize) -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RangeEstimate {
-    /// Equipment variation, of the trials.
+    /// Equipment variation: between trials.
     pub equipment: f64,
-    /// Appraiser variation, of the operators.
+    /// Appraiser variation: between operators.
     pub appraiser: f64,
-    /// Equipment and appraisers together.
+    /// Equipment and appraiser variation combined.
     pub gauge: f64,
-    /// Variation of the parts.
+    /// Variation between parts.
     pub part: f64,
-    /// Gauge and parts together.
+    /// Gauge and part variation combined.
     pub total: f64,
 }
 
@@ -145,7 +145,7 @@ pub(super) fn estimate(study: &Balanced, constants: &RangeConstants) -> RangeEst
     }
 }
 
-/// Difference of the greatest and the least sum.
+/// Greatest minus least sum.
 fn spread(sums: &[ExactSum]) -> Dyadic {
     let mut ends: Option<[Dyadic; 2]> = None;
     for sum in sums.iter().map(ExactSum::to_dyadic) {

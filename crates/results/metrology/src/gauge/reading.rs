@@ -1,6 +1,6 @@
 //! One reading of a study.
 
-/// One reading, its labels as numbers.
+/// Reading whose labels are numbers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
     pub(super) part: usize,

@@ -1,4 +1,4 @@
-//! Report of a gauge study, as it is written to a file.
+//! Report of a gauge study, as written to files.
 
 use std::fmt;
 
@@ -24,7 +24,7 @@ pub enum ComponentName {
     Repeatability,
     /// Between operators.
     Operator,
-    /// Between operators from part to part.
+    /// Interaction between operators and parts.
     Interaction,
     /// Operators and interaction; AIAG's appraiser variation.
     Reproducibility,
@@ -50,7 +50,7 @@ impl fmt::Display for ComponentName {
     }
 }
 
-/// Method of an interval.
+/// Method of computing an interval.
 ///
 /// ```
 /// use taceva_metrology::gauge::IntervalMethod;
@@ -60,9 +60,9 @@ impl fmt::Display for ComponentName {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum IntervalMethod {
-    /// The chi-square distribution of one mean square.
+    /// Chi-square distribution of a single mean square.
     ChiSquare,
-    /// Modified large samples of Graybill and Wang.
+    /// Modified large-sample method of Graybill and Wang.
     ModifiedLargeSamples,
     /// Generalized pivotal quantities.
     Generalized,
@@ -82,29 +82,29 @@ pub enum IntervalMethod {
 pub struct Component {
     /// Name of the component.
     pub name: ComponentName,
-    /// Estimate before a negative one is counted as 0; none for a sum and for the range method.
+    /// Estimate before replacing a negative value by 0; `None` for sums and the range method.
     pub variance_raw: Option<f64>,
     /// Variance, in the square of the unit of the readings.
     pub variance: f64,
     /// Standard deviation, in the unit of the readings.
     pub sd: f64,
-    /// Interval of 95 % of the standard deviation.
+    /// 95 % confidence interval of the standard deviation.
     pub ci95: [f64; 2],
-    /// Method of this interval.
+    /// Method that gave `ci95`.
     pub interval: IntervalMethod,
-    /// Variance over that of the total, in per cent; none without variation.
+    /// Variance over the total variance, in per cent; `None` without variation.
     pub percent_contribution: Option<f64>,
-    /// Standard deviation over that of the total, in per cent; none without variation.
+    /// Standard deviation over the total standard deviation, in per cent; `None` without variation.
     pub percent_study: Option<f64>,
-    /// Interval of 95 % of `percent_study`, by generalized pivotal quantities.
+    /// 95 % confidence interval of `percent_study`, by generalized pivotal quantities.
     pub percent_study_ci95: Option<[f64; 2]>,
     /// Six standard deviations over the tolerance, in per cent.
     pub percent_tolerance: Option<f64>,
-    /// Interval of 95 % of `percent_tolerance`.
+    /// 95 % confidence interval of `percent_tolerance`.
     pub percent_tolerance_ci95: Option<[f64; 2]>,
 }
 
-/// Reason that the number of distinct categories is undefined.
+/// Reason why the number of distinct categories is undefined.
 ///
 /// ```
 /// use taceva_metrology::gauge::NdcReason;
@@ -116,9 +116,9 @@ pub struct Component {
 pub enum NdcReason {
     /// All readings are equal.
     NoVariation,
-    /// The gauge adds no variation to that of the parts.
+    /// The gauge variation is 0.
     NoGaugeVariation,
-    /// The readings are errors.
+    /// The readings are errors, not values.
     Errors,
 }
 
@@ -127,12 +127,12 @@ impl fmt::Display for NdcReason {
         f.write_str(match self {
             NdcReason::NoVariation => "all readings are equal",
             NdcReason::NoGaugeVariation => "the gauge adds no variation",
-            NdcReason::Errors => "parts of errors differ by bias, not by what is measured",
+            NdcReason::Errors => "parts of errors differ by bias, not by the measured quantity",
         })
     }
 }
 
-/// Number of distinct categories: √2 times the deviation of the parts over that of the gauge.
+/// Number of distinct categories: √2 times the standard deviation of the parts over that of the gauge.
 ///
 /// ```
 /// use taceva_metrology::gauge::Ndc;
@@ -143,17 +143,17 @@ impl fmt::Display for NdcReason {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Ndc {
-    /// Value without rounding.
+    /// Unrounded value.
     pub value: Option<f64>,
-    /// Whole categories, as AIAG counts them.
+    /// Value rounded down, as AIAG counts categories.
     pub floor: Option<u64>,
-    /// Interval of 95 %, by generalized pivotal quantities.
+    /// 95 % confidence interval, by generalized pivotal quantities.
     pub ci95: Option<[f64; 2]>,
     /// Reason for a missing value.
     pub undefined: Option<NdcReason>,
 }
 
-/// AIAG's bands of the share of the gauge in the study.
+/// AIAG's classes for the share of the gauge in the total variation.
 ///
 /// ```
 /// use taceva_metrology::gauge::Band;
@@ -172,7 +172,7 @@ pub enum Band {
 }
 
 impl Band {
-    /// Band of a share in per cent.
+    /// Class of a share in per cent.
     #[must_use]
     pub fn of(percent: f64) -> Band {
         if percent < 10.0 {
@@ -190,7 +190,7 @@ impl Band {
 /// ```
 /// use taceva_metrology::gauge::Flag;
 /// let flag = Flag::FewOperators { operators: 3 };
-/// assert_eq!(flag.to_string(), "reproducibility rests on 2 degrees of freedom, of 3 operators");
+/// assert_eq!(flag.to_string(), "reproducibility has only 2 degrees of freedom, from 3 operators");
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "flag", rename_all = "snake_case")]
@@ -201,23 +201,23 @@ pub enum Flag {
         /// Number of operators.
         operators: usize,
     },
-    /// A component below 0, counted as 0.
+    /// A negative component, replaced by 0.
     NegativeComponent {
         /// Name of the component.
         component: ComponentName,
-        /// Estimate of the component, a variance.
+        /// Estimate of the variance.
         variance: f64,
     },
     /// The interaction was pooled with repeatability.
     Pooled {
         /// The p value of the interaction.
         p: f64,
-        /// The p value above which it is pooled.
+        /// Threshold of the p value for pooling.
         above: f64,
     },
-    /// Parts left out.
+    /// Incomplete parts were left out.
     Dropped {
-        /// Number of parts.
+        /// Number of parts left out.
         parts: usize,
     },
     /// All readings are equal.
@@ -232,7 +232,7 @@ impl fmt::Display for Flag {
                 let degrees = if freedom == 1 { "degree" } else { "degrees" };
                 write!(
                     f,
-                    "reproducibility rests on {freedom} {degrees} of freedom, of {operators} operators"
+                    "reproducibility has only {freedom} {degrees} of freedom, from {operators} operators"
                 )
             }
             Flag::NegativeComponent {
@@ -241,7 +241,7 @@ impl fmt::Display for Flag {
             } => {
                 write!(
                     f,
-                    "{component}: the estimate of the variance is {variance:.4e}, counted as 0"
+                    "{component}: the estimated variance is {variance:.4e}, counted as 0"
                 )
             }
             Flag::Pooled { p, above } => {
@@ -256,7 +256,7 @@ impl fmt::Display for Flag {
     }
 }
 
-/// Report of a gauge study; its JSON form has the schema `taceva.gauge/1`.
+/// Report of a gauge study, with the JSON schema `taceva.gauge/1`.
 ///
 /// ```
 /// use taceva_metrology::gauge::{GaugeReport, GaugeSettings, GaugeStudy};
@@ -273,7 +273,7 @@ impl fmt::Display for Flag {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct GaugeReport {
-    /// Name and version of the form.
+    /// Name and version of the JSON schema.
     pub schema: String,
     /// Relation of parts and operators.
     pub design: Design,
@@ -281,15 +281,15 @@ pub struct GaugeReport {
     pub method: Method,
     /// Unit of the readings.
     pub unit: String,
-    /// Parts of the study if crossed, of each operator if nested.
+    /// Number of parts: of the study if crossed, of each operator if nested.
     pub parts: usize,
     /// Number of operators.
     pub operators: usize,
-    /// Readings of each part by each operator.
+    /// Number of readings of each part by each operator.
     pub trials: usize,
-    /// Parts left out as incomplete.
+    /// Number of incomplete parts left out.
     pub dropped: usize,
-    /// Analysis of variance.
+    /// Table of the analysis of variance.
     pub table: Vec<TableRow>,
     /// True if the interaction was pooled with repeatability.
     pub pooled: bool,
@@ -299,20 +299,20 @@ pub struct GaugeReport {
     pub tolerance: Option<f64>,
     /// Number of distinct categories.
     pub ndc: Ndc,
-    /// Band of the share of the gauge in the study.
+    /// AIAG class of the gauge.
     pub band: Option<Band>,
-    /// Bands of both ends of the interval of this share.
+    /// AIAG classes of both ends of the confidence interval.
     pub band_ci95: Option<[Band; 2]>,
-    /// Draws of generalized pivotal quantities.
+    /// Number of draws of generalized pivotal quantities.
     pub draws: u32,
     /// Seed of the draws.
     pub seed: u64,
-    /// Remarks.
+    /// Remarks on the study.
     pub flags: Vec<Flag>,
 }
 
 impl GaugeReport {
-    /// The component `name`, if the design has it.
+    /// Component `name`; `None` if the design does not have it.
     pub fn component(&self, name: ComponentName) -> Option<&Component> {
         self.components.iter().find(|one| one.name == name)
     }

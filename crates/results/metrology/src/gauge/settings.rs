@@ -17,7 +17,7 @@ pub enum Design {
     /// Every operator measures every part.
     #[default]
     Crossed,
-    /// Each part is measured by one operator; equal labels below two operators are two parts.
+    /// Each part is measured by one operator; equal labels under two operators name two parts.
     Nested,
 }
 
@@ -53,13 +53,13 @@ pub struct GaugeSettings {
     pub design: Design,
     /// Estimator of the components.
     pub method: Method,
-    /// The interaction is pooled with repeatability if its p value is above this; AIAG's value is 0.25.
+    /// Threshold of the p value above which the interaction is pooled with repeatability; AIAG uses 0.25.
     pub pool: f64,
     /// Width of the tolerance, in the unit of the readings.
     pub tolerance: Option<f64>,
-    /// True if the readings are errors. Their parts differ by bias alone, so they have neither distinct categories nor a band.
+    /// True if the readings are errors. Parts then differ only by bias, so distinct categories and AIAG class are undefined.
     pub are_errors: bool,
-    /// Leaves parts with incomplete cells out, instead of refusing the study.
+    /// Drops parts with incomplete cells instead of rejecting the study.
     pub drop_incomplete: bool,
     /// Number of draws of generalized pivotal quantities.
     pub draws: u32,
@@ -86,9 +86,9 @@ impl Default for GaugeSettings {
 }
 
 impl GaugeSettings {
-    /// Refuses settings outside their range.
+    /// Rejects settings outside their range.
     pub(super) fn check(&self) -> Result<(), GaugeError> {
-        /// Fewer draws leave ten values beyond an end of the interval.
+        /// Least number of draws: it leaves ten values beyond each end of the interval.
         const LEAST_DRAWS: u32 = 400;
         let refuse = |name, value, expected| {
             Err(GaugeError::Setting {

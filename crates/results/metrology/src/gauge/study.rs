@@ -8,7 +8,7 @@ use super::range::estimate;
 use super::reading::Reading;
 use super::{GaugeError, GaugeReport, GaugeSettings, RangeConstants, RangeEstimate};
 
-/// Labels with numbers in the order of their first use.
+/// Labels, numbered in the order of first use.
 #[derive(Clone, Debug, Default)]
 struct Labels {
     numbers: BTreeMap<String, usize>,
@@ -24,7 +24,7 @@ impl Labels {
         number
     }
 
-    /// The labels by number.
+    /// Labels ordered by number.
     fn by_number(&self) -> Vec<&str> {
         let mut labels = vec![""; self.numbers.len()];
         for (label, &number) in &self.numbers {
@@ -33,7 +33,7 @@ impl Labels {
         labels
     }
 
-    /// Places in alphabetical order, by number.
+    /// Alphabetical rank of each label, ordered by number.
     fn places(&self) -> Vec<usize> {
         let mut places = vec![0; self.numbers.len()];
         for (place, &number) in self.numbers.values().enumerate() {
@@ -119,21 +119,21 @@ impl GaugeStudy {
         self.readings.len()
     }
 
-    /// True without readings.
+    /// True if there are no readings.
     pub fn is_empty(&self) -> bool {
         self.readings.is_empty()
     }
 
-    /// Components of variance with their intervals.
+    /// Computes variance components with their intervals.
     ///
     /// # Errors
-    /// A setting outside its range, a study that is not balanced, or fewer than two operators, parts or trials.
+    /// A setting outside its range, an unbalanced study, or fewer than two operators, parts or trials.
     pub fn analyse(&self, settings: &GaugeSettings) -> Result<GaugeReport, GaugeError> {
         settings.check()?;
         Ok(assemble(&self.balanced(settings)?, settings))
     }
 
-    /// Components by the range method with the constants given, such as rounded ones of a printed table.
+    /// Components by the range method with the given constants, such as those of a printed table.
     ///
     /// # Errors
     /// As for [`analyse`](GaugeStudy::analyse).

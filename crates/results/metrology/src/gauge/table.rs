@@ -14,19 +14,19 @@ use serde::{Deserialize, Serialize};
 pub enum Source {
     /// Between operators.
     Operator,
-    /// Between parts; of one operator in a nested study.
+    /// Between parts; within operators in a nested study.
     Part,
-    /// Operators that differ from part to part.
+    /// Interaction of operators and parts.
     Interaction,
-    /// Between trials.
+    /// Within cells, between trials.
     Repeatability,
-    /// Interaction and repeatability together.
+    /// Pooled interaction and repeatability.
     Pooled,
-    /// All readings about their mean.
+    /// Total variation about the mean.
     Total,
 }
 
-/// Row of the table, in the square of the unit of the readings.
+/// Row of an analysis of variance, in the squared unit of the readings.
 ///
 /// ```
 /// use taceva_metrology::gauge::{GaugeSettings, GaugeStudy, Source};
@@ -48,10 +48,10 @@ pub struct TableRow {
     pub df: u64,
     /// Sum of squares.
     pub ss: f64,
-    /// Mean square; none for the total.
+    /// Mean square; `None` for the total.
     pub ms: Option<f64>,
-    /// Ratio of the mean square to that of the next lower source.
+    /// F ratio to the mean square of the next lower source.
     pub f: Option<f64>,
-    /// Probability of a greater ratio by chance.
+    /// p value of the F ratio.
     pub p: Option<f64>,
 }

@@ -7,12 +7,12 @@ use taceva_metrics::Value;
 
 use super::GaugeReport;
 
-/// A number to four digits.
+/// Formats a number to four significant digits.
 fn digits(number: f64) -> String {
     Value::Scalar(number).to_string()
 }
 
-/// A number with both ends of its interval; a dash for a missing one.
+/// Number with both ends of its interval; a dash if missing.
 fn with_ends(number: Option<f64>, ends: Option<[f64; 2]>) -> String {
     match (number, ends) {
         (Some(number), Some([low, high])) => {

@@ -175,7 +175,7 @@ fn intervals_depend_on_the_seed_alone() {
 fn fewer_than_five_operators_are_said_with_their_degrees_of_freedom() {
     let report = analyse(|_| {});
     let text: Vec<String> = report.flags.iter().map(Flag::to_string).collect();
-    let expected = "reproducibility rests on 2 degrees of freedom, of 3 operators";
+    let expected = "reproducibility has only 2 degrees of freedom, from 3 operators";
     assert!(text.iter().any(|line| line == expected), "{text:?}");
 }
 

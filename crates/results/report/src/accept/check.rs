@@ -18,33 +18,33 @@ use crate::results::Study;
 pub struct LimitCheck {
     /// Checked limit.
     pub limit: Limit,
-    /// Value of the score, if there is one.
+    /// Value of the score; `None` if missing.
     pub value: Option<f64>,
-    /// Both ends of its interval.
+    /// Ends of the confidence interval of the score.
     pub ends: Option<[f64; 2]>,
-    /// Number of trainings of the model whose variance the interval contains; 0 without any.
+    /// Number of trainings of the model whose variance the interval includes; 0 if none.
     pub trainings: usize,
-    /// Number of samples behind the score.
+    /// Number of samples that the score is computed from.
     pub n: u64,
-    /// Decision by the rule of the limit, with the uncertainty of the value; `None` without a value in the unit of the limit.
+    /// Decision by the rule of the limit, with the uncertainty of the value. `None` without a value in the unit of the limit.
     pub decision: Option<Decision>,
-    /// Word of the decision. A limit that is not decided by a rule passes or fails.
+    /// Word of the decision. Without a decision rule, the limit passes or fails.
     pub verdict: Word,
     /// True if the limit is met.
     pub is_kept: bool,
     /// Reason why the limit is not met, or a remark that it is met without an interval.
     pub reason: Option<String>,
-    /// Risks among units of one process, or the reason that there are none; `None` without such units.
+    /// Risks among units of one process, or the reason why they are unknown. `None` if no units are given.
     pub process: Option<Result<ProcessRisk, String>>,
     /// Standing of the score. A limit on a score that is excluded from verdicts counts as not met.
     pub standing: Standing,
 }
 
-/// Reason that a result is not held to limits.
+/// Reason why a result cannot be checked against limits.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AcceptError {
-    /// A value outside its own interval.
+    /// A value outside its confidence interval.
     #[error(
         "{} {}: the value {} {unit} is outside its own interval {} … {} {unit}; make the result again with `taceva evaluate` or `taceva score`",
         shown(.metric), shown(.channel), numeral(*.value), numeral(.ends[0]), numeral(.ends[1])
@@ -63,12 +63,12 @@ pub enum AcceptError {
     },
 }
 
-/// Checks each limit on the scores of `study`, in the order of the limits. A limit on a missing score or value counts as not met.
+/// Checks each limit against the scores of `study`, in the order of the limits. A limit on a missing score or value counts as not met.
 ///
-/// If the model was trained several times, an interval contains the variance between trainings beside that between clusters.
+/// If the model was trained several times, the interval includes the variance between trainings as well as between clusters.
 ///
 /// # Errors
-/// [`AcceptError::OutsideInterval`] for a score with a limit, if its value is outside its own interval.
+/// [`AcceptError::OutsideInterval`] for a checked score whose value is outside its confidence interval.
 pub fn accept(study: &Study, limits: &LimitsFile) -> Result<Vec<LimitCheck>, AcceptError> {
     let each = limits.limits.iter();
     each.map(|limit| hold(study, limits, limit)).collect()
@@ -133,7 +133,7 @@ fn hold(study: &Study, limits: &LimitsFile, limit: &Limit) -> Result<LimitCheck,
     Ok(check)
 }
 
-/// Refuses a value outside its own interval.
+/// Rejects a value outside its confidence interval.
 fn check_within(score: &Score, variant: Option<&str>, value: f64) -> Result<(), AcceptError> {
     let ends = score.interval.as_ref().and_then(Interval::ends);
     match ends {
@@ -151,7 +151,7 @@ fn check_within(score: &Score, variant: Option<&str>, value: f64) -> Result<(), 
     }
 }
 
-/// Decision on `value` by the rule of `limit`; `None` for bounds that leave no room.
+/// Decision on `value` by the rule of `limit`; `None` if the bounds exclude every value.
 fn decided(limit: &Limit, value: f64, interval: &LimitInterval) -> Option<Decision> {
     let measured = match &interval.measured {
         Ok(measured) => *measured,
@@ -162,7 +162,7 @@ fn decided(limit: &Limit, value: f64, interval: &LimitInterval) -> Option<Decisi
 }
 
 impl LimitCheck {
-    /// Takes the word of the decision by a rule.
+    /// Sets the word from a decision by a rule.
     fn take_word(&mut self, interval: &LimitInterval, counts_conditional: bool) {
         let Some(decision) = &self.decision else {
             return;
@@ -175,7 +175,7 @@ impl LimitCheck {
         self.reason = reason::of_decision(&self.limit, decision, interval);
     }
 
-    /// Takes what the value, or its whole interval, is found to break.
+    /// Sets the result of a limit without decision rule; `broken` says why it is not met.
     fn take_value(&mut self, broken: Option<String>) {
         self.is_kept = broken.is_none();
         self.reason = broken;

@@ -1,4 +1,4 @@
-//! Intervals and uncertainties of scores for limits, with the variance between trainings.
+//! Confidence intervals and uncertainties of scores for limit checks, including the variance between trainings.
 
 use taceva_metrics::{Scale, TrainingSpread, catalogue};
 use taceva_metrology::conformity::Measurement;
@@ -7,20 +7,19 @@ use taceva_results::{Interval, Score};
 use crate::compare::estimate_of;
 use crate::results::Study;
 
-/// Interval of a score for a limit.
+/// Confidence interval of a score for a limit check.
 #[derive(Clone, Debug)]
 pub(super) struct LimitInterval {
-    /// Both ends; `None` without an interval.
+    /// Both ends; `None` if the score has no interval.
     pub(super) ends: Option<[f64; 2]>,
-    /// Number of trainings whose variance it contains; 0 without any.
+    /// Number of trainings whose variance the interval includes; 0 if none.
     pub(super) trainings: usize,
-    /// Value with its uncertainty, on the scale of the interval; the reason if there is none.
+    /// Value with its uncertainty, on the scale of the interval, or the reason why the uncertainty is unknown.
     pub(super) measured: Result<Measurement, String>,
 }
 
 impl LimitInterval {
-    /// Interval of `score`, whose value and interval are those of `variant` if there is one. The variance between the trainings of the model is
-    /// added to that between clusters.
+    /// Interval of `score`, or of its `variant` if given. The variance between trainings of the model is added to that between clusters.
     pub(super) fn of(study: &Study, score: &Score, variant: Option<&str>) -> LimitInterval {
         let values = study.values_of_trainings(&score.metric, variant, &score.channel);
         let spread = TrainingSpread::of_one(&values).filter(TrainingSpread::varies);

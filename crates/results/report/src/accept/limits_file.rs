@@ -1,25 +1,25 @@
-//! Files of limits, with the rules by which they are decided.
+//! Limits files, with the decision rules of their limits.
 
 use serde::Deserialize;
 use taceva_core::{Unit, shown};
 use taceva_metrology::conformity::{ConformityError, DecisionRule, Limits, RuleSettings};
 
-/// Version of limit files whose limits are met by the value, or by its whole interval.
+/// Version of limits files in which a limit is met by the value, or by its whole interval.
 const BY_VALUE: u32 = 1;
-/// Version of limit files with decision rules.
+/// Version of limits files with decision rules.
 pub(super) const BY_RULES: u32 = 2;
 
 /// Limits for the acceptance of a sensor.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LimitsFile {
-    /// Version of the file; 1 by default.
+    /// Version of the file; defaults to 1.
     #[serde(default = "by_value")]
     limits_version: u32,
     /// Purpose of the limits, such as a production line; may be empty.
     #[serde(default)]
     pub name: String,
-    /// Settings of the rule for limits without their own, since version 2.
+    /// Default rule settings for limits without their own, since version 2.
     decision: Option<RuleSettings>,
     /// Limits, in order.
     #[serde(default, rename = "limit")]
@@ -37,16 +37,16 @@ pub struct Limit {
     pub metric: String,
     /// Channel or plane.
     pub channel: String,
-    /// Unit of the limit; must be that of the score.
+    /// Unit of the limit; must equal the unit of the score.
     pub unit: String,
     /// Greatest accepted value.
     pub most: Option<f64>,
     /// Least accepted value.
     pub least: Option<f64>,
-    /// True if the whole interval must meet the limit, not only the value; in files of version 1.
+    /// True if the whole interval must meet the limit, not only the value. Only in files of version 1.
     #[serde(default)]
     pub whole_interval: bool,
-    /// Name of its own rule, since version 2.
+    /// Name of the rule for this limit, since version 2.
     rule: Option<String>,
     /// Factor of the guard, for `guarded`.
     r: Option<f64>,
@@ -56,7 +56,7 @@ pub struct Limit {
     most_uncertainty: Option<f64>,
     /// Coverage of the expanded uncertainty.
     coverage: Option<f64>,
-    /// Rule that decides, from the settings of limit and file.
+    /// Decision rule, from the settings of this limit and of the file.
     #[serde(skip, default = "simple")]
     pub(super) decided_by: DecisionRule,
 }
@@ -145,7 +145,7 @@ impl LimitsFile {
         Ok(file)
     }
 
-    /// The same limits, of which a conditional pass counts as met.
+    /// The same limits; a conditional pass counts as met.
     ///
     /// ```
     /// use taceva_report::LimitsFile;
@@ -167,7 +167,7 @@ impl LimitsFile {
         self.counts_conditional
     }
 
-    /// True for a file whose limits are decided by rules: one of version 2.
+    /// True for version 2, whose limits are decided by rules.
     pub fn is_by_rules(&self) -> bool {
         self.limits_version == BY_RULES
     }
@@ -189,7 +189,7 @@ impl Limit {
         }
     }
 
-    /// Refuses settings of a rule in a file of version 1.
+    /// Rejects rule settings in a file of version 1.
     fn check_no_rule(&self) -> Result<(), String> {
         let settings = [
             ("rule", self.rule.is_some()),
@@ -206,7 +206,8 @@ impl Limit {
         }
     }
 
-    /// Sets the rule from its own settings, and those of the file. A limit that names another rule takes no setting of the file but the coverage.
+    /// Sets the rule from the settings of the limit and the defaults of the file. A limit with another rule than the file inherits only the
+    /// coverage.
     fn decide_by(&mut self, common: &RuleSettings) -> Result<(), String> {
         if self.whole_interval {
             return Err(format!(

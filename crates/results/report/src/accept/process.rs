@@ -1,4 +1,4 @@
-//! Risks of limits among units of one process.
+//! Decision risks for units of one process.
 
 use taceva_core::counted;
 use taceva_metrology::conformity::{GlobalRisk, Limits, Measurement, Population};
@@ -9,18 +9,19 @@ use super::limits_file::Limit;
 use super::subject::Subject;
 use crate::results::Study;
 
-/// Risks of deciding one limit, among units of one process.
+/// Decision risks of one limit, for units of one process.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProcessRisk {
     /// Number of units.
     pub units: usize,
-    /// Shares of units that are decided wrongly by the rule of the limit.
+    /// Shares of units with a wrong decision by the rule of the limit.
     pub risk: GlobalRisk,
-    /// Limits of acceptance for which the consumer's risk is the target; `None` without a target, or if no guard reaches it.
+    /// Acceptance limits that reach the target consumer's risk; `None` without a target, or if no guard band reaches it.
     pub acceptance: Option<Limits>,
 }
 
-/// Sets the risk of each check of `study` among `units` of the same process. `target` is a share of all units that may be accepted and not conform.
+/// Sets the risk of each check of `study` among `units` of the same process. `target` is the largest allowed share of units that are accepted
+/// although they do not conform.
 pub fn add_process_risks(
     checks: &mut [LimitCheck],
     study: &Study,
@@ -64,7 +65,7 @@ fn risk(
     })
 }
 
-/// The score of `limit` with its uncertainty.
+/// Score checked by `limit`, with its uncertainty.
 fn measured(study: &Study, limit: &Limit) -> Result<Measurement, String> {
     let subject = Subject::find(study, limit);
     let subject = subject.ok_or_else(|| "there is no such score".to_owned())?;
@@ -79,7 +80,7 @@ fn measured(study: &Study, limit: &Limit) -> Result<Measurement, String> {
     LimitInterval::of(study, &score, subject.variant).measured
 }
 
-/// Remarks on the risks of `checks`: what they mean, and each reason for an absent one.
+/// Remarks on the risks of `checks`: their meaning, and the reason for each missing one.
 pub(super) fn notes(checks: &[LimitCheck]) -> Vec<String> {
     let mut known = checks.iter().filter_map(|check| check.process.as_ref());
     let units = known.find_map(|process| process.as_ref().ok());

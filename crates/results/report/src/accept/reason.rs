@@ -1,4 +1,4 @@
-//! Reasons of decisions, in words.
+//! Reasons for decisions, as text.
 
 use taceva_metrology::conformity::{Decision, DecisionRule, Word};
 
@@ -6,7 +6,7 @@ use super::interval::LimitInterval;
 use super::limits_file::Limit;
 use crate::number::numeral;
 
-/// Describes why a limit is not met by the value, or by its whole interval; `None` if it is met.
+/// Reason why the value, or its whole interval, does not meet a limit; `None` if it does.
 pub(super) fn broken(limit: &Limit, value: f64, ends: Option<[f64; 2]>) -> Option<String> {
     let [low, high] = match (limit.whole_interval, ends) {
         (false, _) => [value; 2],
@@ -25,7 +25,7 @@ pub(super) fn broken(limit: &Limit, value: f64, ends: Option<[f64; 2]>) -> Optio
     Some(format!("{what} {}, below {least}", numeral(low)))
 }
 
-/// Remark on a value within the limit whose interval is absent or crosses it.
+/// Remark on a value within the limit, if the interval is missing or crosses the limit.
 pub(super) fn by_value_only(limit: &Limit, ends: Option<[f64; 2]>) -> Option<String> {
     let Some([low, high]) = ends else {
         return Some("met by the value only: there is no interval".to_owned());
@@ -36,7 +36,7 @@ pub(super) fn by_value_only(limit: &Limit, ends: Option<[f64; 2]>) -> Option<Str
         .then(|| "met by the value only: its interval crosses the limit".to_owned())
 }
 
-/// Describes why a rule gives no pass; a remark on a pass by the value alone.
+/// Reason why a rule gives no pass, or a remark on a pass that uses only the value.
 pub(super) fn of_decision(
     limit: &Limit,
     decision: &Decision,
@@ -62,13 +62,13 @@ pub(super) fn of_decision(
     }
 }
 
-/// Limits of acceptance: `≤ 0.0432`; `None` without any.
+/// Acceptance limits as text, such as `≤ 0.0432`; `None` if there are none.
 pub(super) fn acceptance(decision: &Decision) -> Option<String> {
     let limits = decision.acceptance.as_ref()?;
     Some(bounds(limits.least(), limits.most()))
 }
 
-/// Bounds in signs: `≤ 0.05`.
+/// Bounds as text, such as `≤ 0.05`.
 pub(super) fn bounds(least: Option<f64>, most: Option<f64>) -> String {
     match (least, most) {
         (Some(least), Some(most)) => format!("{} … {}", numeral(least), numeral(most)),

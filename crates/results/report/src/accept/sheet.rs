@@ -1,4 +1,4 @@
-//! Data sheet of a sensor unit: limits, findings, pass or fail, on one page.
+//! Data sheet of a sensor unit on one page: limits, findings, and pass or fail.
 
 mod rows;
 
@@ -20,12 +20,12 @@ use taceva_results::{SampleChannel, not_measured};
 /// probability of conformity, acceptance limit, rule and verdict; risks among units of one process; certificates; accepted edits.
 pub const ACCEPTANCE_SCHEMA: &str = "taceva.acceptance/1.3";
 
-/// Findings of one sensor unit, with the facts of its data sheet.
+/// Findings for one sensor unit, with the facts of its data sheet.
 #[derive(Clone, Copy, Debug)]
 pub struct Acceptance<'a> {
-    /// The limits.
+    /// Checked limits.
     pub limits: &'a LimitsFile,
-    /// Tested sensor.
+    /// Results of the tested sensor.
     pub study: &'a Study,
     /// One finding for each limit.
     pub findings: &'a [LimitCheck],
@@ -170,7 +170,7 @@ impl Acceptance<'_> {
         }
     }
 
-    /// Number of verdicts by rules for each word but pass: ` (1 conditional pass, 2 fail)`.
+    /// Counts of decisions other than pass, such as ` (1 conditional pass, 2 fail)`.
     fn words_but_pass(&self) -> String {
         let others = [
             Word::ConditionalPass,
@@ -190,7 +190,7 @@ impl Acceptance<'_> {
         }
     }
 
-    /// Tested unit and date.
+    /// Tested unit and test date.
     fn unit(&self) -> Markup {
         let study = self.study;
         let mut entries = vec![
@@ -237,7 +237,7 @@ fn process_json(process: &Result<ProcessRisk, String>) -> Value {
     }
 }
 
-/// Range of the truth of each channel, if samples are available: `Pz 0 … 1.2 mm`.
+/// Range of the true values of each channel, if samples are available: `Pz 0 … 1.2 mm`.
 fn ranges(study: &Study) -> String {
     let range = |channel: SampleChannel<'_>| {
         let truth = channel.truths();

@@ -1,11 +1,11 @@
-//! Scores that limits are about.
+//! Scores to which limits apply.
 
 use taceva_results::Score;
 
 use super::limits_file::Limit;
 use crate::results::Study;
 
-/// Score of a study that a limit is about.
+/// Score of a study to which a limit applies.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Subject<'a> {
     /// The score with all of its variants.
@@ -15,7 +15,7 @@ pub(super) struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// The score of `limit` in `study`. A limit without a variant applies to the variant that verdicts use.
+    /// Score of `study` to which `limit` applies. A limit without a variant applies to the variant that verdicts use.
     pub(super) fn find(study: &'a Study, limit: &'a Limit) -> Option<Subject<'a>> {
         let (metric, variant) = match limit.metric.split_once('.') {
             Some((metric, variant)) => (metric, Some(variant)),

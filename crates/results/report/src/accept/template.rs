@@ -1,4 +1,4 @@
-//! Initial limits that a result itself meets, each beside the value of the result.
+//! Initial limits file: limits that the result meets, each with the value of the result.
 
 use taceva_metrics::{Better, Range};
 use taceva_metrology::conformity::{DecisionRule, Limits, decide};
@@ -13,14 +13,14 @@ use taceva_results::{Score, not_measured};
 
 /// Distance of a limit from the result, as a share of the value.
 const MARGIN: f64 = 0.2;
-/// Significant digits of a limit; more would suggest an accuracy that it lacks.
+/// Significant digits of a limit; more would suggest a higher accuracy.
 const DIGITS: i32 = 3;
-/// Rule of a template.
+/// Decision rule of the template.
 const GUARDED: DecisionRule = DecisionRule::Guarded {
     r: 1.0,
     coverage: 0.95,
 };
-/// Rule of a template, with all rules as comments.
+/// Decision section of the template, with all rules as comments.
 const DECISION: &str = r#"
 # The rule by which limits are decided. The same keys below a [[limit]] hold for that limit alone.
 #   rule = "simple"       the value meets the limit; its uncertainty decides nothing
@@ -34,9 +34,9 @@ r = 1.0
 coverage = 0.95
 "#;
 
-/// Limits that `study` meets, as a file for [`super::LimitsFile::read`]. Each score with a better direction gets one limit: a fifth worse than the
-/// value, or the worse end of its interval if that is farther away. The rule is `guarded`, and `simple` for a score whose interval leaves no room
-/// for a guard, or that has none.
+/// Limits that `study` meets, as a file for [`super::LimitsFile::read`]. Each score with a better direction gets one limit. The limit is a fifth
+/// worse than the value, or at the worse end of its interval if that is farther away. The rule is `guarded`, or `simple` if the interval is missing
+/// or leaves no room for a guard band.
 ///
 /// ```
 /// use taceva_report::{LimitsFile, Study, accept, limits_template};
@@ -83,7 +83,7 @@ pub fn limits_template(study: &Study) -> String {
     out + &left_out(&barred)
 }
 
-/// Comments on scores that meet no limit, grouped by reason; empty if there are none.
+/// Comments on scores for which no limit is written, grouped by reason; empty if there are none.
 fn left_out(barred: &[&Score]) -> String {
     let mut groups: Vec<(&str, Vec<String>)> = Vec::new();
     for score in barred.iter().filter(|score| score.value.number().is_some()) {
@@ -165,7 +165,7 @@ struct Bounds {
 }
 
 impl Bounds {
-    /// True if the value passes them by the rule of the template.
+    /// True if the value meets the bounds by the rule of the template.
     fn are_met_with_guard(&self, interval: &LimitInterval) -> bool {
         let limits = Limits::of(self.least, self.most);
         let (Ok(limits), Ok(measured)) = (limits, &interval.measured) else {
@@ -174,7 +174,7 @@ impl Bounds {
         decide(measured, &limits, &GUARDED).is_ok_and(|decision| decision.word.is_pass())
     }
 
-    /// Lines of the file.
+    /// Lines for the file.
     fn lines(&self) -> String {
         let line = |name: &str, end: Option<f64>| {
             end.map_or_else(String::new, |end| format!("{name} = {end:?}\n"))
@@ -183,7 +183,7 @@ impl Bounds {
     }
 }
 
-/// True for explained shares of at most 1, such as R² and skill.
+/// True for scores of at most 1, such as R² and skill.
 fn is_below_one(score: &Score) -> bool {
     let metric = taceva_metrics::catalogue::find(&score.metric);
     metric.is_some_and(|metric| metric.range == Range::BelowOne)

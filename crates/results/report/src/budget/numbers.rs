@@ -5,7 +5,7 @@ use taceva_metrology::budget::{Budget, Freedom, Source};
 use super::BudgetReport;
 use crate::table::{Cell, Table};
 
-/// Columns of the table. A row holds a source, a result, a correlation, an effect without a source, or a warning.
+/// Columns of the table. A row holds a source, a result, a correlation, an uncovered effect, or a warning.
 const COLUMNS: [&str; 17] = [
     "at",
     "row",
@@ -26,7 +26,7 @@ const COLUMNS: [&str; 17] = [
     "source",
 ];
 
-/// Row of the table; absent numbers are empty.
+/// Row of the table; missing numbers are empty.
 #[derive(Default)]
 struct Entry<'a> {
     row: &'a str,
@@ -46,7 +46,7 @@ struct Entry<'a> {
 }
 
 impl BudgetReport {
-    /// Table for programs: numbers in shortest round-trip form, one row for each source, result, correlation, missing effect and warning.
+    /// Table for programs: numbers in shortest round-trip form, one row for each source, result, correlation, uncovered effect and warning.
     pub fn numbers(&self) -> Table {
         let mut table = Table::new("Uncertainty budget", COLUMNS);
         let origin = self.origins.join(" ");
@@ -81,7 +81,7 @@ fn of_source<'a>(source: &'a Source, budget: &'a Budget) -> Entry<'a> {
     }
 }
 
-/// The value, its factors, and the result of the draws.
+/// Rows of the value, its factors, and the Monte Carlo result.
 fn results(budget: &Budget) -> Vec<Entry<'_>> {
     let unit = budget.unit.as_str();
     let result = |name, value, unit| Entry {
@@ -119,7 +119,7 @@ fn results(budget: &Budget) -> Vec<Entry<'_>> {
     all
 }
 
-/// Correlations, effects without a source, and warnings.
+/// Rows of correlations, uncovered effects, and warnings.
 fn remarks(budget: &Budget) -> impl Iterator<Item = Entry<'_>> {
     let correlations = budget.correlations.iter().map(|of| Entry {
         row: "correlation",

@@ -1,4 +1,4 @@
-//! Initial file of sources for a budget, with every measured figure and with comments on the others.
+//! Initial budget file, with every measured figure and with comments on the missing ones.
 
 use taceva_metrology::budget::{BudgetText, Evidence, Figure, Missing, MonteCarlo};
 use taceva_results::not_measured;
@@ -6,7 +6,7 @@ use taceva_results::not_measured;
 use crate::escape::terminal as line;
 use crate::number::FormattedValue;
 
-/// Sources by figure, each with its name and further keys.
+/// Figures for which sources are written, each with the name and further keys of the source.
 const SOURCES: [(&str, &str, &str); 7] = [
     ("bias", "mean residual", ""),
     ("error.between", "place to place", ""),
@@ -16,23 +16,23 @@ const SOURCES: [(&str, &str, &str); 7] = [
     ("drift", "drift since calibration", "hours = 8\n"),
     ("certificate", "reference", ""),
 ];
-/// Figure that is inside `error.within`.
+/// Figure that `error.within` includes.
 const REPEATS: &str = "repeatability";
 
-/// Facts of which the file is made.
+/// Data for the file.
 #[derive(Clone, Copy, Debug)]
 pub struct BudgetTemplate<'a> {
     /// Sensor of the result.
     pub sensor: &'a str,
-    /// Origin of its samples.
+    /// Origin of the samples of the result.
     pub origin: &'a str,
-    /// Result as an argument of a command.
+    /// Path of the result, as a command-line argument.
     pub result: &'a str,
-    /// Channel.
+    /// Channel that the budget is for.
     pub measurand: &'a str,
     /// Unit of the channel.
     pub unit: &'a str,
-    /// Reading of the budget, in the unit.
+    /// Reading for which the budget is made, in `unit`.
     pub at: f64,
     /// Measured figures.
     pub evidence: &'a Evidence,
@@ -41,7 +41,7 @@ pub struct BudgetTemplate<'a> {
 }
 
 impl BudgetTemplate<'_> {
-    /// Text that the command reads without a change.
+    /// Text of the file, which `taceva budget` accepts unchanged.
     pub fn text(&self) -> String {
         let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
         let at = format!("{} {}", self.at, self.unit);
@@ -83,7 +83,7 @@ impl BudgetTemplate<'_> {
         figure == REPEATS && is_measured(figure) && is_measured("error.within")
     }
 
-    /// Measured figure in words; `None` if it has no value.
+    /// Measured figure as text; `None` if it has no value.
     fn found(&self, figure: &str) -> Option<String> {
         if figure == "certificate" {
             let found = self.evidence.certificate()?;
@@ -99,7 +99,7 @@ impl BudgetTemplate<'_> {
         if figure == "drift" {
             let slope = phrase(found.value, &format!("{}/h", self.unit));
             return Some(format!(
-                "slope {slope}; hours since the calibration are yours to state"
+                "slope {slope}; state the hours since the calibration"
             ));
         }
         let rows = found.n.map_or_else(String::new, |n| format!(", {n} rows"));
@@ -112,7 +112,7 @@ impl BudgetTemplate<'_> {
         ))
     }
 
-    /// Comments on effects without a source, by the budget of the `written` sources.
+    /// Comments on effects that the `written` sources do not cover.
     fn remarks(&self, written: &str) -> String {
         let parsed = BudgetText::parse(written);
         let budgets = parsed.and_then(|text| text.budgets(self.evidence, None::<MonteCarlo>));

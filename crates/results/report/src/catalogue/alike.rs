@@ -7,7 +7,7 @@ use super::{Published, Sensor};
 /// Definitions of this program, with the equivalent definition in the catalogue. Other pairs are not comparable.
 ///
 /// Success rates are excluded, because ours depend on the number of spacings in a scene, and fewer spacings are easier to predict. Robustness over
-/// the surface is excluded too: the published table differs from half the sum of the numbers in the figure, so its definition is unclear.
+/// the surface is excluded too. The published table differs from half the sum of the numbers in the figure, so its definition is unclear.
 const SAME: [(&str, &str); 6] = [
     (
         "mae/1",

@@ -30,16 +30,16 @@ pub struct Sensor {
     pub opaque: Option<bool>,
     /// True if the gel has markers.
     pub markers: Option<bool>,
-    /// Remark on which product the numbers are of, if no source says it.
+    /// Remark on the product that the numbers belong to, if no source states it.
     pub identity: Option<String>,
-    /// Limits.
+    /// Limits of depth, force and radius.
     pub limits: Option<Limits>,
     /// Outer dimensions.
     pub size: Option<Size>,
     /// Prices with their dates.
     #[serde(default, rename = "price")]
     pub prices: Vec<Price>,
-    /// Ways to get one.
+    /// Known sellers, or files for building the sensor.
     #[serde(default)]
     pub availability: Vec<Availability>,
     /// Sources of the numbers.
@@ -102,7 +102,7 @@ impl Sensor {
         ready.min_by(|left, right| left.amount.total_cmp(&right.amount))
     }
 
-    /// Source called `id`.
+    /// Source with the id `id`.
     pub fn source(&self, id: &str) -> Option<&Source> {
         self.sources.iter().find(|source| source.id == id)
     }

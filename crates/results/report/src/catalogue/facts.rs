@@ -86,7 +86,7 @@ impl Size {
         (self.mm.len() > 1).then(|| sides.fold(0.0, f64::max))
     }
 
-    /// Middle one of three dimensions in mm, of which a diameter is two; a square opening of this side lets the part through lengthwise.
+    /// Middle of the three outer dimensions, in mm; a diameter counts twice. The sensor passes lengthwise through a square opening with this side.
     pub fn middle_mm(&self) -> Option<f64> {
         match self.mm[..] {
             [a, b, c] => Some(a.min(b).max(a.max(b).min(c))),

@@ -23,7 +23,7 @@ pub struct Price {
     pub currency: String,
     /// Kind of the goods.
     pub goods: Goods,
-    /// Goods for that amount: `parts of one sensor, of 1000 made`.
+    /// Quantity and goods for that amount: `parts of one sensor, of 1000 made`.
     pub of: String,
     /// Relation of the true price to the amount, if the amount is inexact.
     pub bound: Option<Roughly>,
@@ -49,9 +49,9 @@ pub struct Price {
 pub enum Goods {
     /// A sensor that is ready, from a seller.
     Sensor,
-    /// Parts or material of a sensor, or the making of one.
+    /// Parts or material for a sensor, or the production of one.
     Parts,
-    /// The source does not state which of both.
+    /// Not stated by the source.
     Unstated,
 }
 
@@ -111,7 +111,7 @@ impl Price {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Availability {
-    /// Kind of the way.
+    /// Bought or built.
     pub way: Way,
     /// Seller, or published files.
     pub conditions: String,

@@ -23,11 +23,11 @@ pub struct Source {
 pub struct Published {
     /// Metric: `mae`.
     pub metric: String,
-    /// Channel or plane.
+    /// Channel or plane of the number.
     pub channel: String,
     /// Number in `unit`.
     pub value: f64,
-    /// Unit.
+    /// Unit of the number.
     pub unit: String,
     /// Id of the source.
     pub source: String,
@@ -35,16 +35,16 @@ pub struct Published {
     pub read_from: String,
     /// Measurement conditions.
     pub conditions: String,
-    /// Definition.
+    /// Definition of the metric by the source.
     pub definition: String,
     /// Relation of the true value to an inexact number: `about`, `above` or `below`; `None` for an exact number.
     pub bound: Option<Roughly>,
-    /// Remark for readers.
+    /// Remark for readers, if any.
     pub note: Option<String>,
     /// Standing by the published R² of the channel.
     #[serde(skip)]
     pub standing: Standing,
-    /// Interval of 95 %; `None` for published numbers.
+    /// 95 % confidence interval; `None` for published numbers.
     #[serde(skip)]
     pub interval: Option<[f64; 2]>,
 }
@@ -89,7 +89,7 @@ impl Roughly {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Missing {
-    /// Metric.
+    /// Name of the metric.
     pub metric: String,
     /// Reason why it is missing.
     pub reason: String,

@@ -1,4 +1,4 @@
-//! Questions of a reader who chooses a sensor, and whether an entry answers them.
+//! Questions of a reader who chooses a sensor, and the entries that answer them.
 
 use super::entry::Sensor;
 
@@ -23,7 +23,7 @@ pub enum Question {
     Resolution,
     /// Error of position, depth or force.
     Accuracy,
-    /// Price.
+    /// Price of the sensor.
     Price,
     /// Seller, or files for building it.
     Availability,

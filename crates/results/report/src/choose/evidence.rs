@@ -1,4 +1,4 @@
-//! Significance of the differences between ranked sensors. Places follow values, which may differ by chance.
+//! Significance of the differences between ranked sensors. The ranking follows values, which may differ by chance.
 
 use std::collections::BTreeSet;
 
@@ -90,7 +90,7 @@ fn evidence(studies: &[Study], needs: &[Need], choice: &Choice) -> Vec<Evidence>
     comparison.answers.iter().filter_map(of_answer).collect()
 }
 
-/// Position of the study with significantly more of the needed property, for a score without a better direction.
+/// Position of the study that is significantly higher in the needed property, for a score without a better direction.
 fn by_need(answer: &Answer, property: Property) -> Option<usize> {
     let describes = answer.direction == Better::Described;
     let difference = answer.difference.as_ref();
@@ -102,7 +102,7 @@ fn by_need(answer: &Answer, property: Property) -> Option<usize> {
     }
 }
 
-/// Remark on ranking scores whose labels have different spreads between the ranked sensors.
+/// Remark on ranking scores, if the label spreads of the ranked sensors differ.
 fn spread(studies: &[Study], names: &[String], choice: &Choice) -> Option<String> {
     let steps = choice.ranked.first()?.steps.iter();
     let scores: BTreeSet<(&str, &str)> = steps.filter_map(|step| step.property.score()).collect();
@@ -111,8 +111,8 @@ fn spread(studies: &[Study], names: &[String], choice: &Choice) -> Option<String
 }
 
 impl Choice {
-    /// Sentences on tests: the best sensor against each other one, and other pairs with a significant difference. Empty if nothing was tested, as
-    /// with published numbers.
+    /// Sentences on tests: the best sensor against each other one, and other significant differences. Empty if nothing was tested, as with
+    /// published numbers.
     pub(super) fn tested(&self) -> Vec<String> {
         let Some(best) = self.ranked.first().filter(|_| self.evidence.is_some()) else {
             return Vec::new();
@@ -153,7 +153,7 @@ impl Choice {
         })
     }
 
-    /// Addition to the sentence on first and second place: whether tests support the difference or contradict a place.
+    /// Addition to the sentence on first and second place: whether tests support or contradict the order.
     pub(super) fn caveat(&self) -> String {
         let [first, second, ..] = self.ranked.as_slice() else {
             return String::new();

@@ -45,7 +45,7 @@ pub enum NeedError {
     Number {
         /// Need as written.
         words: String,
-        /// Expected units in words.
+        /// Expected units, as text.
         units: String,
         /// The need with a valid number.
         example: String,
@@ -76,7 +76,7 @@ impl Need {
     /// `localisation 0.3 mm`.
     ///
     /// # Errors
-    /// [`NeedError`] with every invalid need and the known ones.
+    /// [`NeedError`] with every invalid need and the known needs.
     pub fn parse(text: &str) -> Result<Vec<Need>, NeedError> {
         let words = text.split(',').map(str::trim);
         let (mut needs, mut errors) = (Vec::new(), Vec::new());

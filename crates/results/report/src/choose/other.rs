@@ -4,9 +4,9 @@ use super::property::Property;
 use crate::catalogue::{Published, Sensor};
 
 impl Property {
-    /// Known numbers of `sensor` for the quantity by another definition, in words; `None` if there is none.
+    /// Numbers of `sensor` for the same quantity by another definition, as text; `None` if unknown.
     ///
-    /// A price in another currency, of parts, or stated inexactly is one of them.
+    /// For a price, other definitions are another currency, a price of parts, and an inexact price.
     pub(super) fn other(self, sensor: &Sensor) -> Option<String> {
         let found: Vec<String> = match self {
             Property::Price(wanted) => {

@@ -1,4 +1,4 @@
-//! Places of ranked sensors. Equal sensors share one.
+//! Ranks of sensors. Equal sensors share a rank.
 
 use super::{Candidate, Choice};
 use crate::names::listed;
@@ -8,7 +8,7 @@ const FIRST: &str = "first";
 const SECOND: &str = "second";
 
 impl Choice {
-    /// Place of each ranked sensor, from 1. Equal shares have equal places; the next place counts all of them.
+    /// Rank of each sensor, from 1. Equal sensors share a rank, and the next rank counts all of them.
     pub fn places(&self) -> Vec<usize> {
         let mut places: Vec<usize> = Vec::new();
         for (at, candidate) in self.ranked.iter().enumerate() {
@@ -21,7 +21,7 @@ impl Choice {
         places
     }
 
-    /// True if another ranked sensor has the place of the sensor at position `at`.
+    /// True if another sensor has the same rank as the sensor at position `at`.
     pub fn is_tied(&self, at: usize) -> bool {
         let own = self.ranked.get(at);
         let others = self.ranked.iter().enumerate();

@@ -20,7 +20,7 @@ pub enum Property {
     Resolution(&'static str),
     /// Indentation per normal force, in mm/N.
     Sensitivity,
-    /// Uniformity of the sensitivity over the surface.
+    /// Uniformity of the sensitivity over the surface, as a ratio.
     Uniformity,
     /// Frame rate, in Hz.
     FrameRate,
@@ -32,11 +32,11 @@ pub enum Property {
     GelThickness,
     /// Greatest outer dimension, in mm.
     Size,
-    /// Middle one of the three outer dimensions, in mm, of which a diameter is two.
+    /// Middle of the three outer dimensions, in mm; a diameter counts twice.
     Width,
     /// Lowest exact price of a ready sensor in a currency: `USD`.
     Price(&'static str),
-    /// A known seller: 1. Without one it is unknown.
+    /// Availability from a seller: 1 if a seller is known, otherwise unknown.
     Bought,
     /// Greatest indentation, in mm.
     GreatestDepth,
@@ -77,7 +77,7 @@ impl Property {
         }
     }
 
-    /// True for greatest depths and forces. Their values are the greatest tested ones, which may be below the limit of the gel.
+    /// True for greatest depths and forces. Their values are the greatest tested values, which may be below the limit of the gel.
     pub(super) fn is_reached(self) -> bool {
         matches!(self, Property::GreatestDepth | Property::GreatestForce)
     }
@@ -123,7 +123,7 @@ impl Property {
         result.map_or(Standing::Counts, |result| result.standing)
     }
 
-    /// Part or goods that the number of `sensor` is of, for sizes and prices.
+    /// Measured part or sold goods of `sensor`, for sizes and prices.
     pub(super) fn part(self, sensor: &Sensor) -> Option<String> {
         match self {
             Property::Size | Property::Width => {
@@ -205,7 +205,7 @@ impl Property {
         }
     }
 
-    /// Share of the best of `sensors` that `value` reaches.
+    /// Ratio of `value` to the best of `sensors`, 0 to 1; inverted if lower is better.
     pub(super) fn share(self, value: f64, sensors: &[&Sensor]) -> Option<f64> {
         let known = sensors.iter().filter_map(|sensor| self.of(sensor));
         if self.better() == Better::Lower {

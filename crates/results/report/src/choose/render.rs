@@ -22,7 +22,7 @@ pub const CHOICE_SCHEMA: &str = "taceva.choice/1.7";
 const SHOWN: usize = 6;
 
 impl Choice {
-    /// Table with one row for each sensor, need and number, from the best sensor to the excluded ones.
+    /// Table with one row for each sensor, need and number, from the best sensor to the excluded sensors.
     pub fn table(&self) -> Table {
         let columns = [
             Column::new("place"),

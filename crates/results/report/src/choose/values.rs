@@ -1,4 +1,4 @@
-//! Numbers of all considered sensors side by side.
+//! Table of the numbers of all considered sensors.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -62,13 +62,13 @@ impl Choice {
         table
     }
 
-    /// Number of sensors among which the choice is made.
+    /// Number of considered sensors.
     pub(super) fn considered(&self) -> usize {
         let known = self.ranked.len() + self.others.len();
         known + self.other_definitions.len() + self.unknown.len()
     }
 
-    /// `1`, `2 (tie)`, or a word for the reason why the sensor has no place.
+    /// Rank such as `1` or `2 (tie)`, or a word for the reason why the sensor has none.
     fn place_of(&self, name: &str) -> String {
         let mut ranked = self.ranked.iter().zip(self.places()).enumerate();
         let found = ranked.find(|(_, (candidate, _))| candidate.name == name);
@@ -83,7 +83,7 @@ impl Choice {
         }
     }
 
-    /// True for a sensor with considered numbers but without a rank.
+    /// True for a sensor with known numbers but without a rank.
     pub(super) fn sets_aside(&self, sensor: &Sensor) -> bool {
         let dropped = self.dropped.iter().chain(&self.barred);
         let dropped = dropped.chain(&self.unplaced);

@@ -6,7 +6,7 @@ use super::property::Property;
 
 /// A word and its meaning.
 pub(super) struct Word {
-    /// Synonyms.
+    /// Synonyms of the word.
     pub(super) names: &'static [&'static str],
     /// Bounds: property, true for a lower bound, number.
     pub(super) bounds: &'static [(Property, bool, f64)],
@@ -139,7 +139,7 @@ impl Quantity {
         need.trim_end().to_owned()
     }
 
-    /// Accepted units in words: ` and the unit Hz`; empty for a share.
+    /// Accepted units, as text: ` and the unit Hz`; empty for a share.
     pub(super) fn units(&self) -> String {
         match (self.property, self.unit) {
             (Property::Price(_), _) => format!(" and a currency of {}", CURRENCIES.join(", ")),
@@ -187,7 +187,7 @@ pub(super) struct OtherUnit {
     pub(super) written: &'static str,
     /// Unit of the quantity.
     pub(super) unit: &'static str,
-    /// Factor and divisor, of which one is 1, so that decimal numbers stay exact.
+    /// Factor and divisor; one of them is 1, so that decimal numbers stay exact.
     pub(super) times: f64,
     pub(super) over: f64,
 }

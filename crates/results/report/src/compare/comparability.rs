@@ -51,7 +51,7 @@ pub(super) fn notes(studies: &[Study], names: &[String]) -> Option<String> {
     })
 }
 
-/// Description of the samples that showed the skill of a study.
+/// Samples that showed the skill of a study, as text.
 fn ground(study: &Study) -> String {
     let of = |key: &str| study.stated(key);
     let n = study.of_metric("skill").map(|skill| skill.n).max();

@@ -10,7 +10,7 @@ use crate::names::listed;
 use crate::results::Study;
 use crate::training::demonstration;
 
-/// All notes. `unpaired` holds reasons why predictions of one truth were not compared sample by sample.
+/// All notes. `unpaired` holds the reasons why predictions of the same truth were not compared sample by sample.
 pub(super) fn notes(
     studies: &[Study],
     names: &[String],
@@ -30,13 +30,13 @@ pub(super) fn notes(
         .collect()
 }
 
-/// Note that some or all samples were not measured.
+/// Note that some or all samples are not measurements.
 fn unmeasured(studies: &[Study]) -> Option<String> {
     let words = not_measured(studies.iter().map(|study| study.source.as_str()))?;
     Some(words.trim_end_matches('.').to_owned())
 }
 
-/// Note on metrics that are not compared because the catalogue has no direction for them.
+/// Note on metrics that are not compared, because their better direction is unknown.
 fn unknown(studies: &[Study], request: &CompareRequest) -> Option<String> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for study in studies {

@@ -36,9 +36,9 @@ pub(crate) const QUESTIONS: [(&str, &str, &str); 10] = [
 pub struct Decision {
     /// Question: `Depth`; empty if it has no name.
     pub question: String,
-    /// Metric.
+    /// Name of the metric.
     pub metric: String,
-    /// Channel or plane.
+    /// Channel or plane of the score.
     pub channel: String,
     /// Deciding variant of the metric; `None` for the value itself.
     pub decided_by: Option<String>,
@@ -48,7 +48,7 @@ pub struct Decision {
     pub winner: Option<usize>,
     /// Positions of the studies with exactly equal best values; empty without a tie.
     pub tied: Vec<usize>,
-    /// Best study and value, the studies that it significantly beats, and the p value.
+    /// Best study with its value, the studies that it significantly beats, and the p value, as text.
     pub words: String,
 }
 
@@ -74,8 +74,8 @@ impl Decision {
 }
 
 impl Comparison {
-    /// First questions with their answers: the named ones, and the first score of each other requested metric. If no question has a name, the first
-    /// score of each metric.
+    /// First questions with their answers. Includes each named question, and the first score of each other requested metric. If no question has a
+    /// name, the first score of each metric.
     pub fn decisions(&self) -> Vec<Decision> {
         let named = QUESTIONS.iter();
         let named =
@@ -342,7 +342,7 @@ impl Answer {
     }
 }
 
-/// Studies of the wanted answers, each once, with their values.
+/// Studies of the selected answers, each once, with their values.
 fn values(answers: &[&Answer], is_wanted: impl Fn(&Answer) -> bool) -> Vec<(usize, f64)> {
     let mut values: Vec<(usize, f64)> = Vec::new();
     for answer in answers.iter().filter(|answer| is_wanted(answer)) {
@@ -360,7 +360,7 @@ fn values(answers: &[&Answer], is_wanted: impl Fn(&Answer) -> bool) -> Vec<(usiz
     values
 }
 
-/// Reason why nothing is decided.
+/// Reason why there is no decision.
 fn untested(
     metric: &str,
     answers: &[&Answer],
@@ -382,7 +382,7 @@ fn untested(
     }
 }
 
-/// Largest p value of the significant differences, in words.
+/// Largest p value of the significant differences, as text.
 fn p_words(p: f64) -> String {
     if p < 0.001 {
         "p < 0.001".to_owned()

@@ -10,7 +10,7 @@ use taceva_metrics::{
 use crate::results::{BY_GROUP, Study};
 use taceva_results::{Interval, SampleChannel, Samples, Score};
 
-/// Difference of both mean absolute errors, or the reason why the two are not compared in pairs.
+/// Difference of both mean absolute errors, or the reason why no paired comparison is possible.
 ///
 /// Pairing requires three conditions. Both results name the same truth, or neither names one. Both have the same ids with bit-equal truth. The sample
 /// errors have the mean that the score states; otherwise the table belongs to other results. Two sensors pressed by the same plan share ids and
@@ -20,7 +20,7 @@ use taceva_results::{Interval, SampleChannel, Samples, Score};
 /// test.
 ///
 /// # Errors
-/// The reason in words if both results name the same truth; `None` if they do not.
+/// The reason if both results name the same truth; otherwise `None`.
 pub(super) fn difference(
     scores: Sides<&Score>,
     studies: Sides<&Study>,
@@ -118,14 +118,14 @@ impl<'a> Errors<'a> {
     }
 }
 
-/// Clusters that the interval of a score leaves out; its errors are summed by the same ones.
+/// Clusters that the interval of a score leaves out. The errors are summed by the same clusters.
 struct Clusters {
     name: &'static str,
     column: &'static str,
 }
 
 impl Clusters {
-    /// Clusters of `score`, by the method of its interval: contact points, if it names no others.
+    /// Clusters of `score`, by the method of its interval; contact points by default.
     fn of(score: &Score) -> Clusters {
         let method = score.interval.as_ref().and_then(Interval::method);
         let method = method.unwrap_or_default();
@@ -142,7 +142,7 @@ impl Clusters {
     }
 }
 
-/// Rows behind a score of `n` samples: all with a prediction of each channel, or those of the calibration.
+/// Rows that a score of `n` samples uses: all rows with a prediction of each channel, or only those of the calibration.
 fn scored(samples: &Samples, channels: &[SampleChannel<'_>], n: u64) -> Option<Vec<usize>> {
     let paired = |rows: Vec<usize>| -> Vec<usize> {
         let mut rows = rows;

@@ -7,9 +7,9 @@ use crate::number::significant;
 /// Significance level of a family.
 const LEVEL: f64 = 0.05;
 
-/// Reason why a test of `family` cannot show any difference, for each test; `None` if it can.
+/// Reason, for each test of `family`, why it cannot show any difference; `None` if it can.
 ///
-/// An adjusted p value rises with each p value of its family. So the least p values of all tests give the least adjusted ones.
+/// An adjusted p value rises with each p value of its family. The least p values of all tests therefore give the least adjusted p values.
 pub(super) fn out_of_reach(family: &[Difference]) -> Vec<Option<String>> {
     let tests = family.iter().map(|difference| difference.test);
     let tests: Vec<DifferenceTest> = tests.collect();

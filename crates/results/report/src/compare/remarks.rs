@@ -1,4 +1,4 @@
-//! Remarks on a verdict: ties, light that hardly changed, and labels with different spreads.
+//! Remarks on a verdict: ties, light that hardly changed, and different label spreads.
 
 use taceva_metrics::Standing;
 
@@ -17,9 +17,9 @@ pub(super) struct Remarks {
     pub(super) tie: Option<Tie>,
     /// Studies that are excluded from verdicts, with the reason.
     pub(super) barred: Vec<(usize, String)>,
-    /// True if models learnt on too few places for a verdict on sensors.
+    /// True if the models were trained at too few places for a verdict on sensors.
     pub(super) is_demonstration: bool,
-    /// Difference in label spread between the other studies; empty if none.
+    /// Remark on different label spreads of the other studies; empty if they are similar.
     pub(super) spread: String,
 }
 

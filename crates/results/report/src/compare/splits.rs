@@ -1,12 +1,12 @@
-//! Scores of one dataset whose splits left out different groups, which give no verdict.
+//! Scores of one dataset that cannot be compared, because their splits leave out different groups.
 
 use taceva_metrics::{Sides, catalogue};
 
 use crate::results::Study;
 use taceva_results::kept_together;
 
-/// Reason why two results of one dataset give no verdict on `metric`: their splits keep different samples together. A metric without predictions
-/// depends on no split.
+/// Reason why two results of one dataset give no verdict on `metric`: their splits group samples differently. Metrics without predictions do not
+/// depend on a split.
 pub(super) fn barred(metric: &str, studies: Sides<&Study>, names: Sides<&str>) -> Option<String> {
     if catalogue::find(metric).is_some_and(|metric| !metric.reads_predictions()) {
         return None;

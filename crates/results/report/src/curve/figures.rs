@@ -1,4 +1,4 @@
-//! Figures of a calibration curve.
+//! Computes the figures of a calibration curve.
 
 use taceva_core::counted;
 use taceva_metrology::curve::{
@@ -8,10 +8,10 @@ use taceva_metrology::curve::{
 use super::{CalibrationCurve, CurveFigure, CurveRequest};
 
 impl CalibrationCurve {
-    /// Figures that `request` names. An inverse or a limit of detection without a value has the reason as its remark.
+    /// Figures requested by `request`. If an inverse prediction or a detection limit is undefined, its remark states the reason.
     ///
     /// # Errors
-    /// [`CurveUndefined::Probability`] and [`CurveUndefined::NotPositive`] of the request; the reason of series without figures.
+    /// [`CurveUndefined::Probability`] and [`CurveUndefined::NotPositive`] for an invalid request; the reason why series have no figures.
     pub fn figures(&self, request: &CurveRequest) -> Result<Vec<CurveFigure>, CurveUndefined> {
         let mut figures = self.of_fit();
         for &x in &request.at {
@@ -70,7 +70,7 @@ impl CalibrationCurve {
         Ok(figures)
     }
 
-    /// Relative errors at each force, with its place among limits.
+    /// Relative errors at each force, and the row of limits that they meet.
     fn of_proving(&self, found: &ProvingFigures) -> Vec<CurveFigure> {
         let mut figures = Vec::new();
         for (at, level) in found.levels.iter().enumerate() {
@@ -94,7 +94,7 @@ impl CalibrationCurve {
         figures
     }
 
-    /// Magnitudes of the relative errors of presses.
+    /// Statistics of the relative errors of presses.
     fn of_indications(&self, presses: &[Indication]) -> [CurveFigure; 3] {
         let found = IndicationSummary::of(presses);
         let figure = |quantity: &str, value: fn(&IndicationSummary) -> f64| CurveFigure {
@@ -115,7 +115,7 @@ impl CalibrationCurve {
         ]
     }
 
-    /// Coefficients, residual deviation, and lack of fit where readings repeat.
+    /// Coefficients, residual standard deviation, and lack of fit if readings repeat.
     fn of_fit(&self) -> Vec<CurveFigure> {
         let freedom = Some(self.fit.freedom());
         let coefficients = self.fit.coefficients().into_iter().enumerate();
@@ -166,7 +166,7 @@ impl CalibrationCurve {
         }
     }
 
-    /// `remark`, with a word on a reference value that no row is near.
+    /// Appends a warning to `remark` if no row is near the reference value `x`.
     fn within(&self, x: f64, remark: String) -> String {
         let [low, high] = self.fit.range();
         // The ends themselves are rounded.
@@ -185,7 +185,7 @@ impl CalibrationCurve {
         }
     }
 
-    /// Unit of the coefficient of x to this power.
+    /// Unit of the coefficient of x to the power `power`.
     fn unit_of(&self, power: usize) -> String {
         let [x, y] = [&self.x.unit, &self.y.unit];
         let power = match power {
@@ -201,7 +201,7 @@ impl CalibrationCurve {
     }
 }
 
-/// The figure without a value, unless the request itself is wrong.
+/// Figure without a value, or the error if the request itself is invalid.
 fn undefined(figure: CurveFigure, reason: CurveUndefined) -> Result<CurveFigure, CurveUndefined> {
     match reason {
         CurveUndefined::Probability(_) | CurveUndefined::NotPositive { .. } => Err(reason),

@@ -9,7 +9,7 @@ pub(crate) enum Ink {
     Muted,
     /// Grid lines.
     Grid,
-    /// Background.
+    /// Background of the page.
     Paper,
     /// One of several compared series.
     Series(usize),
@@ -100,7 +100,7 @@ pub(crate) struct Points {
     pub(crate) words: Vec<String>,
 }
 
-/// Mark.
+/// Drawing element of a canvas.
 #[derive(Clone, Debug)]
 pub(crate) enum Mark {
     Path {

@@ -9,7 +9,7 @@ const LETTERS: f64 = 11.0;
 const USUAL_PT: f64 = 8.0;
 /// Points per millimetre.
 pub(super) const PT_PER_MM: f64 = 72.0 / 25.4;
-/// Greatest factor by which letters grow in a drawing that is wider than its place.
+/// Greatest enlargement of letters in a drawing that is wider than its space.
 const MOST_GROWN: f64 = 1.3;
 
 /// Size and text of figures for print. Unset fields keep the screen layout.
@@ -23,8 +23,8 @@ const MOST_GROWN: f64 = 1.3;
 pub struct FigureStyle {
     /// Width of each figure, in mm.
     pub width_mm: Option<f64>,
-    /// Size of most letters, in points (1/72 in); 8 if only a width is set. Drawings narrower than the page have larger letters; drawings more than
-    /// 1.3 times too wide have smaller ones.
+    /// Size of most letters, in points (1/72 in); 8 if only a width is set. Drawings narrower than the page have larger letters. Drawings more than
+    /// 1.3 times too wide have smaller letters.
     pub letters_pt: Option<f64>,
     /// Preferred font family of SVG. PDF embeds Arimo, which has the widths of Arial and Helvetica.
     pub font: Option<String>,

@@ -11,7 +11,7 @@ mod spokes;
 use crate::figure::{Figure, FigureStyle};
 use crate::results::Study;
 
-/// Figures of the study, and the missing data of absent ones.
+/// Figures of the study, and the missing data of figures that are not drawn.
 #[derive(Clone, Debug, Default)]
 pub struct StudyFigures {
     /// Figures with values, in the order of the study.

@@ -19,7 +19,7 @@ pub struct Race {
     pub cost: String,
     /// Lower bound of the cost, with its name.
     pub floor: Option<(f64, String)>,
-    /// Points.
+    /// Drawn points.
     pub points: Vec<RacePoint>,
 }
 
@@ -28,7 +28,7 @@ pub struct Race {
 pub struct RacePoint {
     /// Name of the point.
     pub name: String,
-    /// Gain.
+    /// Gain on the horizontal axis.
     pub gain: f64,
     /// Cost; above 0.
     pub cost: f64,

@@ -58,7 +58,7 @@ impl Comparison {
         }
     }
 
-    /// Significant differences by score, each with the better study and the worse ones.
+    /// Significant differences by score, each with the better study and the worse studies.
     fn won(&self) -> Vec<Won<'_>> {
         let mut all: Vec<Won<'_>> = Vec::new();
         for answer in &self.answers {
@@ -81,10 +81,10 @@ impl Comparison {
     }
 }
 
-/// Answers of one metric and channel in which one study is better than others.
+/// Answers about one score in which one study is better than others.
 struct Won<'a> {
     winner: usize,
-    /// At least one.
+    /// Answers about the score; at least one.
     answers: Vec<&'a Answer>,
 }
 

@@ -117,7 +117,7 @@ fn joined(studies: &[Study]) -> String {
     }
 }
 
-/// Sentence on places that no recording names, from the notes of the results.
+/// Sentence on contact places without a name in the recording, from the notes of the results.
 fn places(studies: &[Study]) -> String {
     let mut notes = studies.iter().flat_map(|study| &study.notes);
     match notes.any(|note| note.contains("names no places")) {
@@ -234,7 +234,7 @@ fn model(studies: &[Study]) -> String {
     }
 }
 
-/// Sentence on the samples behind scores of predictions.
+/// Sentence on the test samples of predictions.
 fn unseen(studies: &[Study]) -> String {
     let seen = studies.iter().filter_map(|study| {
         let part = study.made.seen_part.as_ref()?;

@@ -12,20 +12,20 @@ use crate::reference::reference_certificate;
 use crate::residuals::residual_components;
 use crate::results::Study;
 
-/// Part of the protocol whose residuals count, and the column of places.
+/// Part of the protocol and grouping column for the residuals.
 const PLACES: [&str; 2] = ["calibration", "point_id"];
-/// Part of the protocol with several lights, and the column of lights.
+/// Part of the protocol with several light scenes, and the column of the scene.
 const LIGHTS: [&str; 2] = ["light-sweep", "scene"];
-/// Sources by figure, each with its name and a further key.
+/// Figures for which sources are written, each with the name and a further key of the source.
 const SOURCES: [(&str, &str, &str); 3] = [
     ("error.between", "between places", ""),
     ("error.within", "within places", "readings = 1\n"),
     ("bias", "bias", ""),
 ];
-/// Command that writes a file of sources.
+/// Command that writes a budget file.
 const TEMPLATE: &str = "taceva budget --template RESULT.json > budget.toml";
 
-/// Budget of each sensor, or the reason that there is none; `None` if all samples are synthetic or published.
+/// Budget of each sensor, or the reason why there is none; `None` if all samples are synthetic or published.
 pub(super) fn section(studies: &[Study]) -> Option<Markup> {
     let named = (1_usize..).zip(studies.iter().zip(names(studies)));
     let shown = named.filter(|(_, (study, _))| has_rows(study));
@@ -71,7 +71,7 @@ fn entry(study: &Study, name: &str, number: usize) -> Markup {
     }
 }
 
-/// Budget of the usual channel at the median of its labels; the reason if there is none.
+/// Budget of the default channel at the median of its labels, or the reason why there is none.
 fn budget(study: &Study) -> Result<Budget, String> {
     let Some(samples) = &study.samples else {
         let remedy = "`--samples-out` of evaluate writes them beside the result";
@@ -105,14 +105,14 @@ fn budget(study: &Study) -> Result<Budget, String> {
     Ok(first)
 }
 
-/// Channel of a budget.
+/// Channel for which a budget is made.
 struct Measurand {
     name: String,
     unit: Unit,
 }
 
 impl Measurand {
-    /// Fz, else the first force, else the first predicted channel.
+    /// Fz if predicted, otherwise the first force, otherwise the first predicted channel.
     fn of(study: &Study, samples: &Samples) -> Result<Measurand, String> {
         let channels = samples.channels().into_iter();
         let predicted = channels.filter(|channel| channel.is_predicted());
@@ -134,7 +134,7 @@ impl Measurand {
         }
     }
 
-    /// Text of the budget, as `taceva budget` reads it.
+    /// Text of the budget file, as `taceva budget` reads it.
     fn sources(&self, at: f64, is_certified: bool) -> String {
         let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
         let symbol = self.unit.symbol();
@@ -159,7 +159,7 @@ impl Measurand {
     }
 }
 
-/// Median of the labels of a part of the protocol, to two digits.
+/// Median of the labels of one part of the protocol, rounded to two digits.
 fn middle(samples: &Samples, channel: &str, part: &str) -> f64 {
     let labels = samples.channel(channel);
     let rows = samples.of_protocol(part).into_iter();

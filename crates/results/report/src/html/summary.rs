@@ -1,4 +1,4 @@
-//! Summary of the results in words.
+//! Text summary of the results.
 
 use maud::{Markup, html};
 use taceva_core::counted;
@@ -15,7 +15,7 @@ use crate::tie::{best, tie};
 use crate::training::{NO_VERDICT, is_demonstration};
 use taceva_results::{Score, not_measured};
 
-/// Subtitle.
+/// Subtitle of the page.
 pub(crate) fn lead(studies: &[Study]) -> Markup {
     html! { p.lead { (listed(&names(studies))) } (badge(studies)) }
 }
@@ -129,7 +129,7 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Mark
     Some(html! { (name) " " (verdict) ", with " (value) (spread) "." (beside) })
 }
 
-/// Cell with a value.
+/// Cell whose value is known.
 struct Known<'a> {
     at: usize,
     cell: &'a ScoreCell,

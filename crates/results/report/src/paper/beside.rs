@@ -1,4 +1,4 @@
-//! Our values with the printed ones beside them.
+//! Our values beside the values that the study prints.
 
 use crate::catalogue::{Published, find};
 use crate::number::{FormattedValue, fixed};

@@ -14,9 +14,9 @@ const SUBJECT: &str = "models";
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelBench {
-    /// [`BENCH_SCHEMA`].
+    /// Schema of the JSON form: [`BENCH_SCHEMA`].
     pub schema: String,
-    /// `models`.
+    /// Subject of the benchmark: `models`.
     pub subject: String,
     /// Machine of the benchmark.
     pub machine: BenchMachine,
@@ -66,7 +66,7 @@ pub struct BenchRecording {
 pub struct ModelRow {
     /// Name in the registry: `ridge`.
     pub model: String,
-    /// Settings in words; empty for the defaults.
+    /// Settings as text; empty for the defaults.
     #[serde(default)]
     pub settings: String,
     /// Time to fit, including features, in s.
@@ -89,7 +89,7 @@ pub struct ModelRow {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ChannelError {
-    /// Channel.
+    /// Name of the channel.
     pub channel: String,
     /// Unit of error and interval.
     pub unit: Unit,

@@ -1,11 +1,11 @@
-//! Provenance as lines of a page, each a name and a text.
+//! Provenance as lines of a page, each with a name and a text.
 
 use std::fmt::Display;
 
 use super::traceability::traceability_line;
 use taceva_results::{ModelProvenance, Provenance};
 
-/// Entries of `provenance` except the notes, in file order. Skips empty ones.
+/// Nonempty entries of `provenance` except the notes, in file order.
 pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
     let text = |text: &Option<String>| text.clone().unwrap_or_default();
     let recordings = provenance.recordings.iter().map(|own| {

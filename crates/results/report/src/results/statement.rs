@@ -19,7 +19,7 @@ pub struct Statement {
     pub source: String,
     /// Measurement conditions.
     pub conditions: String,
-    /// Definition.
+    /// Definition of the metric by the source.
     pub definition: String,
 }
 

@@ -1,12 +1,12 @@
-//! Traceability of a result's labels in one line.
+//! Traceability of the labels of a result, in one line.
 
 use taceva_core::Instrument;
 use taceva_results::Provenance;
 
-/// Line of labels that no certificate makes traceable.
+/// Line for labels without a certificate.
 pub(super) const NOT_TRACEABLE: &str = "not traceable: no certificate of the force transducer";
 
-/// Certificates behind the labels, in the order of the recordings. The line begins with what is missing.
+/// Certificates of the instruments that measured the labels, in the order of the recordings. Missing certificates come first.
 pub(super) fn traceability_line(provenance: &Provenance) -> String {
     let of_force = provenance.traceability.iter();
     let of_force = of_force.filter(|of| of.instrument == Instrument::Force);

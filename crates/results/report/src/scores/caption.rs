@@ -17,7 +17,7 @@ pub(super) struct About {
     recordings: usize,
     /// Notes that the scores are too good.
     pub(super) optimistic: Vec<String>,
-    /// Cross-validation in words, if each sample was held out once.
+    /// Cross-validation as text, if each sample was held out once.
     folds: Option<String>,
     /// Groups that the split keeps together.
     group: Option<String>,

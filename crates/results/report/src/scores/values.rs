@@ -1,4 +1,4 @@
-//! Values side by side for readers: scores, published facts, and short words for absent ones.
+//! Values side by side for readers: scores, published facts, and short words for absent values.
 
 mod origins;
 mod programs;
@@ -29,7 +29,7 @@ struct Line<'a> {
     /// The score; `None` for a fact.
     row: Option<&'a ScoreRow>,
     cells: Vec<Option<Cell>>,
-    /// Comparability of its published numbers in words; empty for fewer than two of them.
+    /// Comparability of its published numbers as text; empty for fewer than two numbers.
     origins: &'static str,
 }
 

@@ -25,7 +25,7 @@ pub struct Estimate {
     pub formatted: FormattedValue,
     /// Unit of this cell; empty if stated elsewhere, or for a ratio.
     pub unit: String,
-    /// Remark for readers.
+    /// Remark for readers, if any.
     pub remark: Option<String>,
     /// Sign after the value, explained by a note; empty if there is none.
     pub mark: &'static str,

@@ -7,7 +7,7 @@ use super::Words;
 /// Column: name, unit, better direction and alignment.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Column {
-    /// Name.
+    /// Name in the head of the column.
     pub name: Words,
     /// Common unit of the cells.
     pub unit: Option<String>,

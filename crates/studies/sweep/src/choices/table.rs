@@ -19,7 +19,7 @@ fn without_validation(groups: &[Group<'_>]) -> Vec<String> {
     silent
 }
 
-/// Description of the quantity of a channel.
+/// Description of the quantity that a channel measures.
 fn question(channel: &str) -> &'static str {
     match channel {
         "Pz" => "depth",

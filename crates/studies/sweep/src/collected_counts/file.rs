@@ -1,4 +1,4 @@
-//! Counts of a sweep as a sealed file, so that the same output is not written twice.
+//! Counts of a sweep in a sealed file, so that unchanged output is not written twice.
 
 use std::fs;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ use crate::seal;
 
 /// Schema of the file.
 const SCHEMA: &str = "taceva.sweep-collected/1.0";
-/// Output files that must exist beside it.
+/// Output files that must exist beside the counts.
 const BESIDE: [&str; 5] = [
     "table.csv",
     "table.parquet",
@@ -30,7 +30,7 @@ struct Kept {
     collected: Collected,
 }
 
-/// Head of the file, read first because its schema determines the rest.
+/// Beginning of the file, read first because its schema determines the rest.
 #[derive(Deserialize)]
 struct Head {
     #[serde(default)]
@@ -51,10 +51,10 @@ impl Collected {
         folder.write(&path, text.as_bytes())
     }
 
-    /// Reads the counts of output in `folder` from the inputs `made_of`; `None` if the inputs differ or a file is missing.
+    /// Reads the counts for the output in `folder` made from the inputs `made_of`; `None` if the inputs differ or a file is missing.
     ///
     /// # Errors
-    /// [`SweepError::Kept`] if the file was edited, because its counts and verdicts would be printed.
+    /// [`SweepError::Kept`] if the file was edited, because its counts and verdicts are printed.
     pub(crate) fn read(
         folder: &SweepFolder,
         made_of: &str,

@@ -23,7 +23,7 @@ enum Joint {
     Or,
 }
 
-/// Texts of terms, each with the operator before it. Quoted operators are part of a value.
+/// Text of each term, with the operator before it. Quoted operators are part of a value.
 fn pieces(text: &str) -> Vec<(Joint, &str)> {
     let mut pieces = Vec::new();
     let (mut joint, mut start, mut quote) = (Joint::And, 0, None);

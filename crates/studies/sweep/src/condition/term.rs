@@ -4,7 +4,7 @@ use crate::task::Task;
 
 /// Accepted forms, for messages.
 const UNDERSTOOD: &str = "expected NAME = VALUE or NAME != VALUE, joined by ` and ` or ` or ` (no parentheses), or the key of a task";
-/// Characters that no unquoted value contains; a term with one of them is a mistake.
+/// Characters not allowed in an unquoted value. A term that contains one is rejected.
 const SIGNS: [char; 9] = ['=', '!', '<', '>', '&', '|', '(', ')', '"'];
 
 /// One term: `size != 64x64`.
@@ -54,7 +54,7 @@ impl Term {
     }
 }
 
-/// A value, bare or quoted; `None` if it is neither.
+/// Parses a value, bare or quoted; `None` if it is neither.
 fn value(text: &str) -> Option<&str> {
     for quote in ['"', '\''] {
         if let Some(inside) = text.strip_prefix(quote) {

@@ -1,4 +1,4 @@
-//! Errors of two configurations on the seeds that both have.
+//! Errors of two configurations for the seeds that both have.
 
 use std::collections::BTreeMap;
 
@@ -6,18 +6,18 @@ use taceva_metrics::{ClusterSums, Sides};
 
 use crate::analysis::Group;
 
-/// Errors of both sides of a comparison, over the seeds with a result on both.
+/// Errors of both compared configurations, for the seeds with a result of both.
 pub(super) struct SharedSeeds {
     /// Errors by contact point. A press counts once, however often it was in a test part.
     pub(super) sums: Sides<ClusterSums>,
-    /// Number of seeds of each side.
+    /// Number of seeds with a result, for each configuration.
     of: Sides<usize>,
-    /// Number of seeds of both sides.
+    /// Number of shared seeds.
     pub(super) count: usize,
 }
 
 impl SharedSeeds {
-    /// The errors of `channel`.
+    /// Errors of `channel`.
     pub(super) fn of(groups: Sides<&Group<'_>>, channel: &str) -> SharedSeeds {
         let [a, b] = [groups.a, groups.b].map(|group| by_seed(group, channel));
         let mut shared = SharedSeeds {
@@ -38,7 +38,7 @@ impl SharedSeeds {
         shared
     }
 
-    /// Number of compared seeds, with that of each side if they differ.
+    /// Number of compared seeds; with the number of each configuration, if they differ.
     pub(super) fn words(&self) -> String {
         let Sides { a, b } = self.of;
         match a == self.count && b == self.count {
@@ -48,7 +48,7 @@ impl SharedSeeds {
     }
 }
 
-/// Errors of each seed with a result.
+/// Errors by contact point of each seed with a result.
 fn by_seed(group: &Group<'_>, channel: &str) -> BTreeMap<u64, ClusterSums> {
     let results = group.results.iter();
     results

@@ -1,14 +1,14 @@
-//! Variation of the difference of two configurations between seeds.
+//! Variation between seeds of the difference of two configurations.
 
 use taceva_metrics::TrainingSpread;
 
 use crate::analysis::Group;
 
-/// Standard error of the mean difference of the errors of `channel` over the seeds of both groups. `None` for fewer than two seeds, or if all
+/// Standard error of the mean difference in the errors of `channel`, over the seeds of both groups. `None` for fewer than two seeds, or if all
 /// differences are equal.
 ///
-/// Both sides of a seed share its division, so differences are computed seed by seed. A seed also changes the tested contact points, whose variation
-/// the clusters include as well. Together they rather overestimate the variation.
+/// Both configurations share the division of a seed, so differences are computed seed by seed. A seed also changes the tested contact points, which
+/// the clusters represent too. The total variation is therefore rather overestimated.
 pub(super) fn between_seeds(
     chosen: &Group<'_>,
     other: &Group<'_>,

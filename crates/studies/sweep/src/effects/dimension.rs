@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::task::Task;
 use crate::task_list::TaskList;
 
-/// One dimension, with its values in the order of the file.
+/// One dimension of a sweep, with its values in the order of the file.
 pub(super) struct Dimension {
     what: What,
     pub(super) values: Vec<String>,
@@ -15,7 +15,7 @@ pub(super) struct Dimension {
 
 enum What {
     Split,
-    /// Models with settings that only they have.
+    /// Models with their model-specific settings.
     Model,
     /// A setting that applies to every model.
     Shared(String),
@@ -81,7 +81,7 @@ impl Dimension {
         }
     }
 
-    /// All other properties of a task; tasks with equal text form a pair.
+    /// All other properties of a task. Tasks with equal text form a pair.
     pub(super) fn beside(&self, task: &Task) -> String {
         let split = match self.what {
             What::Split => None,
@@ -106,7 +106,7 @@ impl Dimension {
         )
     }
 
-    /// Settings that only the model of the task has, except `but`.
+    /// Model-specific settings of a task, except `but`.
     fn own_settings(&self, task: &Task, but: Option<&str>) -> String {
         let own = task
             .settings

@@ -10,9 +10,9 @@ use crate::error::SweepError;
 /// A model with its own settings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModelEntry {
-    /// Name.
+    /// Name of the model.
     pub name: String,
-    /// Settings.
+    /// Settings of the model, by key.
     pub set: BTreeMap<String, String>,
 }
 
@@ -46,7 +46,7 @@ impl ModelEntry {
         Ok(ModelEntry::asked(name, set))
     }
 
-    /// Model called `name`. A preset is replaced by its model and settings, so that keys and tables state what was fitted.
+    /// Entry for the model `name`. A preset is replaced by its model and settings, so that keys and tables state the fitted model.
     fn asked(name: &str, mut set: BTreeMap<String, String>) -> ModelEntry {
         let Some(preset) = Preset::named(name) else {
             return ModelEntry {
@@ -92,7 +92,7 @@ fn settings(
     Ok(set)
 }
 
-/// A setting in the form that users type.
+/// Converts a setting to the form that users type.
 pub(super) fn word(value: &toml::Value) -> Option<String> {
     match value {
         toml::Value::String(text) => Some(text.clone()),

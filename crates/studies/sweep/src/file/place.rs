@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::error::SweepError;
 
-/// The sweep file, for error messages.
+/// Sweep file and its text, for error messages.
 #[derive(Clone, Copy)]
 pub(super) struct FilePlace<'a> {
     pub(super) path: &'a Path,
@@ -12,7 +12,7 @@ pub(super) struct FilePlace<'a> {
 }
 
 impl FilePlace<'_> {
-    /// Error for a value below `key`, with its line.
+    /// Error for a value of `key`, with its line.
     pub(super) fn wrong(&self, key: &str, problem: String) -> SweepError {
         SweepError::Meaning {
             path: self.path.to_owned(),
@@ -21,7 +21,7 @@ impl FilePlace<'_> {
         }
     }
 
-    /// Line that assigns `key`, else the first line that contains it as a word, such as a model in a list.
+    /// Line that assigns `key`, otherwise the first line that contains it as a word, such as a model in a list.
     pub(super) fn line_of(&self, key: &str) -> Option<usize> {
         let mut lines = self.text.lines();
         let set = lines.position(|line| {
@@ -40,7 +40,7 @@ impl FilePlace<'_> {
     ) -> Result<(), SweepError> {
         for (at, value) in values.iter().enumerate() {
             if values[..at].contains(value) {
-                return Err(self.wrong(key, format!("`{key}`: {value} comes twice")));
+                return Err(self.wrong(key, format!("`{key}`: {value} is listed twice")));
             }
         }
         Ok(())

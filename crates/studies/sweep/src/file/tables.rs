@@ -10,21 +10,21 @@ use crate::error::SweepError;
 use crate::limits::MOST_TASKS;
 use crate::syntax::{WrittenScore, WrittenSweep};
 
-/// Two tables scored in shards, one task for each shard.
+/// Two tables scored in shards, with one task per shard.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TablesEntry {
     /// File name of the truth in the sweep file.
     pub name: String,
-    /// Path of the table of the truth.
+    /// Path of the truth table.
     pub truth: PathBuf,
-    /// Path of the table of the predictions.
+    /// Path of the prediction table.
     pub prediction: PathBuf,
     /// Number of shards.
     pub shards: u32,
-    /// Units of channels other than the six.
+    /// Units of channels other than the six standard channels.
     pub units: Vec<(String, Unit)>,
-    /// True if non-finite cells are counted instead of rejected.
+    /// True if non-finite cells are counted and skipped instead of rejected.
     pub allow_invalid: bool,
 }
 

@@ -8,7 +8,7 @@ use taceva_models::{ChosenModel, Models};
 use crate::error::SweepError;
 use crate::file::SweepFile;
 
-/// Build of the plugin behind each plugin model. An unknown model has none; the check of settings rejects it.
+/// Build of the plugin behind each plugin model. Unknown models are skipped here and rejected by the check of settings.
 pub(super) fn builds(
     file: &SweepFile,
     models: &Models,
@@ -22,7 +22,7 @@ pub(super) fn builds(
     Ok(builds)
 }
 
-/// Build of the plugin with the model `name`; `None` if the model is built in or unknown.
+/// Build of the plugin that provides the model `name`; `None` if the model is built in or unknown.
 ///
 /// # Errors
 /// [`SweepError`] if the plugin cannot be read.
@@ -41,7 +41,7 @@ mod tests {
 
     use super::*;
 
-    /// A plugin model with only a build.
+    /// Plugin model with only a build, for tests.
     struct Built(DriverKey, &'static str);
 
     impl EstimatorFactory for Built {

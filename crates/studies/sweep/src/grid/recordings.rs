@@ -12,15 +12,15 @@ use crate::glob;
 use crate::recording::opened;
 use crate::scene_recording::SceneRecording;
 
-/// A named recording before it is opened.
+/// Recording by name, before it is opened.
 pub(super) struct Named {
     name: String,
     path: PathBuf,
-    /// Placeholder for its digest until its scene has acquired it; `None` for a recording of the file.
+    /// Placeholder for the digest until the scene has been acquired; `None` for a recording of the file.
     planned: Option<Digest>,
 }
 
-/// An opened recording of tasks.
+/// An opened recording, for tasks.
 pub(super) struct Recording {
     pub(super) name: String,
     pub(super) path: PathBuf,
@@ -28,7 +28,7 @@ pub(super) struct Recording {
 }
 
 impl Named {
-    /// Key of the sweep file that names it.
+    /// Key of the sweep file that names the recording.
     fn key(&self) -> &'static str {
         match self.planned {
             None => "datasets",
@@ -94,7 +94,7 @@ pub(super) fn named(file: &SweepFile, scenes: &[SceneRecording]) -> Result<Vec<N
     Ok(folders.chain(of_scenes).collect())
 }
 
-/// Opens each recording once for its digest, without reading frames. Rejects two names of one recording, which would share a result.
+/// Opens each recording once for its digest, without reading frames. Rejects two names for one recording, which would share a result.
 pub(super) fn open(file: &SweepFile, all: &[Named]) -> Result<Vec<Recording>, SweepError> {
     let mut recordings: Vec<Recording> = Vec::with_capacity(all.len());
     for one in all {

@@ -15,7 +15,7 @@ use crate::file::{SweepFile, TablesEntry};
 use crate::key::{ShardParts, TaskKey};
 use crate::task::{SHARD, Task};
 
-/// Two tables at the time of planning, with everything needed to score a shard of them.
+/// Two tables as planned, with everything needed to score a shard of them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlannedTables {
@@ -23,12 +23,12 @@ pub(crate) struct PlannedTables {
     prediction: PathBuf,
     units: Vec<(String, Unit)>,
     allow_invalid: bool,
-    /// Positions of their rows, and their digests.
+    /// Positions of the rows of both tables, and their digests.
     tables: ScoreTables,
 }
 
 impl PlannedTables {
-    /// The tables; scans them again if a file has changed.
+    /// Returns the tables; scans them again if a file has changed.
     ///
     /// # Errors
     /// [`SweepError::Study`] if the content of a file has changed.
@@ -41,7 +41,7 @@ impl PlannedTables {
         self.tables.digests()
     }
 
-    /// Request of the scores.
+    /// Request that scores one shard.
     pub(crate) fn request(
         &self,
         metrics: &[String],

@@ -10,7 +10,7 @@ use super::lock;
 use crate::folder::SweepFolder;
 use crate::task::Task;
 
-/// Log of a task: its stages and its outcome.
+/// Writer of a task's log.
 pub(super) struct TaskLog<'a> {
     file: Mutex<Option<File>>,
     whole: &'a dyn Progress,

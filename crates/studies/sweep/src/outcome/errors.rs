@@ -7,14 +7,14 @@ use taceva_results::{EvaluationReport, Samples};
 
 use crate::result::PointErrors;
 
-/// Absolute errors of each of `channels`, summed by the clusters that intervals leave out. The error of an angle with a period is no difference of
-/// the table, so it has none.
+/// Absolute errors of each of `channels`, summed by the clusters that intervals leave out. Skips angles with a period, whose errors are not plain
+/// differences.
 pub(super) fn errors(report: &EvaluationReport, channels: &Channels) -> PointErrors {
     let sums = report.samples.as_ref().map(of_samples);
     without_periods(sums.unwrap_or_default(), channels)
 }
 
-/// `sums` without those of channels with a period.
+/// Removes the channels with a period from `sums`.
 fn without_periods(mut sums: PointErrors, channels: &Channels) -> PointErrors {
     let periodic = channels.iter().filter(|channel| channel.period().is_some());
     for channel in periodic {

@@ -1,4 +1,4 @@
-//! Execution of one shard of two tables. Its result is a state that is merged with those of the other shards.
+//! Execution of one shard of two tables. The result is a state, which is merged with the states of other shards.
 
 use taceva_evaluate::{EvaluateError, Shard, Work};
 
@@ -7,10 +7,10 @@ use crate::error::SweepError;
 use crate::grid::PlannedTables;
 use crate::task::{SHARD, Task};
 
-/// Scores the shard of `task`, and writes its state.
+/// Scores the shard of `task` and writes its state.
 ///
 /// # Errors
-/// [`SweepError`] if it fails; nothing is written then.
+/// [`SweepError`] if the shard fails; nothing is written then.
 pub(super) fn carry_out(
     task: &Task,
     planned: &PlannedTables,

@@ -1,4 +1,4 @@
-//! Commands of the scheduler, and their output.
+//! Runs commands of the scheduler and reads their output.
 
 use std::process::Command;
 
@@ -9,7 +9,7 @@ use crate::error::SweepError;
 /// Default `MaxArraySize` of Slurm.
 const ARRAY_MOST: u32 = 1001;
 
-/// Greatest number of jobs in one array at this site.
+/// Greatest number of jobs in one array, as configured at this site.
 pub(super) fn array_most() -> u32 {
     let asked = Command::new("scontrol").args(["show", "config"]).output();
     let text = asked.map(|output| String::from_utf8_lossy(&output.stdout).into_owned());

@@ -4,7 +4,7 @@ use super::Submitted;
 use super::command::run;
 use crate::error::SweepError;
 
-/// A job as the scheduler lists it.
+/// Job as listed by the scheduler.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct JobState {
@@ -12,7 +12,7 @@ pub struct JobState {
     pub id: String,
     /// `RUNNING`, `PENDING`, …
     pub state: String,
-    /// Host on which it runs, or the reason why it waits.
+    /// Host that runs the job, or the reason why it waits.
     pub place: String,
 }
 

@@ -1,4 +1,4 @@
-//! Record of submitted jobs as a sealed file, and their cancellation.
+//! Sealed record of submitted jobs, and their cancellation.
 
 use std::path::PathBuf;
 
@@ -16,9 +16,9 @@ const SCHEMA: &str = "taceva.sweep-jobs/1.0";
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Submitted {
-    /// Numbers of the arrays.
+    /// Job numbers of the arrays.
     pub arrays: Vec<String>,
-    /// Number of the job that collects.
+    /// Number of the job that collects the results.
     pub collect: Option<String>,
 }
 
@@ -47,7 +47,7 @@ impl Submitted {
     /// Reads the last submission; `None` if there was none.
     ///
     /// # Errors
-    /// [`SweepError`] if the record cannot be read, or was edited: it could cancel other jobs.
+    /// [`SweepError`] if the record cannot be read or was edited, because an edited record could cancel other jobs.
     pub fn read(folder: &SweepFolder) -> Result<Option<Submitted>, SweepError> {
         let path = path_in(folder);
         let Some(text) = seal::read(&path)? else {

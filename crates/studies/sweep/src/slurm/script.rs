@@ -1,4 +1,4 @@
-//! Job scripts that can be read, kept and submitted by hand.
+//! Job scripts, which can be read, kept and submitted by hand.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ pub(super) struct Script<'a> {
 }
 
 impl Script<'_> {
-    /// Script of an array: each job runs the tasks of one line of its block file.
+    /// Script of a job array. Each job runs the tasks in one line of its block file.
     pub(super) fn array(&self, name: &str, jobs: usize, gres: Option<&str>) -> String {
         let most = self
             .spec
@@ -60,7 +60,7 @@ impl Script<'_> {
         text
     }
 
-    /// Script of the job that collects the table after all other jobs have ended, with or without success.
+    /// Script of the job that collects the results after all other jobs have ended, successfully or not.
     pub(super) fn collect(&self) -> String {
         let mut text = self.head("collect", "%j");
         text.push_str(&self.setup());

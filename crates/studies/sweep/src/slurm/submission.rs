@@ -1,14 +1,14 @@
-//! Submission of jobs.
+//! Submission of jobs to the scheduler.
 
 use super::command::run;
 use super::{Submission, Submitted};
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
 
-/// Submits the arrays, and the job that collects after all of them have ended.
+/// Submits the arrays, and the job that collects the results after they have ended.
 ///
 /// # Errors
-/// [`SweepError::Scheduler`] with the message of `sbatch`; cancels the jobs submitted before.
+/// [`SweepError::Scheduler`] with the message of `sbatch`. Jobs submitted before are cancelled.
 pub fn submit(folder: &SweepFolder, submission: &Submission) -> Result<Submitted, SweepError> {
     let mut submitted = Submitted::default();
     let done = submit_all(submission, &mut submitted);

@@ -1,4 +1,4 @@
-//! Rows of the table, cell by cell.
+//! Builds the rows of the table, cell by cell.
 
 use std::collections::BTreeSet;
 

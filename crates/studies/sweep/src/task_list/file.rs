@@ -1,4 +1,4 @@
-//! Task list as a sealed file.
+//! Task list in a sealed file.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use crate::folder::SweepFolder;
 use crate::seal;
 
 impl TaskList {
-    /// Writes the list into `folder` under a name that only equal lists share, and also as the latest list; returns the path.
+    /// Writes the list into `folder` under a name derived from its content, and also as the latest list. Returns the path.
     ///
     /// # Errors
     /// [`SweepError::Io`] if the list cannot be written.
@@ -38,7 +38,7 @@ impl TaskList {
         Ok(own)
     }
 
-    /// List at `path`.
+    /// Reads the list at `path`.
     ///
     /// # Errors
     /// [`SweepError::Kept`] if the file is not a list, is of another version, or was edited.
@@ -65,7 +65,7 @@ impl TaskList {
         seal::value(&text).map_err(again)
     }
 
-    /// Latest list that was written into `folder`.
+    /// Reads the latest list written into `folder`.
     ///
     /// # Errors
     /// As [`read`](TaskList::read).
@@ -73,10 +73,10 @@ impl TaskList {
         TaskList::read(&latest(folder))
     }
 
-    /// Sensor facts, as at the time of planning.
+    /// Reads the sensor facts, unchanged since planning.
     ///
     /// # Errors
-    /// [`SweepError::Changed`] if the file has changed since; [`SweepError`] if it cannot be read.
+    /// [`SweepError::Changed`] if the file has changed since planning; [`SweepError`] if it cannot be read.
     pub(crate) fn read_sensor(&self) -> Result<Option<SensorFile>, SweepError> {
         let Some(path) = &self.sensor else {
             return Ok(None);
@@ -95,7 +95,7 @@ impl TaskList {
     }
 }
 
-/// Head of the file, read first because its schema determines the rest.
+/// Beginning of the file, read first because its schema determines the rest.
 #[derive(serde::Deserialize)]
 struct Head {
     schema: String,

@@ -1,4 +1,4 @@
-//! Selection of tasks in a list, and progress of the sweep.
+//! Selects tasks of a list, and counts the progress of a sweep.
 
 use super::TaskList;
 use crate::condition::Condition;
@@ -13,7 +13,7 @@ pub struct Counts {
     pub scored: usize,
     /// Number of failed tasks.
     pub failed: usize,
-    /// Number of tasks with neither.
+    /// Number of tasks not run yet.
     pub left: usize,
 }
 
@@ -43,7 +43,7 @@ impl TaskList {
         }
     }
 
-    /// Tasks at `wanted` that are still to run.
+    /// Tasks at `wanted` that must still be run.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be read.

@@ -141,7 +141,7 @@ impl Camera {
         self.file.as_fd()
     }
 
-    /// Lists the supported formats and sizes, in words.
+    /// Lists the supported formats and sizes, as text.
     fn offered(&self) -> String {
         let mut offered: Vec<String> = Vec::new();
         for index in 0..OFFERS_MAX {

@@ -32,7 +32,7 @@ pub enum V4l2Error {
     Format {
         /// Requested format.
         wanted: PictureFormat,
-        /// Supported formats, in words.
+        /// Supported formats, as text.
         offered: String,
     },
     /// The camera does not support the requested rate.

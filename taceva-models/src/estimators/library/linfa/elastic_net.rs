@@ -58,7 +58,7 @@ const STRENGTHS: [f64; 11] = [
     1.0,
 ];
 
-/// Most sweeps over all features, and the change of weights at which a fit ends.
+/// Maximum number of sweeps over all features. A fit ends earlier if weights change by at most `TOLERANCE`.
 const SWEEPS: u32 = 1000;
 const TOLERANCE: f64 = 1e-4;
 

@@ -9,9 +9,9 @@ use crate::training::file::tensors::Raw;
 /// Weights and bias of each target.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Linear {
-    /// `[targets, features]`.
+    /// Weights, `[targets, features]`.
     weights: Vec<f64>,
-    /// `[targets]`.
+    /// Biases, `[targets]`.
     bias: Vec<f64>,
 }
 

@@ -17,9 +17,9 @@ pub(crate) struct Planes(Vec<Classes>);
 pub(crate) struct Classes {
     /// Label of each class.
     pub(crate) labels: Vec<f64>,
-    /// `[classes]`.
+    /// Offset of each class.
     pub(crate) offsets: Vec<f64>,
-    /// `[classes, features]`.
+    /// Weights, `[classes, features]`.
     pub(crate) weights: Vec<f64>,
 }
 

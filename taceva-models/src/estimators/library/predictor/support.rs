@@ -11,11 +11,11 @@ use crate::training::file::tensors::Raw;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Support {
     rate: f64,
-    /// `[vectors, features]`.
+    /// Stored training samples, `[vectors, features]`.
     vectors: Vec<f32>,
-    /// `[vectors, targets]`.
+    /// Coefficients, `[vectors, targets]`.
     coefficients: Vec<f64>,
-    /// `[targets]`.
+    /// Biases, `[targets]`.
     bias: Vec<f64>,
 }
 

@@ -10,11 +10,11 @@ use crate::training::file::tensors::Raw;
 /// Prediction of each target: base + factor · Σ leaf, over its trees.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Trees {
-    /// `[targets]`.
+    /// Constant of each target.
     base: Vec<f64>,
-    /// `[targets]`.
+    /// Factor of each target.
     factor: Vec<f64>,
-    /// Number of trees of each target. `trees` lists them target by target.
+    /// Number of trees of each target. `trees` stores them target by target.
     counts: Vec<u32>,
     trees: Vec<Tree>,
 }

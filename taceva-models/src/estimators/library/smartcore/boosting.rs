@@ -74,8 +74,8 @@ const SEED: Number = Number {
     unset: Unset::Is(0.0),
 };
 
-/// Gradient boosting with exact splits and a penalty on leaves, each target separately. No setting is chosen by error: every split
-/// sorts every feature again, so one fit takes as long as the choice of settings in other models.
+/// Gradient boosting with exact splits and a penalty on leaves, each target separately. No setting is chosen by error, because every split sorts
+/// every feature again. One fit takes as long as the choice of settings in other models.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(

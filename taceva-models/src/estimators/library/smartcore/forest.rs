@@ -132,7 +132,7 @@ fn work(sizes: LibrarySizes) -> Option<f64> {
     Some(4.0 * 100.0 * 2.0 * targets as f64 * samples * features as f64 * depth)
 }
 
-/// Grows the trees of one target with a number of features per split. Returns them as serialised by the library, or its error.
+/// Grows the trees of one target with a number of features per split. Returns them serialised by the library, or the library's error.
 type Grow = fn(&Numbers<'_>, &DenseMatrix<f64>, &Vec<f64>, usize) -> Result<Value, String>;
 
 /// Defines a `Grow` for the library type `$regressor`. Its parameter types share methods but no trait.

@@ -64,9 +64,9 @@ struct Lookup {
     search: LinearKNNSearch<Vec<f64>, Euclidian<f64>>,
     features: usize,
     rows: Vec<f32>,
-    /// `[samples, targets]`.
+    /// Labels, `[samples, targets]`.
     labels: Vec<f64>,
-    /// `[targets]`.
+    /// Number of neighbours of each target.
     counts: Vec<u32>,
 }
 

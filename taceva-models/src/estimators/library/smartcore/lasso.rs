@@ -33,7 +33,7 @@ const STRENGTH: Number = Number {
 /// Candidate strengths, ascending.
 const STRENGTHS: [f64; 4] = [1e-2, 3e-2, 1e-1, 3e-1];
 
-/// Most steps of the method, and the relative gap at which it ends.
+/// Maximum number of steps. The method ends earlier at a relative gap of `TOLERANCE`.
 const STEPS: usize = 50;
 const TOLERANCE: f64 = 1e-2;
 

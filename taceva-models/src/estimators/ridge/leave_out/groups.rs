@@ -14,11 +14,11 @@ use crate::training::choice::Errors;
 
 /// Precomputed terms of one group, independent of the penalty.
 struct Group {
-    /// Rows of U.
+    /// Rows of U for the group.
     vectors: Mat<f64>,
-    /// Block of R.
+    /// Block of R for the group.
     unspanned: Mat<f64>,
-    /// Rows of R times the targets.
+    /// Rows of R for the group, times the targets.
     residuals: Mat<f64>,
 }
 
@@ -95,7 +95,7 @@ fn centring(size: usize, samples: usize) -> Mat<f64> {
     })
 }
 
-/// Solves for a positive definite matrix. `None` if the matrix is numerically singular, at penalties too weak to judge.
+/// Solves for a positive definite matrix; `None` if the matrix is numerically singular, as for very weak penalties.
 fn solve(mut matrix: Mat<f64>, mut right: Mat<f64>) -> Option<Mat<f64>> {
     let size = matrix.nrows();
     let scratch = cholesky_in_place_scratch::<f64>(size, Par::Seq, Default::default())

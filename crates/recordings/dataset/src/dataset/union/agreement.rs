@@ -2,15 +2,15 @@
 
 use crate::header::{Footprint, Header};
 
-/// A key of a header with different values.
+/// Header key with different values in two recordings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[doc(hidden)]
 pub struct Difference {
-    /// The key as in `dataset.toml`.
+    /// Key as in `dataset.toml`.
     pub key: &'static str,
-    /// Value in the first.
+    /// Value in the first recording.
     pub own: String,
-    /// Value in the other.
+    /// Value in the second recording.
     pub other: String,
 }
 
@@ -52,7 +52,7 @@ fn more(header: &Header) -> [(&'static str, String); 5] {
     ]
 }
 
-/// Facts that must be equal, in words.
+/// Facts that must be equal, as text.
 fn facts(header: &Header) -> [(&'static str, String); 7] {
     let absent = || "absent".to_owned();
     let mut channels: Vec<String> = header
@@ -96,7 +96,7 @@ fn facts(header: &Header) -> [(&'static str, String); 7] {
     ]
 }
 
-/// The pictures of each sample, if there are several and none is chosen.
+/// Views of each sample, if there are several and none is selected.
 fn views(header: &Header) -> String {
     let views = header.views.iter();
     let views = views.map(|view| format!("{} {}", view.name, view.frames.info));

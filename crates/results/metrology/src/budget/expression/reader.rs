@@ -1,4 +1,4 @@
-//! Reader of expressions: text to steps on a stack, each with its column.
+//! Parser of expressions: text to steps on a stack, each with its column.
 
 use taceva_core::{shown, suggestion};
 
@@ -43,7 +43,7 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// Next letter that is no blank.
+    /// Next character that is not blank.
     fn peek(&mut self) -> Option<char> {
         while self
             .letters
@@ -66,7 +66,7 @@ impl Reader<'_> {
         self.steps.push((step, column));
     }
 
-    /// Operands joined by the operators of one rank, from the left.
+    /// Left-associative chain of operators of the same precedence.
     fn chain(
         &mut self,
         operators: [(char, Step); 2],
@@ -85,7 +85,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Counts a bracket, a sign or a power that another one is in.
+    /// Counts the nesting of a bracket, a sign or a power.
     fn deepen(&mut self) -> Result<(), ExpressionError> {
         self.depth += 1;
         match self.depth > DEEPEST {
@@ -105,7 +105,7 @@ impl Reader<'_> {
         self.chain([('*', Step::Multiply), ('/', Step::Divide)], Self::signed)
     }
 
-    /// A sign binds less than a power: -x^2 is -(x^2).
+    /// Parses a sign. A sign binds less than a power: -x^2 is -(x^2).
     fn signed(&mut self) -> Result<(), ExpressionError> {
         self.deepen()?;
         match self.peek() {
@@ -151,7 +151,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Place of the next letter that is no blank.
+    /// Position of the next character that is not blank.
     fn at_next(&mut self) -> usize {
         self.peek();
         self.at

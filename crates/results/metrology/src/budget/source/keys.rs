@@ -1,4 +1,4 @@
-//! Keys of a source that belong together.
+//! Checks of the keys of a source.
 
 use taceva_core::shown;
 
@@ -6,7 +6,7 @@ use super::Reader;
 use crate::budget::error::{BudgetError, BudgetProblem};
 use crate::budget::schema::WrittenSource;
 
-/// Figures that the mean of readings at one place does not lower.
+/// Figures that averaging readings at one place does not lower.
 const LASTING: [&str; 7] = [
     "error",
     "error.between",
@@ -17,14 +17,14 @@ const LASTING: [&str; 7] = [
     "certificate",
 ];
 
-/// True for these figures, and for components of a gauge study other than its repeatability.
+/// True for a figure that averaging does not lower, including gauge components other than repeatability.
 fn is_lasting(figure: &str) -> bool {
     let component = figure.rsplit_once('#').map(|(_, name)| name);
     LASTING.contains(&figure) || component.is_some_and(|name| name != "repeatability")
 }
 
 impl Reader<'_> {
-    /// Each source has one origin, and no key of another one.
+    /// Requires exactly one origin for each source, and no keys of another origin.
     pub(super) fn check_keys(&self, of: &WrittenSource) -> Result<(), BudgetError> {
         let origins = [
             of.from.is_some(),

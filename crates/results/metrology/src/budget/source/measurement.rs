@@ -1,4 +1,4 @@
-//! Sources that name a measured figure or the certificate.
+//! Sources that use a measured figure or the certificate.
 
 use taceva_core::shown;
 use toml::Spanned;
@@ -12,7 +12,7 @@ use crate::budget::shape::Shape;
 use crate::budget::text::value;
 
 impl Reader<'_> {
-    /// The measured figure that the source names.
+    /// Measured figure that the source names.
     pub(super) fn figure(&self, of: &WrittenSource) -> Result<Option<&Figure>, BudgetError> {
         let Some(from) = of
             .from

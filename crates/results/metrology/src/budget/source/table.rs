@@ -1,4 +1,4 @@
-//! Sources whose table has the numbers.
+//! Sources whose table states the numbers.
 
 use taceva_core::shown;
 use taceva_metrics::ExactSum;
@@ -22,7 +22,7 @@ const SHAPES: [&str; 5] = [
 ];
 
 impl Reader<'_> {
-    /// Numbers that the table itself states.
+    /// Numbers stated in the table.
     pub(super) fn stated_numbers(
         &self,
         of: &WrittenSource,
@@ -62,7 +62,7 @@ impl Reader<'_> {
         })
     }
 
-    /// u = s/√n of rows, with n − 1 degrees of freedom.
+    /// Mean of rows with u = s/√n and n − 1 degrees of freedom.
     fn of_rows(&self, rows: &Spanned<Vec<f64>>) -> Result<Numbers, BudgetError> {
         let values = rows.get_ref();
         if values.len() < 2 || values.iter().any(|value| !value.is_finite()) {

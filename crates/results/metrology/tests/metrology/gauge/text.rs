@@ -25,6 +25,6 @@ fn the_text_has_every_component_with_its_interval_and_the_remarks() {
     );
     assert!(text.contains("distinct categories: 4.875 [1.0"), "{text}");
     assert!(text.contains("rounded down to 4"), "{text}");
-    assert!(text.contains("note: reproducibility rests on 2 degrees of freedom, of 3 operators"));
+    assert!(text.contains("note: reproducibility has only 2 degrees of freedom, from 3 operators"));
     assert!(text.contains("note: interaction pooled with repeatability: p = 0.974 is above 0.25"));
 }

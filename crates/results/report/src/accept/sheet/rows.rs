@@ -1,4 +1,4 @@
-//! Rows of a data sheet: limits with what was found, and the uncertainties behind decisions.
+//! Rows of a data sheet: limits with findings, and the uncertainties of the decisions.
 
 use taceva_core::counted;
 use taceva_metrology::conformity::{Decision, Word};
@@ -70,7 +70,7 @@ impl Acceptance<'_> {
         self.findings.iter().any(|check| check.process.is_some())
     }
 
-    /// Uncertainty of each value with its coverage factor, and the rule of its limit.
+    /// Table of the uncertainty and coverage factor of each value, and of the rule of its limit.
     pub(super) fn uncertainties(&self) -> Table {
         let names = [
             "channel", "value", "unit", "u", "nu", "k", "U", "p_c", "rule",
@@ -131,7 +131,7 @@ impl Acceptance<'_> {
         notes
     }
 
-    /// Remark on accepted edits of the result or its recording, if there are any.
+    /// Remark on accepted edits of the result or its recording; `None` if there are none.
     pub(super) fn edits_note(&self) -> Option<String> {
         let edits = &self.study.edits;
         (!edits.is_empty()).then(|| format!("Edited by hand: {}.", edits.join("; ")))

@@ -2,12 +2,12 @@
 
 use crate::results::{Statement, Study, UNSTATED};
 
-/// Meaning of the words.
+/// Legend below a table, with the meaning of each word.
 pub(super) const LEGEND: &str = "Origins of the published numbers of a row. `one source`: the same source, conditions and definition. \
                                  `other conditions`: one source and definition. `other sources`: one definition. \
                                  `definitions differ`: not comparable, or a source states no definition.";
 
-/// Word for the published numbers called `quantity`; empty for fewer than two sensors that have them.
+/// Word for the origins of the published numbers called `quantity`; empty for fewer than two sensors with such a number.
 pub(super) fn of(studies: &[Study], quantity: &str) -> &'static str {
     let named = |study: &&Study| study.statements.iter().any(|of| of.name == quantity);
     if studies.iter().filter(named).count() < 2 {

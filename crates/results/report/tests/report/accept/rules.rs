@@ -221,7 +221,7 @@ fn settings_outside_their_range_are_refused_by_place_and_expectation() {
         ),
         (
             "least = 1.0",
-            "limit 1: the limits are 1 and 1, expected a lower one below an upper one",
+            "limit 1: the limits are 1 and 1, expected a lower limit below an upper limit",
         ),
     ] {
         let found = refusal(2, GUARDED, &format!("{most}\n{limit}"));
