@@ -5,7 +5,7 @@ mod coverage;
 mod error;
 mod instrument;
 #[cfg(feature = "serde")]
-mod written;
+mod schema;
 
 pub use certificate::{Certificate, StatedCorrelation};
 pub use coverage::Coverage;

@@ -6,5 +6,8 @@
 //! assert!((logarithm(exponential(1.5)) - 1.5).abs() < 1e-15);
 //! ```
 
-pub use crate::stats::exponential::exponential;
-pub use crate::stats::logarithm::logarithm;
+mod exponential;
+mod logarithm;
+
+pub use exponential::exponential;
+pub use logarithm::logarithm;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::deviance::{deviance, stirling_error};
 use super::gamma::least;
 use super::tails::Tails;
-use crate::stats::exponential::exponential;
+use crate::elementary::exponential;
 
 /// A point between 0 and 1 by its distances from both.
 #[derive(Clone, Copy, Debug)]

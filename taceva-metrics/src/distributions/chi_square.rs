@@ -5,7 +5,7 @@ use taceva_core::random::{Draws, open_unit};
 use super::gamma::gamma_tails;
 use super::normal;
 use super::tails::{Tails, positive_quantile};
-use crate::stats::logarithm::logarithm;
+use crate::elementary::logarithm;
 
 /// P(χ² ≤ x) for `freedom` degrees of freedom above 0.
 ///
@@ -74,7 +74,7 @@ pub fn draw(draws: Draws, counter: u64, freedom: f64) -> f64 {
     let (raised, lowered) = match shape < 1.0 {
         true => {
             let unit = open_unit(tries.bits(0));
-            let lowered = crate::stats::exponential::exponential(logarithm(unit) / shape);
+            let lowered = crate::elementary::exponential(logarithm(unit) / shape);
             (shape + 1.0, lowered)
         }
         false => (shape, 1.0),

@@ -1,6 +1,6 @@
 //! Factors of densities that keep their digits for any number of degrees of freedom.
 
-use crate::stats::logarithm::logarithm;
+use crate::elementary::logarithm;
 
 /// ln Γ(a + 1) − (a + ½) ln a + a − ½ ln 2π, a > 0: the error of Stirling's formula.
 pub(super) fn stirling_error(a: f64) -> f64 {
@@ -59,7 +59,7 @@ fn odd_powers(z: f64) -> f64 {
 /// e^w − 1 − w, without loss of digits near 0.
 pub(super) fn exponential_excess(w: f64) -> f64 {
     if w.abs() > 0.5 {
-        return crate::stats::exponential::exponential(w) - 1.0 - w;
+        return crate::elementary::exponential(w) - 1.0 - w;
     }
     // w²/2 (1 + w/3 (1 + w/4 (…))): the 16th term is below 2⁻⁶⁰.
     let mut term = 18.0;

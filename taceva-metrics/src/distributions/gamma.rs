@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::deviance::{deviance, stirling_error};
 use super::tails::Tails;
-use crate::stats::exponential::exponential;
+use crate::elementary::exponential;
 
 /// Regularised incomplete gamma functions P(a, x) and Q(a, x), a > 0, x ≥ 0.
 ///

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::deviance::{exponential_excess, stirling_error};
 use super::tails::{Tails, least_where};
 use super::{normal, student_t};
-use crate::stats::exponential::exponential;
+use crate::elementary::exponential;
 
 /// Both tails at `t`, by the trapezoidal rule for ∫ Φ(t s − δ) f(s) ds over the logarithm of s = √(χ² / ν).
 ///

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::gamma::gamma_tails;
-use crate::stats::exponential::exponential;
-use crate::stats::logarithm::logarithm;
+use crate::elementary::exponential;
+use crate::elementary::logarithm;
 
 /// P(Z ≤ z).
 ///

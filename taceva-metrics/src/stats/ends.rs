@@ -1,9 +1,8 @@
 //! Ends of an interval, computed on a scale without ends and transformed back.
 
-use super::exponential::exponential;
-use super::logarithm::logarithm;
 use super::student::quantile;
 use crate::count::as_f64;
+use crate::elementary::{exponential, logarithm};
 use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 use crate::score::{COVERAGE, Scale};

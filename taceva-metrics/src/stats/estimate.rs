@@ -3,10 +3,9 @@
 mod over_trainings;
 
 use super::error::ComparisonError;
-use super::exponential::exponential;
-use super::logarithm::logarithm;
 use super::sides::{Side, Sides};
 use super::student::quantile;
+use crate::elementary::{exponential, logarithm};
 use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{COVERAGE, Interval, Scale, Score};

@@ -1,7 +1,7 @@
 //! Student's noncentral t distribution, for limits of detection.
 
-use super::exponential::exponential;
 use super::student::{gamma_ratio, power, quantile, within};
+use crate::elementary::exponential;
 
 /// Risk of a false alarm, and of a miss.
 const RISK: f64 = 0.05;
