@@ -1,4 +1,4 @@
-//! Foreign text in messages, escaped so that it does not control a terminal.
+//! Escapes text from devices and files so that it cannot control the terminal.
 
 /// Escapes the control characters of `text`.
 pub(crate) fn shown(text: &str) -> String {

@@ -18,7 +18,7 @@ pub enum SourceError {
         doing: &'static str,
         /// Path of the file or folder.
         path: PathBuf,
-        /// Error of the system.
+        /// Underlying I/O error.
         source: io::Error,
     },
     /// The folder contains no frame.

@@ -6,7 +6,7 @@ use super::kernel::{ErrorUnits, ValueUnits};
 use super::sum::ExactSum;
 use crate::exact::streams::{Stream, Streams};
 
-/// Grids change once more than one row in this many did not fit, beyond [`FREE_STRAYS`].
+/// Number of rows on the grids that allow one row off them, in addition to [`FREE_STRAYS`].
 const ROWS_PER_STRAY: usize = 16;
 
 const FREE_STRAYS: usize = 16;
@@ -38,7 +38,7 @@ impl Pending {
         }
     }
 
-    /// Most rows that may miss these grids before others are chosen.
+    /// Maximum number of rows off these grids before other grids are chosen.
     pub(super) fn free_strays(&self) -> usize {
         FREE_STRAYS + self.rows_on_grids / ROWS_PER_STRAY
     }

@@ -1,4 +1,4 @@
-//! Families with the same sums for each channel on its own; such a family only defines its sums.
+//! Families that compute the same sums for each channel separately. Such a family only defines its sums.
 
 use std::collections::BTreeMap;
 
@@ -67,7 +67,7 @@ pub(crate) trait Channelwise: Send + 'static {
     }
 }
 
-/// The family of a [`Channelwise`] kind: its channels, and the planes of them as the mean of both axes.
+/// Family of a [`Channelwise`] kind, for channels and for planes. The score of a plane is the mean over both axes.
 pub(crate) struct ByChannel<K> {
     kind: K,
     positions: Vec<usize>,
@@ -161,7 +161,7 @@ impl<K: Channelwise> Family for ByChannel<K> {
     }
 }
 
-/// The pairs of a channel in `rows` that have both values, each with its row.
+/// Calls `add` with the row and pair of every sample in `rows` that has both values.
 pub(crate) fn each_pair(
     batch: &Batch,
     position: usize,

@@ -1,4 +1,4 @@
-//! Variation of a value between repeats with other random numbers.
+//! Variation of a value between repeats with different random numbers.
 
 use super::student::quantile;
 use crate::score::COVERAGE;
@@ -15,9 +15,9 @@ use crate::score::COVERAGE;
 pub struct Repeats {
     /// Mean of the values.
     pub mean: f64,
-    /// Standard deviation, with one degree of freedom less than there are values.
+    /// Sample standard deviation, with n − 1 degrees of freedom.
     pub standard_deviation: f64,
-    /// 95 % interval of the mean of infinitely many repeats: Student's, for normally distributed values.
+    /// 95 % confidence interval of the true mean (Student's t; assumes normal values).
     pub interval: [f64; 2],
 }
 
@@ -39,7 +39,7 @@ impl Repeats {
         let are_equal = values
             .windows(2)
             .all(|pair| pair[0].to_bits() == pair[1].to_bits());
-        // The sum of equal values is rounded, so that their mean may be another number: (0.1 + 0.1 + 0.1) / 3.
+        // Rounding may change the mean of equal values: (0.1 + 0.1 + 0.1) / 3.
         let mean = match are_equal {
             true => values[0],
             false => values.iter().sum::<f64>() / count,

@@ -61,7 +61,7 @@ impl JpegClip {
     }
 }
 
-/// Reads the bytes of a packet and parses their headers.
+/// Reads a packet and parses its JPEG header.
 pub(crate) fn read_packet(
     source: &Source,
     packet: Packet,

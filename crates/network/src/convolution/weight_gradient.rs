@@ -15,7 +15,7 @@ pub(crate) enum WeightGradient {
 }
 
 impl WeightGradient {
-    /// Pass from pictures of layout `input` and gradients of layout `output`.
+    /// Weight-gradient pass for inputs of layout `input` and output gradients of layout `output`.
     pub(crate) fn new(
         convolution: Convolution,
         input: Layout,

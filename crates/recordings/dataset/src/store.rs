@@ -1,4 +1,4 @@
-//! Final step of every dataset: writes its table, and its header with the digests of table, frames and signals.
+//! Final step of writing a dataset: its table, and its header with the digests of table, frames and signals.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -44,7 +44,7 @@ pub struct Beside {
     pub sources: Option<SourcesInfo>,
     /// States of the recording before each addition of rows.
     pub extended: Vec<Extension>,
-    /// Edits of the header accepted before rows were added.
+    /// Header edits that were accepted before rows were added.
     pub history: Vec<Edit>,
 }
 

@@ -2,7 +2,7 @@
 
 use taceva_core::{SourceUnit, Unit};
 
-/// Unit in the name of a column, in brackets or behind a separator.
+/// Unit in the name of a column, in brackets or after a separator.
 ///
 /// Lower-case spellings may be ambiguous: `torque_nm` is in N·m, `depth_nm` in nanometres.
 #[derive(Clone, Debug, PartialEq)]
@@ -215,8 +215,8 @@ impl UnitSuffix {
         self.units.iter().all(is_raw)
     }
 
-    /// Contradiction between the name and a map that states `unit`. `None` if they agree, or if the name has another quantity: an array `ft
-    /// [N]` also holds torques.
+    /// Contradiction between the name and a map that states `unit`. `None` if they agree, or if the name states a different quantity: an array
+    /// `ft [N]` also contains torques.
     pub(crate) fn contradiction(&self, unit: &SourceUnit) -> Option<String> {
         let is_same = |own: &SourceUnit| {
             own.unit() == unit.unit() && own.convert(1.0).to_bits() == unit.convert(1.0).to_bits()
@@ -318,7 +318,7 @@ fn in_brackets(name: &str) -> Option<UnitSuffix> {
     None
 }
 
-/// Unit behind `_`, `-`, a comma or a blank in a part of a name. With `is_alone` the part may be only a unit.
+/// Unit after `_`, `-`, a comma or a space. With `is_alone`, the unit may be the whole part.
 fn behind_separator(part: &str, is_alone: bool) -> Option<UnitSuffix> {
     let separators = ['_', '-', ' ', ','];
     let mut tokens: Vec<(usize, &str)> = Vec::new();

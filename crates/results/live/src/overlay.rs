@@ -15,14 +15,14 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Overlay {
-    /// Time of the frame, s, by the clock that stamps frames.
+    /// Timestamp of the frame, s, on the clock that stamps frames.
     #[serde(rename = "t_s")]
     pub stamp_s: f64,
     /// The value of each channel.
     pub values: Vec<PredictedValue>,
-    /// Distance of the picture from the training data, 1 at the limit; `None` if the model does not state it.
+    /// Distance of the frame from the training data, 1 at the limit; `None` if the model cannot compute it.
     pub distance: Option<f64>,
-    /// True outside the training data; `None` if the model does not state it.
+    /// True if the frame is outside the training data; `None` if the model cannot tell.
     pub outside: Option<bool>,
 }
 
@@ -39,7 +39,7 @@ pub struct PredictedValue {
 }
 
 impl PredictedValue {
-    /// A number of `channel` in `unit`.
+    /// Creates the predicted value of `channel` in `unit`.
     pub fn new(channel: &str, value: f64, unit: &str) -> PredictedValue {
         PredictedValue {
             channel: channel.to_owned(),
@@ -50,7 +50,7 @@ impl PredictedValue {
 }
 
 impl Overlay {
-    /// Predictions of a frame with the stamp `stamp_s`, s, by a model that does not state its distance from the training data.
+    /// Creates the predictions of the frame with timestamp `stamp_s`, s, without a distance from the training data.
     pub fn new(stamp_s: f64, values: Vec<PredictedValue>) -> Overlay {
         Overlay {
             stamp_s,
@@ -60,7 +60,7 @@ impl Overlay {
         }
     }
 
-    /// The same predictions at `distance` from the training data.
+    /// Adds the `distance` from the training data.
     #[must_use]
     pub fn with_distance(self, distance: f64, outside: bool) -> Overlay {
         Overlay {
@@ -70,7 +70,7 @@ impl Overlay {
         }
     }
 
-    /// The value of a header: ASCII JSON, since browsers read headers as Latin-1.
+    /// Header value: ASCII JSON, because browsers read headers as Latin-1.
     pub(crate) fn header(&self) -> String {
         let json = serde_json::to_string(self).unwrap_or_default();
         let mut header = String::with_capacity(json.len());

@@ -12,11 +12,11 @@ pub(crate) struct Sight {
     pub(crate) sharpness: f64,
 }
 
-/// Maximum rows and columns that are sampled: every second of a frame of 640 by 480.
+/// Maximum number of sampled rows and columns; a 640×480 frame is sampled at every second pixel.
 const SIDE: usize = 320;
 
 impl Sight {
-    /// Reads every pixel for saturation, and a grid of them for sharpness.
+    /// Computes saturation from every pixel, and sharpness from a grid of pixels.
     pub(crate) fn of(frame: &Frame) -> Sight {
         let info = frame.info();
         let (depth, top) = (info.format.samples(), info.format.full_scale());
@@ -30,7 +30,7 @@ impl Sight {
         };
         let [width, height] = [info.width, info.height].map(|side| side as usize);
         let bytes = info.format.bytes_per_sample();
-        // The high byte of a number: 8 bits are enough for focus.
+        // The high byte of the value: 8 bits are enough for focus.
         let at = |x: usize, y: usize| {
             let number = (y * width + x) * depth * bytes + (bytes - 1);
             frame.bytes().get(number).copied().map_or(0, i64::from)

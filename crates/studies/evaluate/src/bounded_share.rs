@@ -11,7 +11,7 @@ pub struct Bounded {
     counts: BTreeMap<String, Counts>,
 }
 
-/// Number of predictions beyond the bounds, and of all predictions.
+/// Numbers of predictions of one channel: beyond the bounds, and in total.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Counts {
@@ -29,7 +29,7 @@ impl Bounded {
         }
     }
 
-    /// The sum of both counts.
+    /// Adds the counts of `other`, channel by channel.
     pub fn joined(mut self, other: &Bounded) -> Bounded {
         for (channel, counts) in &other.counts {
             let own = self.counts.entry(channel.clone()).or_default();
@@ -44,13 +44,13 @@ impl Bounded {
         self.counts.is_empty()
     }
 
-    /// The share of predictions of `channel` that lie beyond the bounds, if there are any.
+    /// Share of predictions of `channel` beyond the bounds; `None` without predictions.
     pub fn share(&self, channel: &str) -> Option<f64> {
         let counts = self.counts.get(channel).filter(|counts| counts.of > 0)?;
         Some(counts.beyond as f64 / counts.of as f64)
     }
 
-    /// The share of every channel that has predictions.
+    /// Share of each channel that has predictions.
     pub fn shares(&self) -> BTreeMap<String, f64> {
         let channels = self.counts.keys();
         channels

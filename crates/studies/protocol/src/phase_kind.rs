@@ -9,7 +9,7 @@ pub enum PhaseKind {
     Idle,
     /// Surface height, measured at the same points on every unit.
     SurfaceMap,
-    /// Presses for fitting and testing a model, straight and sheared.
+    /// Normal and sheared presses for fitting and testing a model.
     Calibration,
     /// Held-out presses all over the surface.
     Spatial,
@@ -17,9 +17,9 @@ pub enum PhaseKind {
     LightSweep,
     /// Points pressed repeatedly.
     Repeatability,
-    /// Loading into the gel and unloading.
+    /// Presses recorded while loading and unloading.
     LoadUnload,
-    /// Boards of every spacing.
+    /// Presses on boards of every spacing.
     Gratings,
 }
 

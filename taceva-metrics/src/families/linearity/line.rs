@@ -155,7 +155,7 @@ impl Fit {
 }
 
 impl Line {
-    /// The line of the pairs in `sums`.
+    /// Least-squares line through the pairs in `sums`.
     ///
     /// # Errors
     /// [`UndefinedReason`] for fewer than three samples, or a truth that does not vary.

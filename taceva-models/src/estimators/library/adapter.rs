@@ -35,7 +35,7 @@ pub(crate) struct Number {
 pub(crate) enum Unset {
     /// Fixed value.
     Is(f64),
-    /// Values among which each channel's is chosen by error, the plainest last.
+    /// Candidate values; for each channel the one with the smallest held-out error is used. Simplest last.
     ChosenAmong(&'static [f64]),
 }
 

@@ -36,7 +36,7 @@ struct Block {
 }
 
 impl WeightGradient {
-    /// Pass from pictures of layout `input` and gradients of layout `output`.
+    /// Weight-gradient pass for inputs of layout `input` and output gradients of layout `output`.
     pub(crate) fn new(convolution: Convolution, input: Layout, output: Layout) -> WeightGradient {
         let Convolution { inputs, kernel, .. } = convolution;
         let picture = output.picture;

@@ -30,7 +30,7 @@ pub(crate) struct WeightGradient {
 }
 
 impl WeightGradient {
-    /// Pass from pictures of layout `input` and gradients of layout `output`.
+    /// Weight-gradient pass for inputs of layout `input` and output gradients of layout `output`.
     pub(crate) fn new(input: Layout, output: Layout) -> WeightGradient {
         WeightGradient { input, output }
     }

@@ -1,4 +1,4 @@
-//! Varying parts of similar file names: `x+0.5_007.png` is a number behind `x` and a counter.
+//! Varying parts of similar file names: `x+0.5_007.png` has a number after `x` and a counter.
 
 use std::collections::BTreeSet;
 
@@ -162,7 +162,7 @@ impl PathParts {
     }
 }
 
-/// Splits the shared ending, from the last dot on, off the names.
+/// Splits the shared file extension off the names.
 fn common_ending<'a>(names: &[&'a str]) -> (BTreeSet<&'a str>, &'a str) {
     let ending = names[0].rfind('.').map_or("", |at| &names[0][at..]);
     let stems: Option<BTreeSet<&str>> =
@@ -173,7 +173,7 @@ fn common_ending<'a>(names: &[&'a str]) -> (BTreeSet<&'a str>, &'a str) {
     }
 }
 
-/// Splits a name into tokens. A sign behind letters belongs to the following number.
+/// Splits a name into tokens. A sign at the start, or after a letter or `_`, belongs to the number that follows.
 fn tokens(name: &str) -> Vec<Token<'_>> {
     let bytes = name.as_bytes();
     let is_digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);

@@ -11,10 +11,10 @@ use crate::results::Study;
 
 use super::SIX;
 
-/// Light scene of the training.
+/// Light scene in which the models were trained.
 const LEARNT_IN: &str = SensorFacts::REFERENCE_SCENE;
 
-/// A channel of all sensors that ambient light reaches.
+/// Scores of one channel, for all sensors that ambient light reaches.
 struct Sheet {
     channel: &'static str,
     /// Lighting scores by the position of the study.

@@ -4,7 +4,7 @@
 //! it at a collision. This saves the rest after each step. The remaining steps have the same heights as in a search without guard.
 //!
 //! The readings near the contact are kept, because depths may count from a surface that is fitted to them. Without guard threads they lie a
-//! segment apart. With them the strides are longer, so the tip passes the last steps again by segments where a metric reads depths.
+//! segment apart. With them the strides are longer, so the tip repeats the last steps segment by segment if a metric reads depths.
 
 use taceva_core::Millimetre;
 
@@ -16,11 +16,11 @@ use super::supervisor::MotionStage;
 use super::surface_fit::DepthForce;
 use super::tip::{Step, Tip};
 
-/// Greatest rise of the gel above the highest height felt so far, in mm: a millimetre on 20 is 3 degrees.
+/// Maximum rise of the gel above the greatest contact height so far, in mm. A slope of 1 mm in 20 mm is 3 degrees.
 const UNEVEN_MM: f64 = 0.4;
-/// Steps above the first contact whose readings the height of the gel is fitted to.
+/// Number of steps above the first contact whose readings are used to fit the gel height.
 const FITTED_STEPS: f64 = 6.0;
-/// Steps that a guarded tip passes again by segments.
+/// Number of steps that a guarded tip repeats segment by segment.
 const PASSED_AGAIN_STEPS: f64 = 2.0;
 
 /// First contact of a press.
@@ -39,9 +39,9 @@ impl Tip<'_> {
         Ok(look.map(|look| Contact { look, readings }))
     }
 
-    /// Height from which the depths of a press count, after its first contact; the limit of depth counts from it from now on.
+    /// Returns the zero height of the depths of a press, after its first contact. The depth limit counts from this height from now on.
     ///
-    /// A guarded tip passes the last steps again if `is_depth_read`.
+    /// A guarded tip repeats the last steps if `is_depth_read`.
     pub(super) fn depth_zero(&mut self, contact: Contact, is_depth_read: bool) -> Step<DepthZero> {
         let contact_mm = contact.look.pose.position.z.0;
         let readings = match self.is_guarded && is_depth_read {
@@ -67,7 +67,7 @@ impl Tip<'_> {
         Ok((done?, readings))
     }
 
-    /// Rises by some steps in one motion, and descends by segments to where the tip was.
+    /// Rises [`PASSED_AGAIN_STEPS`] steps in one motion, then descends segment by segment to the starting height.
     fn pass_again(&mut self) -> Step<()> {
         let end_mm = self.target.position.z.0;
         let mut above = self.target;
@@ -129,7 +129,7 @@ impl Tip<'_> {
             Err(StopCause::Tripped(Trip::UnexpectedContact { .. })) => {
                 self.surface_mm = None;
                 self.retreat()?;
-                // What was touched is not the gel.
+                // The tip touched something other than the gel.
                 self.readings = Some(Vec::new());
                 Ok(0)
             }
@@ -142,7 +142,7 @@ impl Tip<'_> {
         start_mm + f64::from(step) * self.pace.step_mm
     }
 
-    /// Descends through air in one motion, which a robot with expiring motions stops by itself if this host falls silent.
+    /// Descends through air in one motion. A robot with expiring motions stops by itself if this host stops sending.
     fn descend_through_air(&mut self, z_mm: f64) -> Step<()> {
         if self.robot.expiring_motion().is_none() {
             return self.descend(z_mm);
@@ -172,7 +172,7 @@ mod tests {
         })
     }
 
-    /// Height of contact, and the motions of the search, after `know` has set the knowledge of the gel.
+    /// Contact height and motions of the search, after `know` has set the known gel height.
     fn found(know: impl FnOnce(&mut Tip<'_>, &Rig)) -> (f64, Vec<Motion>) {
         let rig = over_a_gel();
         let contact = with_tip(&rig, |tip| {
