@@ -23,7 +23,7 @@ pub(crate) enum CacheSubject {
     Prune(CachePrune),
 }
 
-/// The file stages.json of a run lists its entries. This command reads the runs in the folder `runs`, and those named by --run.
+/// Each run lists the cache entries it uses in stages.json. This command reads the runs in the folder `runs`, and those named by --run.
 #[derive(Debug, Args)]
 pub(crate) struct CacheList {
     #[command(flatten)]

@@ -127,7 +127,7 @@ impl Viewer for Shown {
             }
             Event::Halted(trip) => live.stage(&format!("halted: {trip}")),
             Event::ForceLost(words) => live.stage(words),
-            Event::Unheld => live.stage("hold the enabling switch: nothing moves until it is held"),
+            Event::Unheld => live.stage("hold the enabling switch; nothing moves until you do"),
             Event::Mounted(specimen) => live.stage(&format!("mounted: {specimen}")),
             Event::Lit(light) => live.stage(&format!("light {light}")),
             _ => {}

@@ -48,7 +48,7 @@ impl<I: Read + Waits> Operator for Terminal<I> {
     fn call_to_hold(&mut self, patience_s: f64) {
         progress::without_bar(|| {
             (self.say)(&format!(
-                "hold the enabling switch: nothing moves until it is held, for {patience_s} s at most"
+                "hold the enabling switch within {patience_s} s; nothing moves until you do"
             ));
         });
     }

@@ -59,7 +59,7 @@ pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::
     for (device, latency) in [("force", force), ("sensor", sensor)] {
         writeln!(
             out,
-            "{device:<7} {:+.1} ms after the robot, to ± {:.1} ms; a single tap to ± {:.1} ms",
+            "{device:<7} {:+.1} ms after the robot (± {:.1} ms; single tap ± {:.1} ms)",
             latency.after_robot_ms, latency.error_ms, latency.spread_ms
         )?;
     }
@@ -191,7 +191,7 @@ fn state(check: &RigCheck, device: &str) -> &'static str {
 fn measured(stream: &Stream, unit: &str, out: &mut dyn Write) -> io::Result<()> {
     write!(
         out,
-        "{:.1} Hz, longest pause {:.1} ms, at most {:.1} ms late",
+        "{:.1} Hz, longest pause {:.1} ms, readings arrive at most {:.1} ms after their stamp",
         stream.rate_hz, stream.gap_ms, stream.late_ms
     )?;
     if let Some(noise) = stream.noise {

@@ -91,8 +91,7 @@ fn draws_that_contradict_the_first_order_give_the_interval_and_every_format_says
     let words = "budget budget.toml --mc 100000 --seed 3";
     for format in FORMATS {
         let written = bench.ok(&format!("{words} --format {format}"));
-        let reason =
-            "the interval is of the draws: the distribution of the value is neither normal";
+        let reason = "the interval is taken from the Monte Carlo draws: the distribution of the value is neither normal";
         assert!(written.contains(reason), "{format}: {written}");
     }
     let budget = bench.json(words);

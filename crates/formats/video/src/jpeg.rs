@@ -28,7 +28,7 @@ pub(crate) fn read_header(bytes: &[u8]) -> Result<JpegHeader, (usize, String)> {
             return Err(cut());
         };
         if lead != 0xff {
-            return Err((at, format!("0x{lead:02x}, expected a marker of JPEG")));
+            return Err((at, format!("0x{lead:02x}, expected a JPEG marker")));
         }
         match marker {
             // Padding before a marker.
@@ -42,7 +42,10 @@ pub(crate) fn read_header(bytes: &[u8]) -> Result<JpegHeader, (usize, String)> {
                 continue;
             }
             0xd8 | 0xd9 | 0x00 => {
-                return Err((at, format!("marker 0x{marker:02x} is before the scan")));
+                return Err((
+                    at,
+                    format!("unexpected marker 0x{marker:02x} before the scan"),
+                ));
             }
             _ => {}
         }

@@ -1,5 +1,6 @@
 //! Variance components of the residuals of a result.
 
+use taceva_core::shown;
 use taceva_metrology::budget::{Components, Residuals};
 use taceva_results::Samples;
 
@@ -26,7 +27,10 @@ pub fn residual_components(
 ) -> Result<Components, String> {
     let pairs = samples.channel(channel);
     let Some(pairs) = pairs.filter(|of| of.is_predicted()) else {
-        return Err("the samples have no prediction of it".to_owned());
+        return Err(format!(
+            "the samples have no prediction of `{}`",
+            shown(channel)
+        ));
     };
     if !samples.has(column) {
         return Err(format!("the samples have no column `{column}`"));

@@ -46,7 +46,7 @@ pub(crate) fn blosc(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
             damaged(
                 packed.len(),
                 "the end".to_owned(),
-                "the number of stored bytes",
+                &format!("{bytes} stored bytes"),
             )
         });
     }

@@ -137,7 +137,7 @@ fn what_is_no_array_of_frames_is_refused_in_words() {
         (
             npy("|u1", "(2, 1, 1)", &[0; 2]),
             "array = \"frames\"",
-            "there is no array `frames` for the frames",
+            "no array `frames` of frames in",
         ),
         (
             npy("|u1", "(2, 1, 1)", &[0; 2]),

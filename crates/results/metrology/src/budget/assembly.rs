@@ -124,7 +124,7 @@ impl BudgetText {
             let remedy = match (reason, budget.method) {
                 (Undefined::NoUncertainty, _) => "U is 0",
                 (_, Method::FirstOrder) => "ask for Monte Carlo draws",
-                (_, Method::MonteCarlo) => "the interval is of the draws",
+                (_, Method::MonteCarlo) => "the interval is taken from the Monte Carlo draws",
             };
             budget.warn(format!("nu_eff is undefined: {reason}; {remedy}"));
         }
@@ -234,7 +234,7 @@ impl Budget {
             self.method = Method::MonteCarlo;
             if self.k.is_some() {
                 self.warn(format!(
-                    "the interval is of the draws: {}",
+                    "the interval is taken from the Monte Carlo draws: {}",
                     reason(&drawn, inputs, combined)
                 ));
             }

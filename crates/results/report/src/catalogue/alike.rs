@@ -11,7 +11,7 @@ use super::{Published, Sensor};
 const SAME: [(&str, &str); 6] = [
     (
         "mae/1",
-        "mean of |truth - prediction|; of a plane the mean of both axes",
+        "mean of |truth - prediction|; for a plane, the mean over both axes",
     ),
     ("r2/1", "1 - residual over total sum of squares"),
     (

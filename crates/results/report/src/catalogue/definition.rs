@@ -4,7 +4,7 @@
 const DEFINITIONS: &[(&str, &str)] = &[
     (
         "mae",
-        "mean of |truth - prediction|; of a plane the mean of both axes",
+        "mean of |truth - prediction|; for a plane, the mean over both axes",
     ),
     ("r2", "1 - residual over total sum of squares"),
     (

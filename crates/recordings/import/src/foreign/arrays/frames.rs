@@ -70,10 +70,7 @@ impl ArrayPictures {
         let mut found = Vec::with_capacity(arrays.len());
         for name in arrays {
             let info = file.info(&name).ok_or_else(|| {
-                format!(
-                    "there is no array `{name}`; there are {}",
-                    listed(&file.names())
-                )
+                format!("no array `{name}`; available: {}", listed(&file.names()))
             })?;
             let (form, row_bytes) =
                 form_of(info, names).map_err(|problem| format!("`{name}`: {problem}"))?;

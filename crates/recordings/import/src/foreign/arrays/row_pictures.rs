@@ -43,7 +43,7 @@ impl ArrayRows {
                 found.map(|(path, _)| path).ok_or_else(|| {
                     self.why_absent(name).unwrap_or_else(|| {
                         format!(
-                            "there is no array `{name}` for the frames in {}; there are {}",
+                            "no array `{name}` of frames in {}; available: {}",
                             match group.path.as_str() {
                                 "" => "it",
                                 path => path,

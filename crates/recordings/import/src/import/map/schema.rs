@@ -98,7 +98,7 @@ fn refused_name(name: &str) -> String {
     match IdMap::KEYS.contains(&name) {
         true => format!("`{name}` is a key of [ids]: write this line there"),
         false => format!(
-            "`{name}` is taken or not valid: expected a letter, then letters, digits or `_`"
+            "`{name}` is reserved or invalid: expected a letter, then letters, digits or `_`"
         ),
     }
 }

@@ -124,7 +124,7 @@ impl Check<'_> {
                 return Err(self.at(
                     offset,
                     &format!(
-                        "`{}` is taken or not valid as a name of a join: expected letters, digits or `_`",
+                        "join name `{}` is reserved or invalid: expected letters, digits or `_`, and not path, row, file or key",
                         join.name
                     ),
                 ));

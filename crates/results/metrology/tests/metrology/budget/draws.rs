@@ -75,7 +75,7 @@ fn one_rectangle_ten_times_as_wide_makes_the_interval_17_0() {
         );
     }
     assert!(!found.validated && budget.method == Method::MonteCarlo);
-    let said = "the interval is of the draws: the distribution of the value is neither normal nor Student's";
+    let said = "the interval is taken from the Monte Carlo draws: the distribution of the value is neither normal nor Student's";
     assert!(
         budget.warnings.iter().any(|warning| warning == said),
         "{:?}",
@@ -149,8 +149,7 @@ fn the_mass_of_9_3_misses_29_percent_of_its_uncertainty_in_first_order() {
         found.shortest
     );
     assert!(!found.validated);
-    let said =
-        "the interval is of the draws: linear terms miss 29 % of u: interaction of rho_a and rho_W";
+    let said = "the interval is taken from the Monte Carlo draws: linear terms miss 29 % of u: interaction of rho_a and rho_W";
     assert!(
         budget.warnings.iter().any(|warning| warning == said),
         "{:?}",

@@ -79,7 +79,7 @@ fn skill(studies: &[Study]) -> String {
         ),
     };
     format!(
-        " Scores of predictions are compared only where the model has skill: on samples that the model had not seen, the lower end of the 95 % interval of 1 − MSE(model) / MSE(constant) exceeds zero on each channel of the score. The interval of a share of right answers (sr, and tolerance where the constant is known) must also exceed the share that a constant answer reaches. {marked}."
+        " Scores of predictions are compared only where the model has skill: on samples that the model had not seen, the lower end of the 95 % interval of 1 − MSE(model) / MSE(constant) exceeds zero on each channel of the score. For success rates (sr, and tolerance if the constant is known), the interval must also lie above the rate of a constant answer. {marked}."
     )
 }
 
