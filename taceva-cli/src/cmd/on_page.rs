@@ -123,7 +123,7 @@ impl Viewer for Shown {
                 live.lost(retried, 0, true);
             }
             Event::FrameFrozen => {
-                live.stage("the camera repeats a frame: the press is broken off");
+                live.stage("the camera repeats a frame: press cancelled");
             }
             Event::Halted(trip) => live.stage(&format!("halted: {trip}")),
             Event::ForceLost(words) => live.stage(words),

@@ -38,11 +38,11 @@ pub(crate) trait Channelwise: Send + 'static {
     fn to_record(&self, sums: &Self::Sums) -> Record;
     /// Reads the record of a state.
     fn read_record(&self, record: &Record) -> Result<Self::Sums, String>;
-    /// Number of samples that count.
+    /// Number of samples used.
     fn count(&self, sums: &Self::Sums) -> u64;
     /// Number of samples skipped for an unusable value.
     fn invalid(&self, sums: &Self::Sums) -> u64;
-    /// The numbers of `metric`.
+    /// Values of `metric`.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers;
     /// As [`Family::resampled`].
     fn resampled(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers {
@@ -61,7 +61,7 @@ pub(crate) trait Channelwise: Send + 'static {
     fn inapplicable(&self, _output: &Output) -> Option<InapplicableReason> {
         None
     }
-    /// Details of the score other than its numbers.
+    /// Details of the score other than its values.
     fn details(&self, _metric: &Metric, _output: &Output, _parts: &[&Self::Sums]) -> Details {
         Details::default()
     }
@@ -75,7 +75,7 @@ pub(crate) struct ByChannel<K> {
 }
 
 impl<K: Channelwise> ByChannel<K> {
-    /// The channels of `plan` that the kind takes.
+    /// Channels of `plan` that the kind covers.
     pub(crate) fn new(kind: K, plan: &MetricPlan) -> ByChannel<K> {
         let channels = plan.channels().iter().enumerate();
         let positions: Vec<usize> = channels

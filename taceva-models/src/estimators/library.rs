@@ -90,7 +90,7 @@ pub(crate) trait LibraryLearner: Send + Sync {
     /// Settings shared by all library models.
     fn settings(&self) -> LibrarySettings;
 
-    /// Setting chosen by error with its candidate values, the plainest last; one value if the user set it. `None` without such a setting.
+    /// Setting chosen by held-out error, with its candidate values, simplest last; one value if the user set it. `None` without such a setting.
     fn candidates(&self) -> Option<(&'static str, Vec<f64>)> {
         None
     }

@@ -17,7 +17,7 @@ pub(crate) struct JpegHeader {
 /// Byte offset and fault.
 pub(crate) fn read_header(bytes: &[u8]) -> Result<JpegHeader, (usize, String)> {
     if bytes.get(..2) != Some(&[0xff, 0xd8]) {
-        return Err((0, "no JPEG begins here".to_owned()));
+        return Err((0, "expected the start of a JPEG".to_owned()));
     }
     let mut at = 2;
     let mut frame = None;

@@ -18,7 +18,7 @@ pub struct Overlay {
     /// Timestamp of the frame, s, on the clock that stamps frames.
     #[serde(rename = "t_s")]
     pub stamp_s: f64,
-    /// The value of each channel.
+    /// Predicted value of each channel.
     pub values: Vec<PredictedValue>,
     /// Distance of the frame from the training data, 1 at the limit; `None` if the model cannot compute it.
     pub distance: Option<f64>,
@@ -30,11 +30,11 @@ pub struct Overlay {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct PredictedValue {
-    /// The channel, such as `Fz`.
+    /// Name of the channel, such as `Fz`.
     pub channel: String,
-    /// The number.
+    /// Predicted value, in `unit`.
     pub value: f64,
-    /// The symbol of its unit, such as `N`.
+    /// Symbol of the unit, such as `N`.
     pub unit: String,
 }
 

@@ -7,8 +7,8 @@ use taceva_core::Frame;
 pub(crate) struct Sight {
     /// Share of values at full scale, 0 to 1, as `taceva check` counts it.
     pub(crate) saturated: f64,
-    /// Mean square of the Laplacian (4 times a pixel minus its four neighbours) of the first colour, in steps² of 8 bits. It grows until
-    /// the picture is in focus, and cannot be compared between scenes.
+    /// Mean square of the Laplacian (4 times a pixel minus its four neighbours) of the first colour, in steps² of 8 bits. It is
+    /// greatest when the picture is in focus, and cannot be compared between scenes.
     pub(crate) sharpness: f64,
 }
 

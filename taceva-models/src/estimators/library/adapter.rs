@@ -39,7 +39,7 @@ pub(crate) enum Unset {
     ChosenAmong(&'static [f64]),
 }
 
-/// Values of an adapter's settings. `None` for a setting chosen by error.
+/// Values of an adapter's settings. `None` for a setting chosen by held-out error.
 pub(crate) struct Numbers<'a> {
     adapter: &'a Adapter,
     values: &'a [Option<f64>],
@@ -71,7 +71,7 @@ impl Adapter {
 }
 
 impl Number {
-    /// Value in `settings`. `None` if it is chosen by error.
+    /// Value in `settings`. `None` if it is chosen by held-out error.
     fn of(&self, settings: &ModelSettings) -> Result<Option<f64>, SettingError> {
         let [least, greatest] = self.range;
         let read = |text: &str| {
@@ -90,7 +90,7 @@ impl Number {
 }
 
 impl Numbers<'_> {
-    /// Value of a setting; NaN if it is chosen by error.
+    /// Value of a setting; NaN if it is chosen by held-out error.
     pub(crate) fn real(&self, number: &Number) -> f64 {
         let mut numbers = self.adapter.numbers.iter();
         let place = numbers.position(|known| known.info.key == number.info.key);

@@ -22,7 +22,7 @@ pub(crate) fn blosc(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
         |at: usize, found: String, expected: &str| Problem::damaged(at as u64, found, expected);
     let header = packed
         .get(..HEADER_BYTES)
-        .ok_or_else(|| damaged(packed.len(), "the end".to_owned(), "the header of Blosc"))?;
+        .ok_or_else(|| damaged(packed.len(), "the end".to_owned(), "a Blosc header"))?;
     let number = |at: usize| number(packed, at).unwrap_or(0);
     let (version, flags, element) = (header[0], header[2], usize::from(header[3]));
     let (bytes, block_bytes, packed_bytes) = (number(4), number(8), number(12));
@@ -88,7 +88,7 @@ impl Chunk<'_> {
         let mut at = start;
         let stream_bytes = into.len() / streams;
         for stream in into.chunks_exact_mut(stream_bytes) {
-            let cut = || Problem::damaged(at as u64, "the end", "a stream of Blosc");
+            let cut = || Problem::damaged(at as u64, "the end", "a Blosc stream");
             let length = number(self.packed, at).ok_or_else(cut)?;
             let end = at
                 .checked_add(4)

@@ -65,7 +65,7 @@ impl PathParts {
         plain.replace(":number}", "}").replace('{', "{path.")
     }
 
-    /// Letters directly behind the part called `name`, usually its unit.
+    /// Letters directly after the part called `name`, usually its unit.
     pub(super) fn letters_behind(&self, name: &str) -> Option<&str> {
         let (_, behind) = self.pattern.split_once(&format!("{{{name}:"))?;
         let (_, behind) = behind.split_once('}')?;
@@ -110,7 +110,7 @@ impl PathParts {
                 .enumerate()
                 .rev()
                 .find_map(|(before, token)| match token {
-                    // Letters directly behind a number are its unit.
+                    // Letters directly after a number are its unit.
                     Token::Letters(_)
                         if before > 0 && matches!(first[before - 1], Token::Number(_)) =>
                     {
