@@ -55,7 +55,7 @@ impl Models {
         self
     }
 
-    /// All compiled models, the plainest first, library models last.
+    /// All compiled models, the simplest first, library models last.
     pub fn compiled(&self) -> impl Iterator<Item = &'static ModelInfo> + '_ {
         let of_libraries = self.libraries.iter().map(|model| &model.info);
         ALL.iter().chain(of_libraries)

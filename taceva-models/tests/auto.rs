@@ -101,7 +101,7 @@ fn what_a_network_alone_sees_is_given_to_the_network_after_one_look() {
 }
 
 #[test]
-fn where_nothing_is_learnable_the_plainest_is_taken() {
+fn where_nothing_is_learnable_the_simplest_is_taken() {
     // Each picture has the labels of another picture.
     let recording = hidden(100, 2);
     let others: Vec<usize> = (0..100).map(|row| (37 * row + 11) % 100).collect();

@@ -38,7 +38,7 @@ const LANDMARKS: SettingInfo = SettingInfo {
     about: "greatest number of landmarks: training samples with which all samples are compared",
 };
 
-/// Kernel lengths to try, in typical distances of a sample from the mean, the plainest last.
+/// Kernel lengths to try, in typical distances of a sample from the mean, the simplest last.
 const LENGTHS: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
 
 /// Settings shared by all kernel methods.

@@ -48,7 +48,7 @@ pub(crate) fn library_of(name: &str) -> Option<&'static str> {
     LIBRARIES.into_iter().find(|known| *known == library)
 }
 
-/// All models of linfa and smartcore in this build, the plainest of each first. Empty without the features `linfa` and `smartcore`.
+/// All models of linfa and smartcore in this build, the simplest of each first. Empty without the features `linfa` and `smartcore`.
 ///
 /// ```
 /// use taceva_models::{Models, library_models};

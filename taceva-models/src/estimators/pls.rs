@@ -84,7 +84,7 @@ impl Pls {
         })
     }
 
-    /// Errors for each number of directions, descending to none: of equal errors the last, plainest one is taken.
+    /// Errors for each number of directions, descending to none: of equal errors the last, simplest one is taken.
     fn choose(
         &self,
         problem: &Problem<'_>,

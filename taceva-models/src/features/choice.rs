@@ -1,4 +1,4 @@
-//! Choice of open feature settings: the plainest features that cost no accuracy.
+//! Choice of open feature settings: the simplest features that cost no accuracy.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -36,7 +36,7 @@ impl OpenFeatures {
         (open.size || open.difference).then_some((open, rest))
     }
 
-    /// Features to try around `spec`, the plainest first: grids a quarter, half, as fine and twice as fine, as far as frames of `info`
+    /// Features to try around `spec`, the simplest first: grids a quarter, half, as fine and twice as fine, as far as frames of `info`
     /// allow. Signals have one grid. Each is tried without and, if there is a reference, with the difference from it.
     ///
     /// ```
@@ -98,7 +98,7 @@ pub struct FeatureChoice {
     pub samples: usize,
     /// Number of independent groups among them.
     pub groups: usize,
-    /// Features tried, the plainest first.
+    /// Features tried, the simplest first.
     pub tried: Vec<FeatureTrial>,
     /// Features to which no model could be fitted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -142,7 +142,7 @@ impl FeatureChoice {
     /// Compares features by the loss of each scored sample: squared error relative to label variance, averaged over channels.
     ///
     /// # Shapes
-    /// `tried`, the plainest first: `[samples]` each; `groups`: `[samples]`, the number of each sample's independent group.
+    /// `tried`, the simplest first: `[samples]` each; `groups`: `[samples]`, the number of each sample's independent group.
     pub fn new(tried: &[(FeatureSpec, Vec<f64>)], groups: &[usize]) -> FeatureChoice {
         let losses = tried.iter().map(|(_, losses)| of_groups(losses, groups));
         let losses: Vec<Vec<f64>> = losses.collect();
@@ -185,7 +185,7 @@ impl FeatureChoice {
         self
     }
 
-    /// The plainest features whose excess is at most one standard error.
+    /// The simplest features whose excess is at most one standard error.
     pub fn chosen(&self) -> Option<&FeatureTrial> {
         self.tried.iter().find(|trial| trial.is_enough())
     }
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn the_plainest_are_taken_that_no_finer_ones_beat_beyond_chance() {
+    fn the_simplest_are_taken_that_no_finer_ones_beat_beyond_chance() {
         let coarse = [0.9, 0.9, 0.8, 0.8, 0.9, 0.9];
         let middle = [0.2, 0.2, 0.1, 0.1, 0.3, 0.3];
         let fine = [0.1, 0.1, 0.15, 0.15, 0.3, 0.3];

@@ -62,7 +62,7 @@ pub struct ChannelChoice {
 /// Mean squared error of each channel (inner) at each candidate (outer).
 pub(crate) type Errors = Vec<Vec<f64>>;
 
-/// Candidate of least error for a channel. Of equal errors the last, plainest candidate is taken.
+/// Candidate of least error for a channel. Of equal errors the last, simplest candidate is taken.
 pub(crate) fn least(errors: &Errors, channel: usize) -> usize {
     let mut best = errors.len().saturating_sub(1);
     for candidate in (0..best).rev() {
@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn of_equal_errors_the_plainest_model_wins() {
+    fn of_equal_errors_the_simplest_model_wins() {
         let errors = vec![vec![2.0], vec![1.0], vec![1.0], vec![3.0]];
         assert_eq!(least(&errors, 0), 2);
     }

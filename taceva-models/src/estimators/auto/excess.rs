@@ -1,7 +1,7 @@
 //! Comparison of two models by their losses on the same units.
 
 /// Standard errors of a difference above which a model is clearly better. By chance, the best of a dozen models is two standard errors ahead of the
-/// plainest.
+/// simplest.
 pub(super) const CLEARLY: f64 = 3.0;
 /// Standard errors of a difference above which a network replaces the best other model, or that model replaces the baseline.
 pub(super) const BEYOND_CHANCE: f64 = 2.0;

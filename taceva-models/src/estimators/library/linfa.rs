@@ -14,7 +14,7 @@ use crate::estimators::library::{LibraryModel, LibraryTask};
 /// Release in use.
 const RELEASE: &str = "linfa 0.8.1";
 
-/// All models, the plainest first.
+/// All models, the simplest first.
 pub(crate) const ALL: &[&LibraryModel] = &[
     &linear::ADAPTER.model,
     &pls::ADAPTER.model,

@@ -16,7 +16,7 @@ use crate::estimators::library::{LibraryModel, LibraryTask};
 /// Release in use.
 const RELEASE: &str = "smartcore 0.7.0";
 
-/// All models, the plainest first.
+/// All models, the simplest first.
 pub(crate) const ALL: &[&LibraryModel] = &[
     &ridge::ADAPTER.model,
     &lasso::ADAPTER.model,

@@ -176,7 +176,7 @@ impl ModelEstimator for GradientBoosting {
         let held = problem.validation(validation)?;
         let trials = Trials::new(&problem, held.as_ref(), self.trees.is_none());
         let channels = problem.channels();
-        // Descending: of equal errors the last, plainest one is taken.
+        // Descending: of equal errors the last, simplest one is taken.
         let counts: Vec<usize> = match self.trees {
             Some(trees) => vec![trees],
             None => (1..=self.most).rev().collect(),

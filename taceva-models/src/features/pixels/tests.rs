@@ -21,7 +21,7 @@ fn features(frame: &Frame, spec: FeatureSpec) -> Vec<f32> {
     values
 }
 
-/// The definition in its plainest form: areas of overlap in f64.
+/// The definition in its simplest form: areas of overlap in f64.
 fn by_definition(frame: &Frame, spec: FeatureSpec) -> Vec<f64> {
     let info = frame.info();
     let samples: Vec<f64> = frame.samples().map(f64::from).collect();
