@@ -26,8 +26,8 @@ pub(crate) static AGREEMENT: Metric = Metric {
     better: Better::Lower,
     variants: &[
         ("bias", Better::NearZero),
-        ("low", Better::NearZero),
-        ("high", Better::NearZero),
+        ("lower", Better::NearZero),
+        ("upper", Better::NearZero),
         (SLOPE, Better::NearZero),
         (SLOPE_P, Better::Described),
     ],
@@ -37,9 +37,9 @@ pub(crate) static AGREEMENT: Metric = Metric {
     reference: "Bland and Altman, Lancet 327 (1986); Carkeet, Optometry and Vision Science 92 (2015); Satterthwaite, Biometrics Bulletin 2 \
         (1946)",
     documentation: "1.96 standard deviations of truth − prediction. About 95 % of errors that are normally distributed are within \
-                    `bias` ± this value, from `low` to `high`. If a contact point was pressed several times, the variance `sd`² \
+                    `bias` ± this value, from `lower` to `upper`. If a contact point was pressed several times, the variance `sd`² \
                     is the sum of those between and within clusters of the one-way random model. Its degrees of freedom are \
-                    Satterthwaite's. Intervals are exact for independent errors: of `low` and `high` by the noncentral t distribution, of \
+                    Satterthwaite's. Intervals are exact for independent errors: of `lower` and `upper` by the noncentral t distribution, of \
                     the value and `sd` by χ². `slope` is the change of the error with the mean of truth and prediction, and `slope_p` the \
                     probability of such a slope by chance. The interval of `slope`, and those of planes, leave out one cluster at a \
                     time. Undefined if all errors are equal, or if all samples are of one cluster. \
@@ -65,8 +65,8 @@ fn agreement(errors: &Errors<'_>, unit: Unit) -> Numbers {
     Numbers::of(of(NormalSample::half_width))
         .with("bias", unit, Range::Any, errors.mean())
         .with("sd", unit, Range::Positive, of(|sample| sample.sd))
-        .with("low", unit, Range::Any, of(|sample| sample.limits()[0]))
-        .with("high", unit, Range::Any, of(|sample| sample.limits()[1]))
+        .with("lower", unit, Range::Any, of(|sample| sample.limits()[0]))
+        .with("upper", unit, Range::Any, of(|sample| sample.limits()[1]))
         .with(SLOPE, Unit::One, Range::Any, errors.slope())
         .with(SLOPE_P, Unit::One, Range::Any, errors.slope_chance())
 }
@@ -84,8 +84,8 @@ fn settle(found: &mut Intervals, whole: &Whole<'_>) {
     let [low, high] = sample.limit_ends();
     set("bias", of(sample.mean_ends(), sample.mean_freedom));
     set("sd", of(sample.sd_ends(), sample.freedom));
-    set("low", of(low, sample.freedom));
-    set("high", of(high, sample.freedom));
+    set("lower", of(low, sample.freedom));
+    set("upper", of(high, sample.freedom));
     let widths = sample
         .sd_ends()
         .map(|end| end * (sample.half_width() / sample.sd));

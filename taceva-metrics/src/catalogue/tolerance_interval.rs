@@ -21,13 +21,13 @@ pub(crate) static TOLERANCE_INTERVAL: Metric = Metric {
     symbol: Some("tolerance interval"),
     theme: Theme::Accuracy,
     better: Better::Lower,
-    variants: &[("low", Better::NearZero), ("high", Better::NearZero)],
+    variants: &[("lower", Better::NearZero), ("upper", Better::NearZero)],
     unit: ScoreUnit::OfChannel,
     range: Range::Positive,
     definition: "tolerance_interval/1",
     reference: "Krishnamoorthy and Mathew, Statistical Tolerance Regions (2009), 2.3; ISO 16269-6; Satterthwaite, Biometrics Bulletin 2 (1946)",
     documentation: "The x of `95 % of errors lie within ±x`, with a confidence of 95 %: the end that is farther from zero of the interval \
-                    from `low` to `high`. These are mean ± k standard deviations of truth − prediction with the exact factor k of normally \
+                    from `lower` to `upper`. These are mean ± k standard deviations of truth − prediction with the exact factor k of normally \
                     distributed errors. The fewer clusters there are, the greater k is: 3.4 for ten independent errors, 2.2 for a \
                     hundred, at least 1.96. The standard deviation is that of the agreement, with both components of variance if a contact \
                     point was pressed several times. The interval of the value shows how much it varies between choices of clusters, with \
@@ -53,6 +53,6 @@ fn factor(sample: &NormalSample) -> Option<f64> {
 fn tolerance_interval(errors: &Errors<'_>, unit: Unit) -> Numbers {
     let ends = errors.tolerance_ends(factor);
     Numbers::of(ends.map(|[low, high]| low.abs().max(high.abs())))
-        .with("low", unit, Range::Any, ends.map(|[low, _]| low))
-        .with("high", unit, Range::Any, ends.map(|[_, high]| high))
+        .with("lower", unit, Range::Any, ends.map(|[low, _]| low))
+        .with("upper", unit, Range::Any, ends.map(|[_, high]| high))
 }

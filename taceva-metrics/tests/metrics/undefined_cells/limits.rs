@@ -58,8 +58,8 @@ fn limits_of_independent_errors_are_those_of_a_calculation_by_hand() {
         (None, Z * sd, of_sd.map(|end| end * Z * sd)),
         (Some("bias"), 3.0, [3.0 - half, 3.0 + half]),
         (Some("sd"), sd, of_sd.map(|end| end * sd)),
-        (Some("low"), 3.0 - Z * sd, [3.0 - far, 3.0 - near]),
-        (Some("high"), 3.0 + Z * sd, [3.0 + near, 3.0 + far]),
+        (Some("lower"), 3.0 - Z * sd, [3.0 - far, 3.0 - near]),
+        (Some("upper"), 3.0 + Z * sd, [3.0 + near, 3.0 + far]),
     ] {
         let (found, interval) = number(&evaluation, "agreement", variant);
         close(found, value);
@@ -91,11 +91,11 @@ fn nearly_all_independent_errors_lie_within_an_exact_factor_of_their_deviation()
     let (value, interval) = number(&evaluation, "tolerance_interval", None);
     close(value, 3.0 + half);
     close(
-        number(&evaluation, "tolerance_interval", Some("low")).0,
+        number(&evaluation, "tolerance_interval", Some("lower")).0,
         3.0 - half,
     );
     close(
-        number(&evaluation, "tolerance_interval", Some("high")).0,
+        number(&evaluation, "tolerance_interval", Some("upper")).0,
         3.0 + half,
     );
     let [low, high] = ends(interval);
@@ -139,7 +139,7 @@ fn the_deviation_of_clusters_is_the_sum_of_both_components_of_variance() {
     close(number(&evaluation, "agreement", Some("bias")).0, mean);
     close(number(&evaluation, "agreement", None).0, Z * sd);
     close(
-        number(&evaluation, "agreement", Some("high")).0,
+        number(&evaluation, "agreement", Some("upper")).0,
         mean + Z * sd,
     );
     // The probability of the slope is that of its jackknife.
@@ -181,13 +181,13 @@ fn clusters_widen_what_is_known_of_their_errors() {
         evaluator.finish().expect("scores")
     });
     let width = |of: &Evaluation| {
-        let [low, high] = ends(number(of, "agreement", Some("high")).1);
+        let [low, high] = ends(number(of, "agreement", Some("upper")).1);
         high - low
     };
     assert!(width(&clustered) > 1.2 * width(&independent));
     let value = |of: &Evaluation| number(of, "tolerance_interval", None).0;
     assert!(value(&clustered) > 1.1 * value(&independent));
-    let method = number(&independent, "agreement", Some("high")).1.method();
+    let method = number(&independent, "agreement", Some("upper")).1.method();
     let expected = "variance components, samples taken as independent, G=28";
     assert_eq!(method.as_deref(), Some(expected));
 }

@@ -55,8 +55,8 @@ fn same(evaluation: &Evaluation, agreement: &Agreement, tolerance: &ToleranceInt
     for (name, expected) in [
         ("bias", agreement.bias),
         ("sd", agreement.sd),
-        ("low", agreement.limits[0]),
-        ("high", agreement.limits[1]),
+        ("lower", agreement.limits[0]),
+        ("upper", agreement.limits[1]),
     ] {
         assert_eq!(
             variant(evaluation, "agreement", name),
@@ -66,8 +66,8 @@ fn same(evaluation: &Evaluation, agreement: &Agreement, tolerance: &ToleranceInt
     }
     for (name, expected) in [
         ("bias", agreement.bias_ci95),
-        ("low", agreement.lower_ci95),
-        ("high", agreement.upper_ci95),
+        ("lower", agreement.lower_ci95),
+        ("upper", agreement.upper_ci95),
     ] {
         assert_eq!(
             interval(evaluation, name),
@@ -75,7 +75,7 @@ fn same(evaluation: &Evaluation, agreement: &Agreement, tolerance: &ToleranceInt
             "{name}"
         );
     }
-    for (name, expected) in [("low", tolerance.low), ("high", tolerance.high)] {
+    for (name, expected) in [("lower", tolerance.low), ("upper", tolerance.high)] {
         let found = variant(evaluation, "tolerance_interval", name);
         assert_eq!(found, expected.to_bits(), "{name}");
     }

@@ -167,3 +167,28 @@ impl<'de> Visitor<'de> for ScoreVisitor {
         keys.score()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_variant_of_the_catalogue_is_called_like_a_key_of_a_score() {
+        for metric in taceva_metrics::catalogue::ALL {
+            for (name, _) in metric.variants {
+                let mut score = Score::of_number("", "", 0.5, Unit::One);
+                let number = Score::of_number("", "", 0.25, Unit::Millimetre);
+                score.variants.push(Variant {
+                    name: (*name).to_owned(),
+                    value: number.value,
+                    unit: number.unit,
+                    interval: Some(Interval::Absent("one point".to_owned())),
+                });
+                let text = serde_json::to_string(&score).expect("written");
+                let read: Score = serde_json::from_str(&text)
+                    .unwrap_or_else(|error| panic!("{}.{name}: {error}", metric.id));
+                assert_eq!(read, score, "{}.{name}", metric.id);
+            }
+        }
+    }
+}
