@@ -242,11 +242,9 @@ fn results_and_state_that_are_changed_alike_differ_from_the_predictions() {
     let found = verified(&bench, "b", 1);
     let differing = of_verdict(&found, "differs");
     assert!(!differing.is_empty(), "{}", found["summary"]);
-    assert!(
-        differing
-            .iter()
-            .all(|claim| claim["level"] == "predictions")
-    );
+    for claim in &differing {
+        assert_eq!(claim["level"], "predictions", "{claim}");
+    }
     // Without the tables nothing shows it.
     let found = verified(&bench, "b --level scores", 0);
     assert_eq!(found["summary"]["differs"], 0);

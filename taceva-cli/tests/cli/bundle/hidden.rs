@@ -197,7 +197,8 @@ fn inputs_and_settings_that_the_results_rename_differ_from_the_state() {
         .iter()
         .filter_map(|other| other["part"].as_str())
         .collect();
-    assert_eq!(parts, ["subject", "tables"]);
+    // Edited JSON has another order of variants, which differs too.
+    assert_eq!(parts.get(..2), Some(["subject", "tables"].as_slice()));
     let remarks = found["remarks"].to_string();
     assert!(remarks.contains("Edited: results, "), "{remarks}");
 }

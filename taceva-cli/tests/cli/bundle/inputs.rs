@@ -24,7 +24,7 @@ protocol = { calibration = { points = 12, indentations = 2 }, idle = { frames = 
 fn an_evaluation_is_verified_by_its_samples_as_far_as_they_hold_what_metrics_read() {
     let bench = Bench::new();
     bench.record("data", 20);
-    bench.ok("evaluate data --model ridge --split random --no-cache --format json --out r.json --state-out r.state --samples-out r.samples.csv -q");
+    bench.ok("evaluate data --model ridge --set size=20x20 --split random --no-cache --format json --out r.json --state-out r.state --samples-out r.samples.csv -q");
     bench.ok("bundle r.json --state r.state --dataset data --draft --out b.tar.gz -q");
     let found = verified(&bench, "b.tar.gz", 0);
     assert_eq!(found["summary"]["differs"], 0, "{}", found["others"]);
