@@ -243,7 +243,9 @@ fn results_and_state_that_are_changed_alike_differ_from_the_predictions() {
     let differing = of_verdict(&found, "differs");
     assert!(!differing.is_empty(), "{}", found["summary"]);
     for claim in &differing {
-        assert_eq!(claim["level"], "predictions", "{claim}");
+        let reason = claim["reason"].as_str().unwrap_or_default();
+        let is_lost = reason.ends_with("is undefined in the tables");
+        assert!(is_lost || claim["level"] == "predictions", "{claim}");
     }
     // Without the tables nothing shows it.
     let found = verified(&bench, "b --level scores", 0);
