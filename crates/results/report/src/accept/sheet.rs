@@ -41,9 +41,23 @@ impl Acceptance<'_> {
         self.findings.iter().all(|finding| finding.is_kept)
     }
 
+    /// True if a limit is not met, and by rules at least one verdict is a fail or a conditional fail.
+    fn is_failed(&self) -> bool {
+        let is_fail = |word: Word| matches!(word, Word::Fail | Word::ConditionalFail);
+        let mut findings = self.findings.iter();
+        match self.limits.is_by_rules() {
+            true => findings.any(|finding| is_fail(finding.verdict)),
+            false => !self.is_passed(),
+        }
+    }
+
     /// Table with one row for each limit.
     pub fn table(&self) -> Table {
-        let verdict = if self.is_passed() { "passed" } else { "failed" };
+        let (verdict, counts) = match (self.is_passed(), self.is_failed()) {
+            (true, _) => ("passed", String::new()),
+            (false, true) => ("failed", String::new()),
+            (false, false) => ("not accepted", format!(": {}", self.open_limits())),
+        };
         let name = match self.limits.name.as_str() {
             "" => String::new(),
             name => format!(" by {name}"),
@@ -52,7 +66,7 @@ impl Acceptance<'_> {
             .date
             .map_or_else(String::new, |date| format!(", {date}"));
         let caption = format!(
-            "{}, serial {}: {verdict}{name}{date}",
+            "{}, serial {}: {verdict}{name}{date}{counts}",
             self.study.sensor, self.study.serial
         );
         let columns = [Column::of_metrics()].into_iter();
@@ -160,34 +174,40 @@ impl Acceptance<'_> {
 
     fn verdict(&self) -> Markup {
         let broken = self.findings.iter().filter(|finding| !finding.is_kept);
-        let words = self.words_but_pass();
+        let words = match self.words_but_pass(|_| true) {
+            words if words.is_empty() => words,
+            words => format!(" ({words})"),
+        };
         html! {
-            @match (broken.count(), self.limits.is_by_rules()) {
-                (0, _) => p.pass { "PASS: every limit is met" (words) "." },
-                (broken, false) => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits are not met." },
-                (broken, true) => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits have no pass" (words) "." },
+            @match (broken.count(), self.limits.is_by_rules(), self.is_failed()) {
+                (0, ..) => p.pass { "PASS: every limit is met" (words) "." },
+                (broken, false, _) => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits are not met." },
+                (_, true, false) => p.fail { "not accepted: " (self.open_limits()) "." },
+                (broken, true, true) => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits have no pass" (words) "." },
             }
         }
     }
 
-    /// Counts of decisions other than pass, such as ` (1 conditional pass, 2 fail)`.
-    fn words_but_pass(&self) -> String {
+    /// Counts of the decisions on limits that are not met, such as `1 conditional pass, 2 undecided`.
+    fn open_limits(&self) -> String {
+        self.words_but_pass(|finding| !finding.is_kept)
+    }
+
+    /// Counts of decisions other than pass among findings for which `counts` is true, such as `1 conditional pass, 2 fail`; empty without rules.
+    fn words_but_pass(&self, counts: fn(&LimitCheck) -> bool) -> String {
         let others = [
             Word::ConditionalPass,
             Word::ConditionalFail,
             Word::Fail,
             Word::Undecided,
         ];
-        let counts = others.iter().filter_map(|word| {
-            let found = self.findings.iter().filter(|of| of.verdict == *word);
-            let count = found.count();
+        let words = others.iter().filter_map(|word| {
+            let found = self.findings.iter().filter(|of| counts(of));
+            let count = found.filter(|of| of.verdict == *word).count();
             (count > 0 && self.limits.is_by_rules()).then(|| format!("{count} {word}"))
         });
-        let counts: Vec<String> = counts.collect();
-        match counts.is_empty() {
-            true => String::new(),
-            false => format!(" ({})", counts.join(", ")),
-        }
+        let words: Vec<String> = words.collect();
+        words.join(", ")
     }
 
     /// Tested unit and test date.
