@@ -99,8 +99,7 @@ impl Acceptance<'_> {
         if self.limits.is_by_rules() {
             table.columns.push(Column::new("rule"));
             for (row, finding) in table.rows.iter_mut().zip(self.findings) {
-                let rule = finding.limit.decided_by.to_string();
-                row.cells.push(Cell::text(rule));
+                row.cells.push(Cell::text(finding.rule()));
             }
         }
         table

@@ -9,6 +9,7 @@ const ERROR: &str = "[[limit]]\nmetric = \"mae\"\nchannel = \"Fz\"\nunit = \"N\"
 const SHARE: &str =
     "[[limit]]\nmetric = \"r2\"\nchannel = \"Fz\"\nunit = \"1\"\nleast = 0.5\nrule = \"simple\"\n";
 const GUARDED: &str = "[decision]\nrule = \"guarded\"";
+const GUARD: &str = "guard band w = 1 U, U at a coverage of 0.95, on the logarithmic scale of the interval: the limit divided by 1.22";
 const SCATTER: &str =
     "u holds the scatter of the tested presses, not the calibration of the reference.";
 
@@ -59,11 +60,11 @@ fn every_format_has_uncertainty_probability_acceptance_limit_and_verdict() {
             "CSV" => {
                 let lines: Vec<&str> = text.lines().collect();
                 lines[0].ends_with(",u,nu,p_c,acceptance limit,verdict,why,rule")
-                    && lines[1].ends_with(",\"guard band w = 1 U, U at a coverage of 0.95\"")
+                    && lines[1].ends_with(&format!(",\"{GUARD}\""))
                     && lines[2].ends_with(",\"simple acceptance, w = 0\"")
             }
             "JSON" => text.contains("\"rule\": \"guarded\""),
-            _ => text.contains("guard band w = 1 U, U at a coverage of 0.95"),
+            _ => text.contains(GUARD),
         };
         assert!(is_stated, "{format}: {text}");
     }
@@ -108,6 +109,45 @@ fn a_page_counts_the_words_of_its_verdicts_and_prints_expanded_uncertainties() {
     let verdict = "<p class=\"pass\">PASS: every limit is met (1 conditional pass).</p>";
     assert!(page.contains(verdict), "{page}");
     assert!(page.contains("A conditional pass counts as met."));
+}
+
+#[test]
+fn the_rule_names_what_its_guard_divides_and_multiplies() {
+    let study = study();
+    let rule = |decision: &str, each: &str| {
+        let limits = limits(decision, each);
+        let findings = checks(&study, &limits);
+        let notes = sheet(&study, &limits, &findings).table().notes;
+        let mut notes = notes.iter().map(|note| note.plain().to_owned());
+        notes.find(|note| note.starts_with("Decision rule"))
+    };
+    let scale = "on the logarithmic scale of the interval";
+    let guarded = "Decision rule: guard band w = 1 U, U at a coverage of 0.95";
+    let both = ERROR.replace("most", "least = 0.05\nmost");
+    let share = SHARE.replace("rule = \"simple\"\n", "");
+    for (each, expected) in [
+        (
+            both,
+            format!(
+                "{guarded}, {scale}: the limit divided by 1.22 (upper) and multiplied by 1.22 (lower)."
+            ),
+        ),
+        (
+            format!("{ERROR}{share}"),
+            format!(
+                "{guarded}, {scale}: mae Fz, the limit divided by 1.22; r2 Fz, 1 − limit divided by 2.00."
+            ),
+        ),
+        // No interval, so no scale.
+        (ERROR.replace("Fz", "Fx"), format!("{guarded}.")),
+    ] {
+        assert_eq!(rule(GUARDED, &each), Some(expected), "{each}");
+    }
+    let simple = rule("", ERROR);
+    assert_eq!(
+        simple.as_deref(),
+        Some("Decision rule: simple acceptance, w = 0.")
+    );
 }
 
 #[test]
