@@ -2,6 +2,8 @@
 
 mod rows;
 
+use std::collections::BTreeSet;
+
 use maud::{Markup, html};
 use serde_json::{Value, json};
 use taceva_metrics::Better;
@@ -67,7 +69,8 @@ impl Acceptance<'_> {
             .map_or_else(String::new, |date| format!(", {date}"));
         let caption = format!(
             "{}, serial {}: {verdict}{name}{date}{counts}",
-            self.study.sensor, self.study.serial
+            self.study.sensor,
+            self.serial()
         );
         let columns = [Column::of_metrics()].into_iter();
         let mut table = Table::new(caption, columns.chain(self.columns()));
@@ -140,7 +143,7 @@ impl Acceptance<'_> {
         let whole = json!({
             "schema": ACCEPTANCE_SCHEMA,
             "date": self.date,
-            "subject": {"sensor": self.study.sensor, "serial": self.study.serial, "gel": self.study.gel, "source": self.study.source},
+            "subject": {"sensor": self.study.sensor, "serial": self.serial(), "gel": self.study.gel, "source": self.study.source},
             "traceability": self.study.traceability(),
             "edits": self.study.edits,
             "conditional_pass_counts": self.limits.counts_conditional_passes(),
@@ -209,12 +212,29 @@ impl Acceptance<'_> {
         words.join(", ")
     }
 
+    /// Serial number of the tested unit. Of several numbers joined by commas, only those of units that samples name.
+    fn serial(&self) -> String {
+        let serial = &self.study.serial;
+        let known: Vec<&str> = serial.split(", ").collect();
+        let Some(samples) = &self.study.samples else {
+            return serial.clone();
+        };
+        let named = (0..samples.rows()).filter_map(|row| samples.word("unit_id", row));
+        let named: BTreeSet<&str> = named.collect();
+        let are_serials = named.iter().all(|unit| known.contains(unit));
+        if named.is_empty() || !are_serials {
+            return serial.clone();
+        }
+        let tested = known.into_iter().filter(|unit| named.contains(*unit));
+        Vec::from_iter(tested).join(", ")
+    }
+
     /// Tested unit and test date.
     fn unit(&self) -> Markup {
         let study = self.study;
         let mut entries = vec![
             ("sensor", study.sensor.clone()),
-            ("serial", study.serial.clone()),
+            ("serial", self.serial()),
             ("gel", short_digests(&study.gel)),
         ];
         entries.extend(self.date.map(|date| ("date", date.to_owned())));
