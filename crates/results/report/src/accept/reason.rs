@@ -71,7 +71,7 @@ pub(super) fn acceptance(decision: &Decision) -> Option<String> {
 /// Scale of a guard, between the rule and the effect of the guard.
 pub(super) const ON_SCALE: &str = ", on the logarithmic scale of the interval: ";
 
-/// Effect of a guard on the limits, such as `the limit divided by 1.57`; `None` without a guard, or if it is in the unit of the value.
+/// Effect of a guard on the limits, such as `the limit divided by 1.57`. `None` without a guard, or if it is in the unit of the value.
 pub(super) fn guard(decision: &Decision, interval: &LimitInterval) -> Option<String> {
     let measured = interval.measured.as_ref().ok()?;
     let quantity = measured.guarded_quantity()?;
