@@ -1,7 +1,7 @@
 //! `taceva accept`.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use taceva_core::shown;
@@ -50,8 +50,7 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
     let study = study_of(result)?;
     let mut findings = accept(&study, &limits).with_context(|| shown(&result).to_string())?;
     if !args.process.is_empty() {
-        results::check_distinct(&args.process)?;
-        let units = results::read_all(&args.process)?;
+        let units = units_of(&args.process)?;
         add_process_risks(&mut findings, &study, &units, target_risk(args)?);
     }
     let pictures = match &args.html {
@@ -78,6 +77,33 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
         true => exit::DONE,
         false => exit::CHECK_FAILED,
     })
+}
+
+/// The units of one process. Refuses a second result of a known serial number of one sensor, since it is no other unit.
+fn units_of(named: &[PathBuf]) -> anyhow::Result<Vec<Study>> {
+    results::check_distinct(named)?;
+    let mut units: Vec<Study> = Vec::new();
+    let mut files: Vec<&Path> = Vec::new();
+    for path in named {
+        for unit in results::read(path)? {
+            let is_known = !["", "unknown", "several"].contains(&unit.serial.as_str());
+            let is_same =
+                |other: &Study| other.sensor == unit.sensor && other.serial == unit.serial;
+            let first = units.iter().zip(&files).find(|(other, _)| is_same(other));
+            if let Some((_, first)) = first.filter(|_| is_known) {
+                return Err(Usage::error(format!(
+                    "--process {}: serial {} of {}, which {} has too; expected one result of each unit: name only one of them",
+                    shown(path),
+                    shown(&unit.serial),
+                    shown(&unit.sensor),
+                    shown(first)
+                )));
+            }
+            units.push(unit);
+            files.push(path);
+        }
+    }
+    Ok(units)
 }
 
 /// The share of wrongly accepted units that `--target-risk` allows.
@@ -117,7 +143,7 @@ fn pictures(result: &Path, context: &Context) -> Option<Triple> {
 }
 
 /// `recordings/1-gelsight` of the run whose `reports/1-gelsight.json` is `result`.
-fn recording_of(result: &Path) -> Option<std::path::PathBuf> {
+fn recording_of(result: &Path) -> Option<PathBuf> {
     let reports = result.parent()?;
     let name = result.file_stem()?;
     let recording = reports.parent()?.join("recordings").join(name);

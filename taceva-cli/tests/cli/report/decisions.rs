@@ -118,6 +118,37 @@ fn other_units_give_risks_and_few_of_them_a_reason() {
 }
 
 #[test]
+fn two_results_of_one_serial_are_one_unit_of_the_process() {
+    let bench = Bench::new();
+    scored(&bench);
+    limit(&bench, "rule = \"guarded\"", 1.0);
+    let text = fs::read_to_string(bench.path("r.json")).expect("a result");
+    let unknown = "\"serial\": \"unknown\"";
+    assert!(text.contains(unknown), "{text}");
+    for (name, serial) in [("a.json", "7"), ("b.json", "8"), ("c.json", "7")] {
+        let known = text.replace(unknown, &format!("\"serial\": \"{serial}\""));
+        bench.write(name, &known);
+        bench.ok(&format!("reseal {name} --reason drawn -q"));
+    }
+    bench.write("d.json", &text);
+    let accept = "accept r.json --limits limits.toml";
+    for (name, others) in [("a.json", "c.json"), ("b.json", "a.json --process c.json")] {
+        bench.refused(
+            &format!("{accept} --process {name} --process {others}"),
+            2,
+            "which a.json has too; expected one result of each unit",
+        );
+    }
+    // Results without a serial number may be of several units.
+    let units = "--process a.json --process b.json --process r.json --process d.json";
+    let accepted = bench.json(&format!("{accept} {units}"));
+    assert_eq!(
+        accepted["findings"][0]["process"]["undefined"],
+        "the number of units is 4, expected at least 5 units of one process"
+    );
+}
+
+#[test]
 fn an_accepted_edit_of_a_result_is_said_in_every_format() {
     let bench = Bench::new();
     scored(&bench);

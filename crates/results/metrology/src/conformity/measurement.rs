@@ -210,6 +210,26 @@ impl Measurement {
         }
     }
 
+    /// Quantity of a limit that a guard divides or multiplies, in words. `None` if the guard is subtracted or added in the unit of the value.
+    ///
+    /// ```
+    /// use taceva_metrics::Scale;
+    /// use taceva_metrology::conformity::Measurement;
+    /// let error = Measurement::of_interval(0.08, [0.064, 0.1], 31.0, Scale::Logarithm)?;
+    /// assert_eq!(error.guarded_quantity(), Some("the limit"));
+    /// # Ok::<(), taceva_metrology::conformity::ConformityError>(())
+    /// ```
+    #[must_use]
+    pub fn guarded_quantity(&self) -> Option<&'static str> {
+        self.scale.quantity()
+    }
+
+    /// Quotient of the guarded quantity at `inner` and at `limit`.
+    #[must_use]
+    pub fn guard_quotient(&self, limit: f64, inner: f64) -> f64 {
+        self.scale.quantity_of(inner) / self.scale.quantity_of(limit)
+    }
+
     /// Converts an uncertainty from the scale of the distribution to the unit of the value.
     pub(super) fn in_unit(&self, scaled: f64) -> f64 {
         self.scale.in_unit(self.value, scaled)

@@ -31,6 +31,26 @@ impl OpenScale {
         }
     }
 
+    /// Quantity whose logarithm, or negative logarithm, the scale is, in words about a limit; `None` for the value itself.
+    pub(super) fn quantity(self) -> Option<&'static str> {
+        match self {
+            OpenScale::Own => None,
+            OpenScale::Logarithm => Some("the limit"),
+            OpenScale::Remainder => Some("1 − limit"),
+            OpenScale::Odds { width } if width > 1.0 => Some("limit / (2 − limit)"),
+            OpenScale::Odds { .. } => Some("limit / (1 − limit)"),
+        }
+    }
+
+    /// That quantity of `value`.
+    pub(super) fn quantity_of(self, value: f64) -> f64 {
+        match self {
+            OpenScale::Own | OpenScale::Logarithm => value,
+            OpenScale::Remainder => 1.0 - value,
+            OpenScale::Odds { width } => value / (width - value),
+        }
+    }
+
     /// Ends of the domain of the scale.
     fn domain(self) -> [f64; 2] {
         match self {

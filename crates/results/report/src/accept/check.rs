@@ -28,6 +28,8 @@ pub struct LimitCheck {
     pub n: u64,
     /// Decision by the rule of the limit, with the uncertainty of the value. `None` without a value in the unit of the limit.
     pub decision: Option<Decision>,
+    /// Effect of the guard on the limit, such as `the limit divided by 1.57`. `None` without a guard, or if it is in the unit of the value.
+    pub guard: Option<String>,
     /// Word of the decision. Without a decision rule, the limit passes or fails.
     pub verdict: Word,
     /// True if the limit is met.
@@ -82,6 +84,7 @@ fn hold(study: &Study, limits: &LimitsFile, limit: &Limit) -> Result<LimitCheck,
         trainings: 0,
         n: 0,
         decision: None,
+        guard: None,
         verdict: match limits.is_by_rules() {
             true => Word::Undecided,
             false => Word::Fail,
@@ -118,6 +121,8 @@ fn hold(study: &Study, limits: &LimitsFile, limit: &Limit) -> Result<LimitCheck,
         .then(|| format!("the score is in {unit}, the limit in {}", limit.unit));
     if other_unit.is_none() {
         check.decision = decided(limit, number, &interval);
+        let decision = check.decision.as_ref();
+        check.guard = decision.and_then(|decision| reason::guard(decision, &interval));
     }
     let barred = check.standing.reason().map(str::to_owned);
     match limits.is_by_rules() {
@@ -162,6 +167,15 @@ fn decided(limit: &Limit, value: f64, interval: &LimitInterval) -> Option<Decisi
 }
 
 impl LimitCheck {
+    /// Rule of the limit in words, with the scale and the effect of its guard.
+    pub(super) fn rule(&self) -> String {
+        let rule = self.limit.decided_by;
+        match &self.guard {
+            Some(guard) => format!("{rule}{}{guard}", reason::ON_SCALE),
+            None => rule.to_string(),
+        }
+    }
+
     /// Sets the word from a decision by a rule.
     fn take_word(&mut self, interval: &LimitInterval, counts_conditional: bool) {
         let Some(decision) = &self.decision else {

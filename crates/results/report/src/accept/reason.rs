@@ -68,6 +68,36 @@ pub(super) fn acceptance(decision: &Decision) -> Option<String> {
     Some(bounds(limits.least(), limits.most()))
 }
 
+/// Scale of a guard, between the rule and the effect of the guard.
+pub(super) const ON_SCALE: &str = ", on the logarithmic scale of the interval: ";
+
+/// Effect of a guard on the limits, such as `the limit divided by 1.57`. `None` without a guard, or if it is in the unit of the value.
+pub(super) fn guard(decision: &Decision, interval: &LimitInterval) -> Option<String> {
+    let measured = interval.measured.as_ref().ok()?;
+    let quantity = measured.guarded_quantity()?;
+    let accepted = decision.acceptance.as_ref()?;
+    let limits = &decision.limits;
+    let ends = [
+        (limits.most(), accepted.most(), " (upper)"),
+        (limits.least(), accepted.least(), " (lower)"),
+    ];
+    let effects = ends.into_iter().filter_map(|(limit, inner, end)| {
+        let (limit, inner) = limit.zip(inner)?;
+        let end = match limits.least().and(limits.most()) {
+            Some(_) => end,
+            None => "",
+        };
+        let quotient = measured.guard_quotient(limit, inner);
+        let is_moved = (limit - inner).abs() > 0.0;
+        is_moved.then(|| match quotient < 1.0 {
+            true => format!("divided by {}{end}", numeral(1.0 / quotient)),
+            false => format!("multiplied by {}{end}", numeral(quotient)),
+        })
+    });
+    let effects: Vec<String> = effects.collect();
+    (!effects.is_empty()).then(|| format!("{quantity} {}", effects.join(" and ")))
+}
+
 /// Bounds as text, such as `≤ 0.05`.
 pub(super) fn bounds(least: Option<f64>, most: Option<f64>) -> String {
     match (least, most) {

@@ -2,6 +2,8 @@
 
 mod rows;
 
+use std::collections::BTreeSet;
+
 use maud::{Markup, html};
 use serde_json::{Value, json};
 use taceva_metrics::Better;
@@ -41,9 +43,23 @@ impl Acceptance<'_> {
         self.findings.iter().all(|finding| finding.is_kept)
     }
 
+    /// True if a limit is not met, and by rules at least one verdict is a fail or a conditional fail.
+    fn is_failed(&self) -> bool {
+        let is_fail = |word: Word| matches!(word, Word::Fail | Word::ConditionalFail);
+        let mut findings = self.findings.iter();
+        match self.limits.is_by_rules() {
+            true => findings.any(|finding| is_fail(finding.verdict)),
+            false => !self.is_passed(),
+        }
+    }
+
     /// Table with one row for each limit.
     pub fn table(&self) -> Table {
-        let verdict = if self.is_passed() { "passed" } else { "failed" };
+        let (verdict, counts) = match (self.is_passed(), self.is_failed()) {
+            (true, _) => ("passed", String::new()),
+            (false, true) => ("failed", String::new()),
+            (false, false) => ("not accepted", format!(": {}", self.open_limits())),
+        };
         let name = match self.limits.name.as_str() {
             "" => String::new(),
             name => format!(" by {name}"),
@@ -52,8 +68,9 @@ impl Acceptance<'_> {
             .date
             .map_or_else(String::new, |date| format!(", {date}"));
         let caption = format!(
-            "{}, serial {}: {verdict}{name}{date}",
-            self.study.sensor, self.study.serial
+            "{}, serial {}: {verdict}{name}{date}{counts}",
+            self.study.sensor,
+            self.serial()
         );
         let columns = [Column::of_metrics()].into_iter();
         let mut table = Table::new(caption, columns.chain(self.columns()));
@@ -85,8 +102,7 @@ impl Acceptance<'_> {
         if self.limits.is_by_rules() {
             table.columns.push(Column::new("rule"));
             for (row, finding) in table.rows.iter_mut().zip(self.findings) {
-                let rule = finding.limit.decided_by.to_string();
-                row.cells.push(Cell::text(rule));
+                row.cells.push(Cell::text(finding.rule()));
             }
         }
         table
@@ -127,7 +143,7 @@ impl Acceptance<'_> {
         let whole = json!({
             "schema": ACCEPTANCE_SCHEMA,
             "date": self.date,
-            "subject": {"sensor": self.study.sensor, "serial": self.study.serial, "gel": self.study.gel, "source": self.study.source},
+            "subject": {"sensor": self.study.sensor, "serial": self.serial(), "gel": self.study.gel, "source": self.study.source},
             "traceability": self.study.traceability(),
             "edits": self.study.edits,
             "conditional_pass_counts": self.limits.counts_conditional_passes(),
@@ -160,34 +176,57 @@ impl Acceptance<'_> {
 
     fn verdict(&self) -> Markup {
         let broken = self.findings.iter().filter(|finding| !finding.is_kept);
-        let words = self.words_but_pass();
+        let words = match self.words_but_pass(|_| true) {
+            words if words.is_empty() => words,
+            words => format!(" ({words})"),
+        };
         html! {
-            @match (broken.count(), self.limits.is_by_rules()) {
-                (0, _) => p.pass { "PASS: every limit is met" (words) "." },
-                (broken, false) => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits are not met." },
-                (broken, true) => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits have no pass" (words) "." },
+            @match (broken.count(), self.limits.is_by_rules(), self.is_failed()) {
+                (0, ..) => p.pass { "PASS: every limit is met" (words) "." },
+                (broken, false, _) => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits are not met." },
+                (_, true, false) => p.fail { "not accepted: " (self.open_limits()) "." },
+                (broken, true, true) => p.fail { "FAIL: " (broken) " of " (self.findings.len()) " limits have no pass" (words) "." },
             }
         }
     }
 
-    /// Counts of decisions other than pass, such as ` (1 conditional pass, 2 fail)`.
-    fn words_but_pass(&self) -> String {
+    /// Counts of the decisions on limits that are not met, such as `1 conditional pass, 2 undecided`.
+    fn open_limits(&self) -> String {
+        self.words_but_pass(|finding| !finding.is_kept)
+    }
+
+    /// Counts of decisions other than pass among findings for which `counts` is true, such as `1 conditional pass, 2 fail`; empty without rules.
+    fn words_but_pass(&self, counts: fn(&LimitCheck) -> bool) -> String {
         let others = [
             Word::ConditionalPass,
             Word::ConditionalFail,
             Word::Fail,
             Word::Undecided,
         ];
-        let counts = others.iter().filter_map(|word| {
-            let found = self.findings.iter().filter(|of| of.verdict == *word);
-            let count = found.count();
+        let words = others.iter().filter_map(|word| {
+            let found = self.findings.iter().filter(|of| counts(of));
+            let count = found.filter(|of| of.verdict == *word).count();
             (count > 0 && self.limits.is_by_rules()).then(|| format!("{count} {word}"))
         });
-        let counts: Vec<String> = counts.collect();
-        match counts.is_empty() {
-            true => String::new(),
-            false => format!(" ({})", counts.join(", ")),
+        let words: Vec<String> = words.collect();
+        words.join(", ")
+    }
+
+    /// Serial number of the tested unit. Of several numbers joined by commas, only those of units that samples name.
+    fn serial(&self) -> String {
+        let serial = &self.study.serial;
+        let known: Vec<&str> = serial.split(", ").collect();
+        let Some(samples) = &self.study.samples else {
+            return serial.clone();
+        };
+        let named = (0..samples.rows()).filter_map(|row| samples.word("unit_id", row));
+        let named: BTreeSet<&str> = named.collect();
+        let are_serials = named.iter().all(|unit| known.contains(unit));
+        if named.is_empty() || !are_serials {
+            return serial.clone();
         }
+        let tested = known.into_iter().filter(|unit| named.contains(*unit));
+        Vec::from_iter(tested).join(", ")
     }
 
     /// Tested unit and test date.
@@ -195,7 +234,7 @@ impl Acceptance<'_> {
         let study = self.study;
         let mut entries = vec![
             ("sensor", study.sensor.clone()),
-            ("serial", study.serial.clone()),
+            ("serial", self.serial()),
             ("gel", short_digests(&study.gel)),
         ];
         entries.extend(self.date.map(|date| ("date", date.to_owned())));

@@ -50,6 +50,23 @@ fn a_guard_of_the_whole_uncertainty_leads_from_the_end_of_an_interval_to_its_val
 }
 
 #[test]
+fn a_guard_divides_or_multiplies_the_quantity_of_its_scale() {
+    let expected = [
+        (Some("the limit"), 0.8),
+        (Some("1 − limit"), 2.0),
+        (Some("limit / (2 − limit)"), 0.25),
+        (Some("limit / (1 − limit)"), 0.25),
+        (None, -1.0),
+    ];
+    for ((value, ends, scale), (quantity, quotient)) in INTERVALS.into_iter().zip(expected) {
+        let measured = measured(value, ends, scale);
+        assert_eq!(measured.guarded_quantity(), quantity, "{scale:?}");
+        let found = measured.guard_quotient(ends[1], value);
+        close(found, quotient, 1e-12, "from the upper end to the value");
+    }
+}
+
+#[test]
 fn a_guard_of_nothing_accepts_a_value_at_its_limit() {
     let rule = DecisionRule::Guarded {
         r: 0.0,

@@ -91,7 +91,7 @@ impl Acceptance<'_> {
                 number(|of| of.coverage_factor),
                 number(|of| of.expanded_uncertainty),
                 number(|of| of.conformance_probability),
-                Cell::text(check.limit.decided_by.to_string()),
+                Cell::text(check.rule()),
             ];
             table.push(cells);
         }
@@ -104,27 +104,27 @@ impl Acceptance<'_> {
         if !self.limits.is_by_rules() {
             return Vec::new();
         }
-        let mut rules: Vec<(String, Vec<String>)> = Vec::new();
+        let mut rules: Vec<(String, Vec<&LimitCheck>)> = Vec::new();
         for check in self.findings {
             let rule = check.limit.decided_by.to_string();
-            let name = format!("{} {}", check.limit.metric, check.limit.channel);
             match rules.iter_mut().find(|(known, _)| *known == rule) {
-                Some((_, names)) => names.push(name),
-                None => rules.push((rule, vec![name])),
+                Some((_, checks)) => checks.push(check),
+                None => rules.push((rule, vec![check])),
             }
         }
         let mut notes = vec![
             "u: standard uncertainty; nu: its degrees of freedom; p_c: probability of conformity.".to_owned(),
+            "u holds the scatter of the tested presses, not the calibration of the reference.".to_owned(),
             "Conditional pass: within the limit, not within the acceptance limit. Conditional fail: beyond the limit by less than the guard. Undecided: no uncertainty, or one greater than agreed.".to_owned(),
         ];
-        notes.extend(match rules.as_slice() {
-            [(rule, _)] => vec![format!("Decision rule: {rule}.")],
-            rules => {
-                let each = rules.iter();
-                each.map(|(rule, names)| format!("Decision rule of {}: {rule}.", names.join(", ")))
-                    .collect()
-            }
-        });
+        for (rule, checks) in &rules {
+            let names: Vec<String> = checks.iter().map(|check| name_of(check)).collect();
+            let of = match rules.len() {
+                1 => String::new(),
+                _ => format!(" of {}", names.join(", ")),
+            };
+            notes.push(format!("Decision rule{of}: {rule}{}.", guards_of(checks)));
+        }
         if self.limits.counts_conditional_passes() {
             notes.push("A conditional pass counts as met.".to_owned());
         }
@@ -147,6 +147,26 @@ fn of_decision(decision: Option<&Decision>) -> [Cell; 4] {
         number(|of| of.conformance_probability),
         or_dash(decision.and_then(reason::acceptance)),
     ]
+}
+
+fn name_of(check: &LimitCheck) -> String {
+    format!("{} {}", check.limit.metric, check.limit.channel)
+}
+
+/// Scale and effect of the guards of limits with the same rule; empty without any on a logarithmic scale.
+fn guards_of(checks: &[&LimitCheck]) -> String {
+    let guards = checks.iter().filter_map(|check| {
+        let guard = check.guard.as_ref()?;
+        Some(match checks.len() {
+            1 => guard.clone(),
+            _ => format!("{}, {guard}", name_of(check)),
+        })
+    });
+    let guards: Vec<String> = guards.collect();
+    match guards.is_empty() {
+        true => String::new(),
+        false => format!("{}{}", reason::ON_SCALE, guards.join("; ")),
+    }
 }
 
 fn or_dash(text: Option<String>) -> Cell {

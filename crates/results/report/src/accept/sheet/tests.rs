@@ -225,3 +225,28 @@ fn a_page_names_the_unit_and_the_ranges_that_were_tried_where_samples_are_at_han
     let ranges = "<dt>ranges tried</dt><dd>Pz 0 … 1.25 mm; Fz −0.5 … 2 N</dd>";
     assert!(page.contains(ranges), "{page}");
 }
+
+#[test]
+fn of_several_serial_numbers_only_those_of_units_with_samples_are_named() {
+    let mut study = study();
+    study.serial = "0, 1, 2".to_owned();
+    let findings = held(&study, &[KEPT]);
+    for (samples, serial) in [
+        ("id,unit_id,Pz,Pz_predicted\na,0,1,1\nb,0,2,2\n", "0"),
+        ("id,unit_id,Pz,Pz_predicted\na,2,1,1\nb,0,2,2\n", "0, 2"),
+        // Names of other units, and none.
+        ("id,unit_id,Pz,Pz_predicted\na,0,1,1\nb,9,2,2\n", "0, 1, 2"),
+        ("id,Pz,Pz_predicted\na,1,1\n", "0, 1, 2"),
+    ] {
+        study.samples = Some(Samples::read(samples).expect("samples"));
+        let sheet = sheet(&study, &findings);
+        let caption = sheet.table().caption;
+        let head = format!("drawn, serial {serial}: passed");
+        assert!(caption.starts_with(&head), "{caption}");
+        let page = sheet.page();
+        let entry = format!("<dt>serial</dt><dd>{serial}</dd>");
+        assert!(page.contains(&entry), "{page}");
+        let json: Value = serde_json::from_str(&sheet.json()).expect("JSON");
+        assert_eq!(json["subject"]["serial"], serial);
+    }
+}
