@@ -100,7 +100,27 @@ fn draws_that_contradict_the_first_order_give_the_interval_and_every_format_says
     assert_eq!(budget["interval"], budget["mcm"]["symmetric"]);
     assert_eq!(budget["mcm"]["seed"], 3);
     // U of first order is 19.5 N, the half-width of the draws 16.7 N.
-    bench.ok(&format!("{words} --most-U 18N"));
+    let text = bench.ok(&format!("{words} --most-U 18N --html page.html"));
+    let compared = "U is at most 18.00 N. Compared: 16.";
+    let stated = "U = 17 N (half-width of the Monte Carlo interval, p = 95 %)";
+    let page = std::fs::read_to_string(bench.path("page.html")).expect("there");
+    for written in [&text, &page] {
+        assert!(
+            written.contains(compared) && written.contains(stated),
+            "{written}"
+        );
+        assert!(!written.contains("(k = "), "{written}");
+    }
+    let csv = bench.ok(&format!("{words} --format csv"));
+    let row = |name: &str| {
+        let head = format!("0.5,result,{name},,,");
+        let mut rows = csv.lines().filter_map(|line| line.strip_prefix(&head));
+        let cells = rows.next().expect(name);
+        cells.split(',').next().map(str::to_owned)
+    };
+    let half: f64 = row("U").expect("a cell").parse().expect("a number");
+    near(half, 16.7, 0.01);
+    assert_eq!(row("k").as_deref(), Some(""));
     let confirmed = of_force("[[source]]\nname = \"a\"\nu = \"10 mN\"\n");
     bench.write("budget.toml", &confirmed);
     let text = bench.ok(words);

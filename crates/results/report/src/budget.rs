@@ -7,7 +7,7 @@ pub use template::BudgetTemplate;
 
 use maud::html;
 use serde::Serialize;
-use taceva_metrology::budget::{Budget, MonteCarloResult};
+use taceva_metrology::budget::{Budget, Method, MonteCarloResult};
 use taceva_results::not_measured;
 
 use crate::contributions;
@@ -127,13 +127,24 @@ impl BudgetReport {
 
     /// Verdict against the maximum allowed expanded uncertainty.
     fn verdict(&self) -> Option<String> {
-        let (most, budget) = (self.most?, self.budgets.first()?);
+        let size = |of: &Budget| of.half_width().unwrap_or(f64::INFINITY);
+        let budgets = self.budgets.iter();
+        let widest = budgets.max_by(|one, other| size(one).total_cmp(&size(other)))?;
+        let unit = widest.unit.as_str();
+        let most = number(Some(self.most?));
         let found = match self.is_passed() {
-            true => "at most",
-            false => "not shown to be at most",
+            true => format!("at most {most} {unit}"),
+            false => format!("not shown to be at most {most} {unit}"),
         };
-        let most = FormattedValue::number(most, None).value;
-        Some(format!("U is {found} {most} {}.", budget.unit))
+        let compared = match (widest.half_width(), widest.method) {
+            (None, _) => "U is undefined".to_owned(),
+            (half, Method::FirstOrder) => format!("{} {unit}, k u", number(half)),
+            (half, Method::MonteCarlo) => format!(
+                "{} {unit}, half-width of the Monte Carlo interval",
+                number(half)
+            ),
+        };
+        Some(format!("U is {found}. Compared: {compared}."))
     }
 
     /// Sealed JSON of one budget, with the schema `taceva.budget/1` and the digests of its input files.

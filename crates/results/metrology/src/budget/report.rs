@@ -44,7 +44,7 @@ pub struct Budget {
     pub k: Option<f64>,
     /// Coverage probability.
     pub p: f64,
-    /// Expanded uncertainty k u, unrounded.
+    /// Expanded uncertainty k u of first order, unrounded, whatever the method of the interval.
     #[serde(rename = "U")]
     pub expanded: Option<f64>,
     /// Coverage interval, computed by `method`.
@@ -195,9 +195,9 @@ pub struct Traceability {
 }
 
 impl Budget {
-    /// Expanded uncertainty rounded to two digits.
+    /// Half-width of the interval rounded to two digits.
     pub fn rounded(&self) -> Option<f64> {
-        self.expanded.map(two_digits)
+        self.half_width().map(two_digits)
     }
 
     /// Half-width of the interval: the greater one if the interval is asymmetric. It equals U unless the interval comes from draws.
@@ -211,10 +211,18 @@ impl Budget {
         }
     }
 
-    /// Value, U in two digits, coverage and degrees of freedom, in one line.
+    /// Value, U in two digits and coverage, in one line. U of draws has no k and no degrees of freedom.
     pub fn statement(&self) -> String {
         let (unit, name) = (shown(&self.unit), shown(&self.measurand));
         let value = beside(self.value, self.scale());
+        let (p, freedom) = (self.p * 100.0, self.nu_eff);
+        let of_draws = self.rounded().filter(|_| self.method == Method::MonteCarlo);
+        if let Some(half) = of_draws {
+            let half = beside(half, half);
+            return format!(
+                "{name} = {value} {unit}, U = {half} {unit} (half-width of the Monte Carlo interval, p = {p} %)"
+            );
+        }
         let uncertainty = match (self.rounded(), self.k) {
             (Some(expanded), Some(k)) => {
                 format!("U = {} {unit} (k = {k:.3}", beside(expanded, expanded))
@@ -222,7 +230,6 @@ impl Budget {
             (Some(expanded), None) => format!("U = {expanded} {unit} (no k"),
             _ => format!("u = {} {unit} (no U", beside(self.u, self.u)),
         };
-        let (p, freedom) = (self.p * 100.0, self.nu_eff);
         format!("{name} = {value} {unit}, {uncertainty}, p = {p} %, nu_eff {freedom})")
     }
 
@@ -235,7 +242,7 @@ impl Budget {
 
     /// Uncertainty whose two digits set the decimals of printed values.
     fn scale(&self) -> f64 {
-        let wide = self.expanded.filter(|expanded| *expanded > 0.0);
+        let wide = self.half_width().filter(|half| *half > 0.0);
         wide.unwrap_or(self.u)
     }
 

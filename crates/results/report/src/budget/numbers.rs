@@ -1,6 +1,6 @@
 //! Uncertainty budgets as a table for programs.
 
-use taceva_metrology::budget::{Budget, Freedom, Source};
+use taceva_metrology::budget::{Budget, Freedom, Method, Source};
 
 use super::BudgetReport;
 use crate::table::{Cell, Table};
@@ -91,6 +91,8 @@ fn results(budget: &Budget) -> Vec<Entry<'_>> {
         unit,
         ..Entry::default()
     };
+    // The half-width of an interval of draws is no multiple of u.
+    let factor = budget.k.filter(|_| budget.method == Method::FirstOrder);
     let value = Entry {
         u: Some(budget.u),
         freedom: Some(budget.nu_eff),
@@ -100,8 +102,11 @@ fn results(budget: &Budget) -> Vec<Entry<'_>> {
     };
     let mut all = vec![
         value,
-        result("U", budget.expanded, unit),
-        result("k", budget.k, "1"),
+        Entry {
+            remark: budget.method.to_string(),
+            ..result("U", budget.half_width(), unit)
+        },
+        result("k", factor, "1"),
         result("p", Some(budget.p), "1"),
         result("second_order_u", Some(budget.second_order_u), unit),
     ];
