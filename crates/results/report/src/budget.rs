@@ -111,6 +111,11 @@ impl BudgetReport {
                 add(draws(found, &budget.unit));
             }
         }
+        for range in self.budgets.iter().flat_map(Budget::labels_in_words) {
+            add(format!(
+                "Errors are pooled over samples with labels from {range}."
+            ));
+        }
         let warnings = self.budgets.iter().flat_map(|of| &of.warnings);
         warnings.for_each(|warning| add(format!("Warning: {warning}.")));
         if self.budgets.iter().any(|of| !of.correlations.is_empty()) {

@@ -123,6 +123,27 @@ fn a_figure_inside_another_one_is_refused_with_both_lines() {
 }
 
 #[test]
+fn a_reading_outside_the_labels_of_the_samples_is_named_in_every_format() {
+    let bench = super::evaluated();
+    bench.write("budget.toml", &source("from = \"error.within\""));
+    let words = "budget budget.toml --results r.json --mc 0";
+    let budget = bench.json(words);
+    let labels = super::source(&budget, "a")["labels"].clone();
+    let [low, high] = [0, 1_usize].map(|end| super::number(&labels[end]));
+    assert!(low < high && high < 50.0, "{labels}");
+    for format in FORMATS {
+        let far = bench.ok(&format!("{words} --at 50N --format {format}"));
+        let warning = "50 N is outside the labels of the samples, ";
+        assert!(far.contains(warning), "{format}: {far}");
+        let near = bench.ok(&format!("{words} --at {low:?}N --format {format}"));
+        assert!(!near.contains("outside the labels"), "{format}: {near}");
+    }
+    let text = bench.ok(&format!("{words} --at {low:?}N,{high:?}N"));
+    let note = "Errors are pooled over samples with labels from ";
+    assert_eq!(text.matches(note).count(), 1, "{text}");
+}
+
+#[test]
 fn sources_without_an_uncertainty_have_none_and_divide_nothing() {
     let bench = Bench::new();
     bench.write("budget.toml", &source("half_width = \"0 mN\""));

@@ -110,6 +110,8 @@ impl BudgetText {
         budget.warnings.extend(expiry);
         let notes = inputs.iter().filter_map(Input::note);
         budget.warnings.extend(notes);
+        let beyond = budget.beyond_labels();
+        budget.warnings.extend(beyond);
         let drawn = draws
             .filter(|_| combined.u > 0.0)
             .map(|request| sampler.run(request, expansion.value));
@@ -176,6 +178,7 @@ fn sources(inputs: &[Input], expansion: &Expansion, u: f64) -> Vec<Source> {
             from: input.from.clone(),
             n: input.n(),
             clusters: input.figure.as_ref().and_then(|of| of.clusters),
+            labels: input.figure.as_ref().and_then(|of| of.labels),
             digest: input.figure.as_ref().and_then(|of| of.digest.clone()),
         })
         .collect()

@@ -126,6 +126,9 @@ pub struct Source {
     pub n: Option<u64>,
     /// Number of clusters of the figure.
     pub clusters: Option<u64>,
+    /// Least and greatest label of these rows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub labels: Option<[f64; 2]>,
     /// Digest of the file that the figure comes from.
     pub digest: Option<String>,
 }
@@ -238,6 +241,49 @@ impl Budget {
         let [low, high] = self.interval?.map(|end| beside(end, self.scale()));
         let unit = shown(&self.unit);
         Some(format!("interval {low} to {high} {unit}, {}", self.method))
+    }
+
+    /// Label ranges of the samples whose errors the sources pool, as text; each once.
+    pub fn labels_in_words(&self) -> Vec<String> {
+        let ranges = self.label_ranges().into_iter();
+        ranges.map(|range| self.range_in_words(range)).collect()
+    }
+
+    /// Warnings about a reading outside the labels of samples whose errors the sources pool.
+    pub(super) fn beyond_labels(&self) -> Vec<String> {
+        let Some(at) = self.at else {
+            return Vec::new();
+        };
+        let mut ranges = self.label_ranges();
+        // The ends themselves are rounded.
+        let rounding = |[low, high]: &[f64; 2]| 1e-9 * (high - low);
+        ranges.retain(|of| at < of[0] - rounding(of) || at > of[1] + rounding(of));
+        let warning = |range: [f64; 2]| {
+            format!(
+                "{at} {} is outside the labels of the samples, {}: their errors are not those of this reading",
+                shown(&self.unit),
+                self.range_in_words(range)
+            )
+        };
+        ranges.into_iter().map(warning).collect()
+    }
+
+    fn label_ranges(&self) -> Vec<[f64; 2]> {
+        let mut ranges = Vec::new();
+        for range in self.sources.iter().filter_map(|source| source.labels) {
+            if !ranges.contains(&range) {
+                ranges.push(range);
+            }
+        }
+        ranges
+    }
+
+    /// Range in three digits of its width.
+    fn range_in_words(&self, [low, high]: [f64; 2]) -> String {
+        let place = (high - low).max(high.abs() / 10.0) / 10.0;
+        let [low, high] = [low, high].map(|end| beside(end, place));
+        let unit = shown(&self.unit);
+        format!("{low} {unit} to {high} {unit}")
     }
 
     /// Uncertainty whose two digits set the decimals of printed values.

@@ -5,7 +5,7 @@ use taceva_metrology::budget::{Budget, Freedom, Method, Source};
 use super::BudgetReport;
 use crate::table::{Cell, Table};
 
-/// Columns of the table. A row holds a source, a result, a correlation, an uncovered effect, or a warning.
+/// Columns of the table; `low` and `high` of a source are the ends of the labels of its samples. A row holds a source, a result, a correlation, an uncovered effect, or a warning.
 const COLUMNS: [&str; 17] = [
     "at",
     "row",
@@ -76,6 +76,7 @@ fn of_source<'a>(source: &'a Source, budget: &'a Budget) -> Entry<'a> {
         contribution: Some(source.contribution),
         share: source.share,
         unit: &budget.unit,
+        ends: source.labels,
         from: source.from.as_deref().unwrap_or_default(),
         ..Entry::default()
     }
