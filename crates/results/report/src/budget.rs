@@ -7,7 +7,7 @@ pub use template::BudgetTemplate;
 
 use maud::html;
 use serde::Serialize;
-use taceva_metrology::budget::{Budget, Method, MonteCarloResult};
+use taceva_metrology::budget::{Budget, Method, MonteCarloResult, Traceability};
 use taceva_results::not_measured;
 
 use crate::contributions;
@@ -107,10 +107,13 @@ impl BudgetReport {
             let interval = budget.interval_in_words();
             let interval = interval.map_or_else(String::new, |words| format!("; {words}"));
             add(format!("{}{interval}.", budget.statement()));
+            add(reading(budget));
             if let Some(found) = &budget.mcm {
                 add(draws(found, &budget.unit));
             }
         }
+        let certificates = self.budgets.iter().flat_map(|of| &of.traceability);
+        certificates.for_each(|of| add(certificate(of)));
         for range in self.budgets.iter().flat_map(Budget::labels_in_words) {
             add(format!(
                 "Errors are pooled over samples with labels from {range}."
@@ -137,9 +140,12 @@ impl BudgetReport {
         let widest = budgets.max_by(|one, other| size(one).total_cmp(&size(other)))?;
         let unit = widest.unit.as_str();
         let most = number(Some(self.most?));
-        let found = match self.is_passed() {
-            true => format!("at most {most} {unit}"),
-            false => format!("not shown to be at most {most} {unit}"),
+        let found = match (self.is_passed(), widest.reservation()) {
+            (true, None) => format!("at most {most} {unit}"),
+            (true, Some(words)) => {
+                format!("at most {most} {unit} of the sources named here; {words}")
+            }
+            (false, _) => format!("not shown to be at most {most} {unit}"),
         };
         let compared = match (widest.half_width(), widest.method) {
             (None, _) => "U is undefined".to_owned(),
@@ -195,6 +201,27 @@ impl BudgetReport {
     fn not_measured(&self) -> Option<String> {
         not_measured(self.origins.iter().map(String::as_str))
     }
+}
+
+/// Uncorrected reading, its correction, and the combined standard uncertainty.
+fn reading(budget: &Budget) -> String {
+    let unit = budget.unit.as_str();
+    let u = number(Some(budget.u));
+    let Some(at) = budget.at else {
+        return format!("u = {u} {unit}.");
+    };
+    let correction = number(Some(budget.value - at));
+    format!("Reading {at} {unit}, correction {correction} {unit}, u = {u} {unit}.")
+}
+
+/// Certificate of the reference in one line.
+fn certificate(of: &Traceability) -> String {
+    let until = of.valid_until.as_ref();
+    let until = until.map_or_else(String::new, |day| format!(", valid until {day}"));
+    format!(
+        "Certificate {} of {}, serial {}{until}.",
+        of.number, of.laboratory, of.serial
+    )
 }
 
 /// Monte Carlo result compared with the first-order result.

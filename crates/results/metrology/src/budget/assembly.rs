@@ -9,7 +9,9 @@ use super::input::{Enters, Input};
 use super::monte_carlo::{MonteCarlo, MonteCarloResult, Sampler};
 use super::overlap;
 use super::propagation::{Combined, combine, contributions};
-use super::report::{BUDGET_SCHEMA, Budget, Correlation, Method, Source, Traceability};
+use super::report::{
+    BUDGET_SCHEMA, Budget, Correlation, Method, NOT_TRACEABLE, Source, Traceability,
+};
 use super::source::Reader;
 use super::text::BudgetText;
 use taceva_metrics::distributions::student_t;
@@ -97,13 +99,14 @@ impl BudgetText {
                 laboratory: of.laboratory.clone(),
                 serial: of.serial.clone(),
                 valid_until: of.valid_until.clone(),
+                recorded_on: of.recorded_on.clone(),
             }),
             warnings: Vec::new(),
         };
         if self.written.expression.is_none() {
             budget.missing = overlap::missing(&inputs, evidence);
             if evidence.certificate().is_none() {
-                budget.warn("not traceable: the budget has no certificate of the reference");
+                budget.warn(NOT_TRACEABLE);
             }
         }
         let expiry = evidence.certificate().and_then(|of| of.expiry());

@@ -9,6 +9,10 @@ use super::digits::{beside, two_digits};
 use super::freedom::Freedom;
 use super::monte_carlo::MonteCarloResult;
 
+/// Warning of a budget without a certificate of the reference.
+pub(super) const NOT_TRACEABLE: &str =
+    "not traceable: the budget has no certificate of the reference";
+
 /// Name and version of the JSON form.
 pub const BUDGET_SCHEMA: &str = "taceva.budget/1";
 
@@ -195,6 +199,18 @@ pub struct Traceability {
     pub serial: String,
     /// Last day of validity.
     pub valid_until: Option<String>,
+    /// Day of the recording, in the same form.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recorded_on: Option<String>,
+}
+
+impl Traceability {
+    /// True if the certificate had expired on the day of the recording.
+    fn is_expired(&self) -> bool {
+        // Dates of one form compare as texts.
+        let days = self.recorded_on.as_ref().zip(self.valid_until.as_ref());
+        days.is_some_and(|(on, until)| on > until)
+    }
 }
 
 impl Budget {
@@ -241,6 +257,18 @@ impl Budget {
         let [low, high] = self.interval?.map(|end| beside(end, self.scale()));
         let unit = shown(&self.unit);
         Some(format!("interval {low} to {high} {unit}, {}", self.method))
+    }
+
+    /// Reservation about the reference: no certificate, or one that had expired on the day of the recording.
+    pub fn reservation(&self) -> Option<&'static str> {
+        let stated = self.traceability.as_ref();
+        if stated.is_some_and(Traceability::is_expired) {
+            return Some("certificate expired");
+        }
+        let mut warnings = self.warnings.iter();
+        warnings
+            .any(|warning| warning == NOT_TRACEABLE)
+            .then_some("not traceable")
     }
 
     /// Label ranges of the samples whose errors the sources pool, as text; each once.
