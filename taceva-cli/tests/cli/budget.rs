@@ -263,8 +263,24 @@ fn repeats_drift_and_lights_of_a_result_are_sources() {
     let missing = budget["missing"].as_array().expect("a list").iter();
     let missing: Vec<&str> = missing.filter_map(|of| of["source"].as_str()).collect();
     assert_eq!(missing, ["hysteresis", "gauge", "certificate"]);
-    // Repeats are live in a template without residuals.
+    // Repeats are live in a template without residuals; nobody measured the hours.
     let template = bench.ok("budget --template r.json");
+    let open = "# [[source]]\n# name = \"drift since calibration\"\n# from = \"drift\"\n\
+        # hours = ?   # hours since the calibration of the zero\n";
+    assert!(template.contains(open), "{template}");
+    bench.write("drafted.toml", &template);
+    bench.ok("budget drafted.toml --results r.json --mc 0");
+    let stated = open
+        .replace("# [", "[")
+        .replace("\n# ", "\n")
+        .replace('?', "8");
+    bench.write("drafted.toml", &template.replace(open, &stated));
+    let drafted = bench.json("budget drafted.toml --results r.json --mc 0");
+    near(
+        number(&source(&drafted, "drift since calibration")["u"]),
+        number(&time["u"]),
+        1e-12,
+    );
     assert!(
         template.contains("\nfrom = \"repeatability\"\n"),
         "{template}"
