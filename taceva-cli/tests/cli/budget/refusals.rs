@@ -131,14 +131,15 @@ fn a_reading_outside_the_labels_of_the_samples_is_named_in_every_format() {
     let labels = super::source(&budget, "a")["labels"].clone();
     let [low, high] = [0, 1_usize].map(|end| super::number(&labels[end]));
     assert!(low < high && high < 50.0, "{labels}");
+    let [first, second] = [0.25, 0.75].map(|share| low + share * (high - low));
     for format in FORMATS {
         let far = bench.ok(&format!("{words} --at 50N --format {format}"));
         let warning = "50 N is outside the labels of the samples, ";
         assert!(far.contains(warning), "{format}: {far}");
-        let near = bench.ok(&format!("{words} --at {low:?}N --format {format}"));
+        let near = bench.ok(&format!("{words} --at {first:.6}N --format {format}"));
         assert!(!near.contains("outside the labels"), "{format}: {near}");
     }
-    let text = bench.ok(&format!("{words} --at {low:?}N,{high:?}N"));
+    let text = bench.ok(&format!("{words} --at {first:.6}N,{second:.6}N"));
     let note = "Errors are pooled over samples with labels from ";
     assert_eq!(text.matches(note).count(), 1, "{text}");
 }
