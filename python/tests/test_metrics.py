@@ -218,7 +218,7 @@ def test_whatever_is_shown_of_samples_that_nobody_measured_says_so(tmp_path: Pat
     for shown in (str(drawn), drawn.to_latex(), drawn._repr_html_(), str(together), together.to_latex(), together._repr_html_()):
         assert said in shown
     assert "training data are unknown" in str(drawn) and "training data are unknown" in drawn._repr_html_()
-    assert "Not everything here was measured: some of the samples are synthetic." in str(taceva.compare(drawn, of_arrays))
+    assert "Not everything here was measured: all samples whose origin is named are synthetic." in str(taceva.compare(drawn, of_arrays))
     assert "measured" not in str(of_arrays)
 
 

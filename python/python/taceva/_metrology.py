@@ -83,7 +83,10 @@ class Budget(Metrology):
 
     def __repr__(self) -> str:
         found = self.to_dict()
-        expanded = "U undefined" if found["U"] is None else f"U = {found['U']:.2g} {found['unit']}"
+        half = found["U"]
+        if found["method"] == "monte_carlo":
+            half = max(abs(end - found["value"]) for end in found["interval"])
+        expanded = "U undefined" if half is None else f"U = {half:.2g} {found['unit']}"
         return f"<taceva.Budget of {found['measurand']}: {expanded}>"
 
 

@@ -2,7 +2,7 @@
 
 mod proving;
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::num::NonZeroUsize;
 
 use anyhow::anyhow;
@@ -76,7 +76,11 @@ pub(crate) fn fitted(args: &Curve, jobs: NonZeroUsize) -> anyhow::Result<Fitted>
         inverted: inverted(args, &y)?,
         detects: args.detect,
         proving: series.transpose()?,
-        indications: args.iso7500.then(|| indications(&read.rows)),
+        indicated_points: read.points.map(|_| points_of(indicated(&read.rows))),
+        indications: args.iso7500.then(|| {
+            let rows = indicated(&read.rows);
+            rows.map(|row| Indication::new(row.y, row.x)).collect()
+        }),
     };
     let curve = CalibrationCurve {
         x: x.named(&table),
@@ -176,11 +180,18 @@ fn places(args: &Curve, rows: &[CurveRow]) -> Vec<f64> {
     (0..BANDS).map(place).collect()
 }
 
-/// Presses from a fifth of the greatest reference value on.
-fn indications(rows: &[CurveRow]) -> Vec<Indication> {
+/// Rows from a fifth of the greatest reference value on.
+fn indicated(rows: &[CurveRow]) -> impl Iterator<Item = &CurveRow> {
     let greatest = rows.iter().map(|row| row.x).fold(0.0, f64::max);
-    let pressed = rows.iter().filter(|row| row.x >= LEAST_SHARE * greatest);
-    pressed.map(|row| Indication::new(row.y, row.x)).collect()
+    rows.iter()
+        .filter(move |row| row.x >= LEAST_SHARE * greatest)
+}
+
+/// Number of contact points of rows.
+fn points_of<'r>(rows: impl Iterator<Item = &'r CurveRow>) -> usize {
+    rows.filter_map(|row| row.point)
+        .collect::<BTreeSet<u64>>()
+        .len()
 }
 
 /// Readings to invert, in the unit of y.

@@ -100,7 +100,27 @@ fn draws_that_contradict_the_first_order_give_the_interval_and_every_format_says
     assert_eq!(budget["interval"], budget["mcm"]["symmetric"]);
     assert_eq!(budget["mcm"]["seed"], 3);
     // U of first order is 19.5 N, the half-width of the draws 16.7 N.
-    bench.ok(&format!("{words} --most-U 18N"));
+    let text = bench.ok(&format!("{words} --most-U 18N --html page.html"));
+    let compared = "U is at most 18.00 N of the sources named here; not traceable. Compared: 16.";
+    let stated = "U = 17 N (half-width of the Monte Carlo interval, p = 95 %)";
+    let page = std::fs::read_to_string(bench.path("page.html")).expect("there");
+    for written in [&text, &page] {
+        assert!(
+            written.contains(compared) && written.contains(stated),
+            "{written}"
+        );
+        assert!(!written.contains("(k = "), "{written}");
+    }
+    let csv = bench.ok(&format!("{words} --format csv"));
+    let row = |name: &str| {
+        let head = format!("0.5,result,{name},,,");
+        let mut rows = csv.lines().filter_map(|line| line.strip_prefix(&head));
+        let cells = rows.next().expect(name);
+        cells.split(',').next().map(str::to_owned)
+    };
+    let half: f64 = row("U").expect("a cell").parse().expect("a number");
+    near(half, 16.7, 0.01);
+    assert_eq!(row("k").as_deref(), Some(""));
     let confirmed = of_force("[[source]]\nname = \"a\"\nu = \"10 mN\"\n");
     bench.write("budget.toml", &confirmed);
     let text = bench.ok(words);
@@ -243,8 +263,24 @@ fn repeats_drift_and_lights_of_a_result_are_sources() {
     let missing = budget["missing"].as_array().expect("a list").iter();
     let missing: Vec<&str> = missing.filter_map(|of| of["source"].as_str()).collect();
     assert_eq!(missing, ["hysteresis", "gauge", "certificate"]);
-    // Repeats are live in a template without residuals.
+    // Repeats are live in a template without residuals; nobody measured the hours.
     let template = bench.ok("budget --template r.json");
+    let open = "# [[source]]\n# name = \"drift since calibration\"\n# from = \"drift\"\n\
+        # hours = ?   # hours since the calibration of the zero\n";
+    assert!(template.contains(open), "{template}");
+    bench.write("drafted.toml", &template);
+    bench.ok("budget drafted.toml --results r.json --mc 0");
+    let stated = open
+        .replace("# [", "[")
+        .replace("\n# ", "\n")
+        .replace('?', "8");
+    bench.write("drafted.toml", &template.replace(open, &stated));
+    let drafted = bench.json("budget drafted.toml --results r.json --mc 0");
+    near(
+        number(&source(&drafted, "drift since calibration")["u"]),
+        number(&time["u"]),
+        1e-12,
+    );
     assert!(
         template.contains("\nfrom = \"repeatability\"\n"),
         "{template}"

@@ -172,6 +172,20 @@ fn a_slope_of_chance_has_no_inverse_and_the_reason_is_stated() {
 }
 
 #[test]
+fn relative_errors_count_readings_and_the_contact_points_that_they_are_of() {
+    let bench = Bench::new();
+    // The point c is below a fifth of the greatest force.
+    bench.write(
+        "unit.csv",
+        "point_id,Fz,Fz_predicted\nc,1,9\nc,2,9\na,80,81\na,100,102\nb,90,94\nb,100,108\n",
+    );
+    let curve = bench.json("curve unit.csv --x Fz --y Fz_predicted --iso7500");
+    let remark = &figure(&curve, "relative_error_median")["remark"];
+    let expected = "like ISO 7500-1, of 4 readings of 2 contact points; no class";
+    assert_eq!(*remark, expected);
+}
+
+#[test]
 fn relative_errors_from_a_fifth_of_full_scale_on_are_summed_up_without_a_class() {
     let bench = Bench::new();
     // The first press is below a fifth of the greatest force.
@@ -183,7 +197,7 @@ fn relative_errors_from_a_fifth_of_full_scale_on_are_summed_up_without_a_class()
     crate::schema::check("curve", &curve);
     let median = figure(&curve, "relative_error_median");
     near(&median["value"], &3.0.into(), 1e-12);
-    assert_eq!(median["remark"], "like ISO 7500-1, of 4 presses; no class");
+    assert_eq!(median["remark"], "like ISO 7500-1, of 4 readings; no class");
     near(
         &figure(&curve, "share_within_class_3")["value"],
         &50.0.into(),

@@ -7,7 +7,7 @@ pub use template::BudgetTemplate;
 
 use maud::html;
 use serde::Serialize;
-use taceva_metrology::budget::{Budget, MonteCarloResult};
+use taceva_metrology::budget::{Budget, Method, MonteCarloResult, Traceability};
 use taceva_results::not_measured;
 
 use crate::contributions;
@@ -107,9 +107,17 @@ impl BudgetReport {
             let interval = budget.interval_in_words();
             let interval = interval.map_or_else(String::new, |words| format!("; {words}"));
             add(format!("{}{interval}.", budget.statement()));
+            add(reading(budget));
             if let Some(found) = &budget.mcm {
                 add(draws(found, &budget.unit));
             }
+        }
+        let certificates = self.budgets.iter().flat_map(|of| &of.traceability);
+        certificates.for_each(|of| add(certificate(of)));
+        for range in self.budgets.iter().flat_map(Budget::labels_in_words) {
+            add(format!(
+                "Errors are pooled over samples with labels from {range}."
+            ));
         }
         let warnings = self.budgets.iter().flat_map(|of| &of.warnings);
         warnings.for_each(|warning| add(format!("Warning: {warning}.")));
@@ -127,13 +135,27 @@ impl BudgetReport {
 
     /// Verdict against the maximum allowed expanded uncertainty.
     fn verdict(&self) -> Option<String> {
-        let (most, budget) = (self.most?, self.budgets.first()?);
-        let found = match self.is_passed() {
-            true => "at most",
-            false => "not shown to be at most",
+        let size = |of: &Budget| of.half_width().unwrap_or(f64::INFINITY);
+        let budgets = self.budgets.iter();
+        let widest = budgets.max_by(|one, other| size(one).total_cmp(&size(other)))?;
+        let unit = widest.unit.as_str();
+        let most = number(Some(self.most?));
+        let found = match (self.is_passed(), widest.reservation()) {
+            (true, None) => format!("at most {most} {unit}"),
+            (true, Some(words)) => {
+                format!("at most {most} {unit} of the sources named here; {words}")
+            }
+            (false, _) => format!("not shown to be at most {most} {unit}"),
         };
-        let most = FormattedValue::number(most, None).value;
-        Some(format!("U is {found} {most} {}.", budget.unit))
+        let compared = match (widest.half_width(), widest.method) {
+            (None, _) => "U is undefined".to_owned(),
+            (half, Method::FirstOrder) => format!("{} {unit}, k u", number(half)),
+            (half, Method::MonteCarlo) => format!(
+                "{} {unit}, half-width of the Monte Carlo interval",
+                number(half)
+            ),
+        };
+        Some(format!("U is {found}. Compared: {compared}."))
     }
 
     /// Sealed JSON of one budget, with the schema `taceva.budget/1` and the digests of its input files.
@@ -179,6 +201,27 @@ impl BudgetReport {
     fn not_measured(&self) -> Option<String> {
         not_measured(self.origins.iter().map(String::as_str))
     }
+}
+
+/// Uncorrected reading, its correction, and the combined standard uncertainty.
+fn reading(budget: &Budget) -> String {
+    let unit = budget.unit.as_str();
+    let u = number(Some(budget.u));
+    let Some(at) = budget.at else {
+        return format!("u = {u} {unit}.");
+    };
+    let correction = number(Some(budget.value - at));
+    format!("Reading {at} {unit}, correction {correction} {unit}, u = {u} {unit}.")
+}
+
+/// Certificate of the reference in one line.
+fn certificate(of: &Traceability) -> String {
+    let until = of.valid_until.as_ref();
+    let until = until.map_or_else(String::new, |day| format!(", valid until {day}"));
+    format!(
+        "Certificate {} of {}, serial {}{until}.",
+        of.number, of.laboratory, of.serial
+    )
 }
 
 /// Monte Carlo result compared with the first-order result.

@@ -37,8 +37,10 @@ pub struct CurveRequest {
     pub inverted: Vec<f64>,
     /// True to compute detection limits.
     pub detects: bool,
-    /// Presses for which relative errors like those of ISO 7500-1 are computed.
+    /// Readings for which relative errors like those of ISO 7500-1 are computed.
     pub indications: Option<Vec<Indication>>,
+    /// Number of contact points of `indications`; `None` for independent rows.
+    pub indicated_points: Option<usize>,
     /// Series for which relative errors like those of ISO 376 are computed.
     pub proving: Option<ProvingSeries>,
 }

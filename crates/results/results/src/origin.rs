@@ -23,11 +23,14 @@ pub fn not_measured<'a>(sources: impl IntoIterator<Item = &'a str>) -> Option<St
         return sources.contains("several").then(|| words.to_owned());
     }
     let kinds = drawn.join(" and ");
-    Some(match drawn.len() == sources.len() {
-        true => format!("Nothing here was measured: the samples are {kinds}."),
-        false => {
-            format!("Not everything here was measured: some of the samples are {kinds}.")
-        }
+    let others = sources.into_iter().filter(|source| !drawn.contains(source));
+    let others: Vec<&str> = others.collect();
+    Some(match others.as_slice() {
+        [] => format!("Nothing here was measured: the samples are {kinds}."),
+        ["unknown"] => format!(
+            "Not everything here was measured: all samples whose origin is named are {kinds}."
+        ),
+        _ => format!("Not everything here was measured: some of the samples are {kinds}."),
     })
 }
 
@@ -51,6 +54,12 @@ mod tests {
             (
                 vec!["recorded", "synthetic", "recorded"],
                 Some("Not everything here was measured: some of the samples are synthetic."),
+            ),
+            (
+                vec!["unknown", "simulated"],
+                Some(
+                    "Not everything here was measured: all samples whose origin is named are simulated.",
+                ),
             ),
             (
                 vec!["several", "recorded"],

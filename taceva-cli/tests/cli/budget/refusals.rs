@@ -123,6 +123,28 @@ fn a_figure_inside_another_one_is_refused_with_both_lines() {
 }
 
 #[test]
+fn a_reading_outside_the_labels_of_the_samples_is_named_in_every_format() {
+    let bench = super::evaluated();
+    bench.write("budget.toml", &source("from = \"error.within\""));
+    let words = "budget budget.toml --results r.json --mc 0";
+    let budget = bench.json(words);
+    let labels = super::source(&budget, "a")["labels"].clone();
+    let [low, high] = [0, 1_usize].map(|end| super::number(&labels[end]));
+    assert!(low < high && high < 50.0, "{labels}");
+    let [first, second] = [0.25, 0.75].map(|share| low + share * (high - low));
+    for format in FORMATS {
+        let far = bench.ok(&format!("{words} --at 50N --format {format}"));
+        let warning = "50 N is outside the labels of the samples, ";
+        assert!(far.contains(warning), "{format}: {far}");
+        let near = bench.ok(&format!("{words} --at {first:.6}N --format {format}"));
+        assert!(!near.contains("outside the labels"), "{format}: {near}");
+    }
+    let text = bench.ok(&format!("{words} --at {first:.6}N,{second:.6}N"));
+    let note = "Errors are pooled over samples with labels from ";
+    assert_eq!(text.matches(note).count(), 1, "{text}");
+}
+
+#[test]
 fn sources_without_an_uncertainty_have_none_and_divide_nothing() {
     let bench = Bench::new();
     bench.write("budget.toml", &source("half_width = \"0 mN\""));
@@ -240,6 +262,25 @@ fn a_certificate_that_does_not_hold_is_refused_and_an_expired_one_is_named_in_ev
     assert!(
         text.contains("the day of the recording is unknown"),
         "{text}"
+    );
+    let limited = format!("{words} --most-U 1N");
+    let late = bench.ok(&format!("{limited} --date 2027-06-01 --html page.html"));
+    let verdict = "U is at most 1.000 N of the sources named here; certificate expired. Compared: ";
+    let certificate = "Certificate D-K-1 of a laboratory, serial 42, valid until 2027-05-12.";
+    let page = std::fs::read_to_string(bench.path("page.html")).expect("there");
+    for written in [&late, &page] {
+        for words in [verdict, certificate] {
+            assert!(written.contains(words), "no `{words}` in {written}");
+        }
+    }
+    let valid = bench.ok(&format!("{limited} --date 2027-01-02"));
+    assert!(
+        valid.contains("U is at most 1.000 N. Compared: "),
+        "{valid}"
+    );
+    assert!(
+        valid.contains("Reading 0.5 N, correction 0 N, u = 0.001500 N."),
+        "{valid}"
     );
     bench.write(
         "cert.toml",

@@ -9,7 +9,9 @@ use super::input::{Enters, Input};
 use super::monte_carlo::{MonteCarlo, MonteCarloResult, Sampler};
 use super::overlap;
 use super::propagation::{Combined, combine, contributions};
-use super::report::{BUDGET_SCHEMA, Budget, Correlation, Method, Source, Traceability};
+use super::report::{
+    BUDGET_SCHEMA, Budget, Correlation, Method, NOT_TRACEABLE, Source, Traceability,
+};
 use super::source::Reader;
 use super::text::BudgetText;
 use taceva_metrics::distributions::student_t;
@@ -97,19 +99,22 @@ impl BudgetText {
                 laboratory: of.laboratory.clone(),
                 serial: of.serial.clone(),
                 valid_until: of.valid_until.clone(),
+                recorded_on: of.recorded_on.clone(),
             }),
             warnings: Vec::new(),
         };
         if self.written.expression.is_none() {
             budget.missing = overlap::missing(&inputs, evidence);
             if evidence.certificate().is_none() {
-                budget.warn("not traceable: the budget has no certificate of the reference");
+                budget.warn(NOT_TRACEABLE);
             }
         }
         let expiry = evidence.certificate().and_then(|of| of.expiry());
         budget.warnings.extend(expiry);
         let notes = inputs.iter().filter_map(Input::note);
         budget.warnings.extend(notes);
+        let beyond = budget.beyond_labels();
+        budget.warnings.extend(beyond);
         let drawn = draws
             .filter(|_| combined.u > 0.0)
             .map(|request| sampler.run(request, expansion.value));
@@ -176,6 +181,7 @@ fn sources(inputs: &[Input], expansion: &Expansion, u: f64) -> Vec<Source> {
             from: input.from.clone(),
             n: input.n(),
             clusters: input.figure.as_ref().and_then(|of| of.clusters),
+            labels: input.figure.as_ref().and_then(|of| of.labels),
             digest: input.figure.as_ref().and_then(|of| of.digest.clone()),
         })
         .collect()

@@ -25,6 +25,8 @@ pub struct Figure {
     pub n: Option<u64>,
     /// Number of clusters of these rows, such as contact points.
     pub clusters: Option<u64>,
+    /// Least and greatest label of these rows.
+    pub labels: Option<[f64; 2]>,
     /// Digest of the file that the figure comes from.
     pub digest: Option<String>,
     /// Caveat that every output repeats.
@@ -40,6 +42,7 @@ impl Figure {
             freedom,
             n: None,
             clusters: None,
+            labels: None,
             digest: None,
             note: None,
         }

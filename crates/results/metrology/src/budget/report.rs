@@ -9,6 +9,10 @@ use super::digits::{beside, two_digits};
 use super::freedom::Freedom;
 use super::monte_carlo::MonteCarloResult;
 
+/// Warning of a budget without a certificate of the reference.
+pub(super) const NOT_TRACEABLE: &str =
+    "not traceable: the budget has no certificate of the reference";
+
 /// Name and version of the JSON form.
 pub const BUDGET_SCHEMA: &str = "taceva.budget/1";
 
@@ -44,7 +48,7 @@ pub struct Budget {
     pub k: Option<f64>,
     /// Coverage probability.
     pub p: f64,
-    /// Expanded uncertainty k u, unrounded.
+    /// Expanded uncertainty k u of first order, unrounded, whatever the method of the interval.
     #[serde(rename = "U")]
     pub expanded: Option<f64>,
     /// Coverage interval, computed by `method`.
@@ -126,6 +130,9 @@ pub struct Source {
     pub n: Option<u64>,
     /// Number of clusters of the figure.
     pub clusters: Option<u64>,
+    /// Least and greatest label of these rows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub labels: Option<[f64; 2]>,
     /// Digest of the file that the figure comes from.
     pub digest: Option<String>,
 }
@@ -192,12 +199,24 @@ pub struct Traceability {
     pub serial: String,
     /// Last day of validity.
     pub valid_until: Option<String>,
+    /// Day of the recording, in the same form.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub recorded_on: Option<String>,
+}
+
+impl Traceability {
+    /// True if the certificate had expired on the day of the recording.
+    fn is_expired(&self) -> bool {
+        // Dates of one form compare as texts.
+        let days = self.recorded_on.as_ref().zip(self.valid_until.as_ref());
+        days.is_some_and(|(on, until)| on > until)
+    }
 }
 
 impl Budget {
-    /// Expanded uncertainty rounded to two digits.
+    /// Half-width of the interval rounded to two digits.
     pub fn rounded(&self) -> Option<f64> {
-        self.expanded.map(two_digits)
+        self.half_width().map(two_digits)
     }
 
     /// Half-width of the interval: the greater one if the interval is asymmetric. It equals U unless the interval comes from draws.
@@ -211,10 +230,18 @@ impl Budget {
         }
     }
 
-    /// Value, U in two digits, coverage and degrees of freedom, in one line.
+    /// Value, U in two digits and coverage, in one line. U of draws has no k and no degrees of freedom.
     pub fn statement(&self) -> String {
         let (unit, name) = (shown(&self.unit), shown(&self.measurand));
         let value = beside(self.value, self.scale());
+        let (p, freedom) = (self.p * 100.0, self.nu_eff);
+        let of_draws = self.rounded().filter(|_| self.method == Method::MonteCarlo);
+        if let Some(half) = of_draws {
+            let half = beside(half, half);
+            return format!(
+                "{name} = {value} {unit}, U = {half} {unit} (half-width of the Monte Carlo interval, p = {p} %)"
+            );
+        }
         let uncertainty = match (self.rounded(), self.k) {
             (Some(expanded), Some(k)) => {
                 format!("U = {} {unit} (k = {k:.3}", beside(expanded, expanded))
@@ -222,7 +249,6 @@ impl Budget {
             (Some(expanded), None) => format!("U = {expanded} {unit} (no k"),
             _ => format!("u = {} {unit} (no U", beside(self.u, self.u)),
         };
-        let (p, freedom) = (self.p * 100.0, self.nu_eff);
         format!("{name} = {value} {unit}, {uncertainty}, p = {p} %, nu_eff {freedom})")
     }
 
@@ -233,9 +259,64 @@ impl Budget {
         Some(format!("interval {low} to {high} {unit}, {}", self.method))
     }
 
+    /// Reservation about the reference: no certificate, or one that had expired on the day of the recording.
+    pub fn reservation(&self) -> Option<&'static str> {
+        let stated = self.traceability.as_ref();
+        if stated.is_some_and(Traceability::is_expired) {
+            return Some("certificate expired");
+        }
+        let mut warnings = self.warnings.iter();
+        warnings
+            .any(|warning| warning == NOT_TRACEABLE)
+            .then_some("not traceable")
+    }
+
+    /// Label ranges of the samples whose errors the sources pool, as text; each once.
+    pub fn labels_in_words(&self) -> Vec<String> {
+        let ranges = self.label_ranges().into_iter();
+        ranges.map(|range| self.range_in_words(range)).collect()
+    }
+
+    /// Warnings about a reading outside the labels of samples whose errors the sources pool.
+    pub(super) fn beyond_labels(&self) -> Vec<String> {
+        let Some(at) = self.at else {
+            return Vec::new();
+        };
+        let mut ranges = self.label_ranges();
+        // The ends themselves are rounded.
+        let rounding = |[low, high]: &[f64; 2]| 1e-9 * (high - low);
+        ranges.retain(|of| at < of[0] - rounding(of) || at > of[1] + rounding(of));
+        let warning = |range: [f64; 2]| {
+            format!(
+                "{at} {} is outside the labels of the samples, {}: their errors are not those of this reading",
+                shown(&self.unit),
+                self.range_in_words(range)
+            )
+        };
+        ranges.into_iter().map(warning).collect()
+    }
+
+    fn label_ranges(&self) -> Vec<[f64; 2]> {
+        let mut ranges = Vec::new();
+        for range in self.sources.iter().filter_map(|source| source.labels) {
+            if !ranges.contains(&range) {
+                ranges.push(range);
+            }
+        }
+        ranges
+    }
+
+    /// Range in three digits of its width.
+    fn range_in_words(&self, [low, high]: [f64; 2]) -> String {
+        let place = (high - low).max(high.abs() / 10.0) / 10.0;
+        let [low, high] = [low, high].map(|end| beside(end, place));
+        let unit = shown(&self.unit);
+        format!("{low} {unit} to {high} {unit}")
+    }
+
     /// Uncertainty whose two digits set the decimals of printed values.
     fn scale(&self) -> f64 {
-        let wide = self.expanded.filter(|expanded| *expanded > 0.0);
+        let wide = self.half_width().filter(|half| *half > 0.0);
         wide.unwrap_or(self.u)
     }
 

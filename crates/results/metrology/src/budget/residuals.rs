@@ -24,6 +24,8 @@ use super::freedom::Freedom;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Residuals {
     points: BTreeMap<String, Moments>,
+    /// Least and greatest truth.
+    truths: Option<[f64; 2]>,
     /// Number of rows whose truth or prediction is not finite.
     n_invalid: u64,
 }
@@ -94,6 +96,7 @@ impl Residuals {
             None => self.points.entry(point.to_owned()).or_default(),
         };
         of.add(residual);
+        self.widen([truth, truth]);
     }
 
     /// Adds the rows of another part.
@@ -102,6 +105,14 @@ impl Residuals {
         for (name, point) in &other.points {
             self.points.entry(name.clone()).or_default().merge(point);
         }
+        if let Some(truths) = other.truths {
+            self.widen(truths);
+        }
+    }
+
+    fn widen(&mut self, [low, high]: [f64; 2]) {
+        let [least, most] = self.truths.unwrap_or([low, high]);
+        self.truths = Some([least.min(low), most.max(high)]);
     }
 
     /// Number of rows skipped because truth or prediction is not finite.
@@ -128,7 +139,10 @@ impl Residuals {
         let model = sums.model().ok_or(few)?;
         let of_points = Freedom::Finite(points as f64 - 1.0);
         let of_rows = Freedom::Finite(model.within_freedom);
-        let figure = |u: f64, freedom: Freedom| Figure::new(u, freedom).of_rows(count, points);
+        let figure = |u: f64, freedom: Freedom| Figure {
+            labels: self.truths,
+            ..Figure::new(u, freedom).of_rows(count, points)
+        };
         let is_negative = model.between_variance_raw < 0.0;
         let of_between = model.between_freedom.map_or(of_points, Freedom::Finite);
         let mut between = figure(model.between, of_between);

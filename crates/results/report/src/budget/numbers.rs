@@ -1,11 +1,11 @@
 //! Uncertainty budgets as a table for programs.
 
-use taceva_metrology::budget::{Budget, Freedom, Source};
+use taceva_metrology::budget::{Budget, Freedom, Method, Source};
 
 use super::BudgetReport;
 use crate::table::{Cell, Table};
 
-/// Columns of the table. A row holds a source, a result, a correlation, an uncovered effect, or a warning.
+/// Columns of the table; `low` and `high` of a source are the ends of the labels of its samples. A row holds a source, a result, a correlation, an uncovered effect, or a warning.
 const COLUMNS: [&str; 17] = [
     "at",
     "row",
@@ -76,6 +76,7 @@ fn of_source<'a>(source: &'a Source, budget: &'a Budget) -> Entry<'a> {
         contribution: Some(source.contribution),
         share: source.share,
         unit: &budget.unit,
+        ends: source.labels,
         from: source.from.as_deref().unwrap_or_default(),
         ..Entry::default()
     }
@@ -91,6 +92,8 @@ fn results(budget: &Budget) -> Vec<Entry<'_>> {
         unit,
         ..Entry::default()
     };
+    // The half-width of an interval of draws is no multiple of u.
+    let factor = budget.k.filter(|_| budget.method == Method::FirstOrder);
     let value = Entry {
         u: Some(budget.u),
         freedom: Some(budget.nu_eff),
@@ -100,8 +103,11 @@ fn results(budget: &Budget) -> Vec<Entry<'_>> {
     };
     let mut all = vec![
         value,
-        result("U", budget.expanded, unit),
-        result("k", budget.k, "1"),
+        Entry {
+            remark: budget.method.to_string(),
+            ..result("U", budget.half_width(), unit)
+        },
+        result("k", factor, "1"),
         result("p", Some(budget.p), "1"),
         result("second_order_u", Some(budget.second_order_u), unit),
     ];

@@ -6,14 +6,18 @@ use taceva_results::not_measured;
 use crate::escape::terminal as line;
 use crate::number::FormattedValue;
 
-/// Figures for which sources are written, each with the name and further keys of the source.
+/// Figures for which sources are written, each with the name and further keys of the source. A source with an open key is a comment.
 const SOURCES: [(&str, &str, &str); 7] = [
     ("bias", "mean residual", ""),
     ("error.between", "place to place", ""),
     ("error.within", "one reading", "readings = 1\n"),
     (REPEATS, "repeats", "readings = 1\n"),
     ("r_light", "other light", ""),
-    ("drift", "drift since calibration", "hours = 8\n"),
+    (
+        "drift",
+        "drift since calibration",
+        "hours = ?   # hours since the calibration of the zero\n",
+    ),
     ("certificate", "reference", ""),
 ];
 /// Figure that `error.within` includes.
@@ -66,12 +70,16 @@ impl BudgetTemplate<'_> {
                 continue;
             }
             if let Some(found) = self.found(figure) {
-                out += &format!(
-                    "\n# {}\n[[source]]\nname = {}\nfrom = {}\n{keys}",
-                    line(&found),
+                let source = format!(
+                    "[[source]]\nname = {}\nfrom = {}\n{keys}",
                     quoted(name),
                     quoted(figure)
                 );
+                let source = match keys.contains('?') {
+                    true => format!("# {}\n", source.trim_end().replace('\n', "\n# ")),
+                    false => source,
+                };
+                out += &format!("\n# {}\n{source}", line(&found));
             }
         }
         let remarks = self.remarks(&out);
@@ -99,7 +107,7 @@ impl BudgetTemplate<'_> {
         if figure == "drift" {
             let slope = phrase(found.value, &format!("{}/h", self.unit));
             return Some(format!(
-                "slope {slope}; state the hours since the calibration"
+                "slope {slope}; state the hours, then remove the `# ` of the lines below"
             ));
         }
         let rows = found.n.map_or_else(String::new, |n| format!(", {n} rows"));

@@ -64,8 +64,8 @@ impl CalibrationCurve {
         if let Some(series) = &request.proving {
             figures.extend(self.of_proving(&series.figures()?));
         }
-        if let Some(presses) = &request.indications {
-            figures.extend(self.of_indications(presses));
+        if let Some(readings) = &request.indications {
+            figures.extend(self.of_indications(readings, request.indicated_points));
         }
         Ok(figures)
     }
@@ -94,15 +94,18 @@ impl CalibrationCurve {
         figures
     }
 
-    /// Statistics of the relative errors of presses.
-    fn of_indications(&self, presses: &[Indication]) -> [CurveFigure; 3] {
-        let found = IndicationSummary::of(presses);
+    /// Statistics of the relative errors of readings, of this number of contact points.
+    fn of_indications(&self, readings: &[Indication], points: Option<usize>) -> [CurveFigure; 3] {
+        let found = IndicationSummary::of(readings);
+        let points = points.map_or_else(String::new, |points| {
+            format!(" of {}", counted(points, "contact point"))
+        });
         let figure = |quantity: &str, value: fn(&IndicationSummary) -> f64| CurveFigure {
             value: found.as_ref().ok().map(value),
             remark: match &found {
                 Ok(found) => format!(
-                    "like ISO 7500-1, of {}; no class",
-                    counted(found.n, "press")
+                    "like ISO 7500-1, of {}{points}; no class",
+                    counted(found.n, "reading")
                 ),
                 Err(reason) => reason.to_string(),
             },

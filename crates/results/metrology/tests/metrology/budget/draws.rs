@@ -81,6 +81,10 @@ fn one_rectangle_ten_times_as_wide_makes_the_interval_17_0() {
         "{:?}",
         budget.warnings
     );
+    // First order has U = 19.9 N with k = 1.960.
+    let stated = "y = 0 N, U = 17 N (half-width of the Monte Carlo interval, p = 95 %)";
+    assert_eq!(budget.statement(), stated);
+    assert_eq!(budget.rounded(), Some(17.0));
 }
 
 const MASS: &str = r#"
