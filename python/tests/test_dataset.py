@@ -93,7 +93,7 @@ def test_a_recording_travels_and_refuses_to_arrive_as_another(recording: Path) -
     dataset = taceva.open(recording)
     assert pickle.loads(pickle.dumps(dataset)).digest == dataset.digest
     with pytest.raises(taceva.DatasetError, match="not the pickled recording"):
-        taceva._dataset._arrived(3, str(recording), "sha256:0")
+        taceva._dataset._arrived(taceva._pickles.PICKLE_VERSION, str(recording), "sha256:0")
     with multiprocessing.get_context("fork").Pool(2) as pool:
         assert pool.map(len, [dataset, dataset]) == [len(dataset)] * 2
 

@@ -42,7 +42,10 @@ class Metrology:
         """Return a ``pandas.DataFrame`` with all digits: the table that the command writes by ``--format csv``."""
         import pandas
 
-        return pandas.read_csv(io.StringIO(self._found["numbers"]), float_precision="round_trip")
+        # pandas reads all digits by default from 3.1 on, where the argument is deprecated.
+        is_exact = tuple(int(part) for part in pandas.__version__.split(".")[:2]) >= (3, 1)
+        precision: dict[str, Any] = {} if is_exact else {"float_precision": "round_trip"}
+        return pandas.read_csv(io.StringIO(self._found["numbers"]), **precision)
 
     def to_latex(self) -> str:
         """Return a LaTeX table for a paper; it needs ``booktabs``."""
