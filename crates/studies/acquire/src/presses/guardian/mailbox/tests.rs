@@ -189,7 +189,7 @@ fn a_force_that_is_still_lost_after_the_answer_halts_again() {
 }
 
 #[test]
-fn a_force_that_falls_silent_while_a_question_stands_is_remarked_once() {
+fn a_force_that_is_lost_at_a_question_is_remarked_once() {
     let remarks = Remarks::default();
     let ((), halts) = reading_for(vec![Ok(0.1)], &remarks, |_, supervisor| {
         supervisor.lock().asks(true);
