@@ -7,7 +7,7 @@ use super::reduction::ReducedFrames;
 use crate::decode::ChannelOrder;
 use crate::digest::Digest;
 
-/// Origin of the samples, stated in every report. No further variant will be added, because every reader must handle each.
+/// Origin of the samples, stated in every report. It gets no further variant, because every reader must handle each.
 ///
 /// ```
 /// use taceva_dataset::Source;
@@ -26,7 +26,7 @@ pub enum Source {
     Synthetic,
 }
 
-/// Fact that may be unknown. No further variant will be added.
+/// Fact that may be unknown. It gets no further variant.
 ///
 /// ```
 /// use taceva_dataset::Known;
