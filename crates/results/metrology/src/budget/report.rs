@@ -69,7 +69,7 @@ pub struct Budget {
     pub warnings: Vec<String>,
 }
 
-/// Method that gave an interval. No further variant will be added.
+/// Method that gave an interval. It gets no further variant.
 ///
 /// ```
 /// use taceva_metrology::budget::Method;

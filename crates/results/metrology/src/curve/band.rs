@@ -5,7 +5,7 @@ use super::squares::{Square, form};
 use super::undefined::{CurveUndefined, probability};
 use taceva_metrics::distributions::{f_ratio, student_t};
 
-/// Origin of a covariance. No further variant will be added: rows are independent or clustered.
+/// Origin of a covariance. It gets no further variant: rows are independent or clustered.
 ///
 /// ```
 /// use taceva_metrology::curve::CovarianceOf;

@@ -6,7 +6,7 @@ use taceva_metrics::distributions::{noncentral_t, student_t};
 
 /// Error risks and number of averaged readings.
 ///
-/// No further field will be added.
+/// It gets no further field.
 ///
 /// ```
 /// use taceva_metrology::curve::DetectionRisks;

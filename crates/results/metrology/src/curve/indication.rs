@@ -18,7 +18,7 @@ const LIMITS: Table = Table {
 /// Fewest repeats that define the range b.
 const LEAST_REPEATS: usize = 3;
 
-/// Indicated force and true force, in the same unit. No further field will be added.
+/// Indicated force and true force, in the same unit. It gets no further field.
 ///
 /// ```
 /// use taceva_metrology::curve::Indication;

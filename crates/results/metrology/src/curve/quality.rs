@@ -5,7 +5,7 @@ use taceva_metrics::distributions::f_ratio;
 
 /// F test of level means against the scatter of readings at equal x.
 ///
-/// No further field will be added.
+/// It gets no further field.
 ///
 /// ```
 /// use taceva_metrology::curve::{CurveFit, CurveRow};
