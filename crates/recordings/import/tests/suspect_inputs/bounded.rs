@@ -158,13 +158,13 @@ fn k5_small_files_of_chunks_of_whole_planes_take_little_memory_and_time() {
     let map = format!(
         "map_version = 2\ntable = \"labels.csv\"\n[frame]\narray = {{ file = \"run.h5\", path = \"/frames\" }}\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = {{ from = \"z\", unit = \"N\" }}\n{NO_TIME}{FACTS}"
     );
-    for (file, expected) in [
-        (planes(), "times the size of the file"),
-        (fewer_planes(), "200 rows imported"),
+    for (file, rows, expected) in [
+        (planes(), 1_200, "times the size of the file"),
+        (fewer_planes(), 200, "200 rows imported"),
     ] {
         let input = Input::new();
         input.write("lab/run.h5", file);
-        input.write("lab/labels.csv", format!("z\n{}", "1\n".repeat(200)));
+        input.write("lab/labels.csv", format!("z\n{}", "1\n".repeat(rows)));
         input.write("map.toml", &map);
         let said = input.outcome();
         assert!(said.contains(expected), "{said}");
