@@ -1,6 +1,6 @@
 //! Checks of limits on the scores of a study.
 
-use taceva_core::shown;
+use taceva_core::{nearest, shown};
 use taceva_metrics::Standing;
 use taceva_metrology::conformity::{Decision, Limits, Measurement, Word, decide};
 use taceva_results::{Interval, Score};
@@ -76,6 +76,18 @@ pub fn accept(study: &Study, limits: &LimitsFile) -> Result<Vec<LimitCheck>, Acc
     each.map(|limit| hold(study, limits, limit)).collect()
 }
 
+/// Reason for a limit without a score, with the nearest channel of its metric.
+fn no_such_score(study: &Study, limit: &Limit) -> String {
+    let id = limit.metric.split('.').next();
+    let scores = study.scores.iter();
+    let channels = scores.filter(|score| Some(score.metric.as_str()) == id);
+    let channels = channels.map(|score| score.channel.as_str());
+    match nearest(&limit.channel, channels).filter(|channel| *channel != limit.channel) {
+        Some(channel) => format!("there is no such score; did you mean channel `{channel}`?"),
+        None => "there is no such score".to_owned(),
+    }
+}
+
 fn hold(study: &Study, limits: &LimitsFile, limit: &Limit) -> Result<LimitCheck, AcceptError> {
     let mut check = LimitCheck {
         limit: limit.clone(),
@@ -95,7 +107,7 @@ fn hold(study: &Study, limits: &LimitsFile, limit: &Limit) -> Result<LimitCheck,
         standing: Standing::Counts,
     };
     let Some(subject) = Subject::find(study, limit) else {
-        check.reason = Some("there is no such score".to_owned());
+        check.reason = Some(no_such_score(study, limit));
         return Ok(check);
     };
     check.n = subject.whole.n;
