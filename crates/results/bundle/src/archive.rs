@@ -26,17 +26,17 @@ pub(crate) fn pack(root: &Path, names: &[String], path: &Path) -> io::Result<()>
     let file = BufWriter::new(File::create_new(path)?);
     let mut archive = Builder::new(GzEncoder::new(file, Compression::best()));
     for name in names {
-        let bytes = fs::read(root.join(name))?;
+        let content = File::open(root.join(name))?;
         let mut header = Header::new_ustar();
         header.set_path(name)?;
         header.set_entry_type(EntryType::Regular);
-        header.set_size(bytes.len() as u64);
+        header.set_size(content.metadata()?.len());
         header.set_mode(0o644);
         header.set_uid(0);
         header.set_gid(0);
         header.set_mtime(0);
         header.set_cksum();
-        archive.append(&header, bytes.as_slice())?;
+        archive.append(&header, content)?;
     }
     let mut file = archive.into_inner()?.finish()?;
     file.flush()

@@ -6,7 +6,7 @@ use crate::layout::{CARD, CITATION, LICENCE};
 use crate::manifest::Manifest;
 
 /// Sentence on what a seal shows.
-pub const SEAL_REMARK: &str = "A seal is a digest and no signature: it shows damage and careless edits, not fraud. A bundle whose predictions, states and \
+pub(crate) const SEAL_REMARK: &str = "A seal is a digest and no signature: it shows damage and careless edits, not fraud. A bundle whose predictions, states and \
      results were all changed alike cannot be distinguished from an honest one without the model or the truth from elsewhere.";
 
 /// Generated texts by file name, in order.

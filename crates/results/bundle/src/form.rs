@@ -14,7 +14,7 @@ use crate::header;
 use crate::layout::{
     ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES, is_header,
 };
-use crate::manifest::{Manifest, StudyFiles, badge_of, source_of};
+use crate::manifest::{Manifest, badge_of, source_of};
 use crate::name;
 use crate::sample_digest::{SAMPLES_SCHEMA, SampleDigest, StudySamples};
 use crate::source::Source;
@@ -226,7 +226,7 @@ fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
     })
 }
 
-/// Fault of the header of a dataset.
+/// Rejects a header without its seal, and one of a dataset that is not in `known`.
 fn dataset_header(source: &Source, name: &str, known: &[&str]) -> Result<(), Damage> {
     let text = source.text(name, MOST_TEXT)?;
     let rule = "headers of datasets have their seal";
@@ -240,6 +240,7 @@ fn dataset_header(source: &Source, name: &str, known: &[&str]) -> Result<(), Dam
     }
 }
 
+/// Rejects an `environment.json` of another schema.
 fn environment(source: &Source) -> Result<(), Damage> {
     let rule = "environment.json has its schema";
     let text = source.text(ENVIRONMENT, MOST_TEXT)?;
@@ -281,7 +282,7 @@ fn samples(
         return refused("its digest is not that of its studies".to_owned());
     }
     for ((files, report), stated) in manifest.studies.iter().zip(reports).zip(&found.studies) {
-        let Some(table) = sample_table(files) else {
+        let Some(table) = files.sample_table() else {
             let is_withheld = stated.by == "samples" && !manifest.withheld.is_empty();
             if !is_withheld && *stated != StudySamples::of_provenance(report) {
                 return refused("without a table it names the provenance".to_owned());
@@ -300,10 +301,4 @@ fn samples(
         }
     }
     Ok(None)
-}
-
-/// Table whose rows are the samples of a study.
-pub(crate) fn sample_table(files: &StudyFiles) -> Option<&str> {
-    let truth = files.tables.as_ref().map(|tables| tables.truth.as_str());
-    truth.or(files.samples.as_deref())
 }

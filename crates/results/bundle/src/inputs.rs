@@ -106,13 +106,7 @@ fn studies(
         true => BTreeMap::new(),
         false => tables_in(&folder, &wanted)?,
     };
-    let of_run = match run
-        .map(|run| run.join(STATES))
-        .filter(|folder| folder.is_dir())
-    {
-        Some(folder) => entries(&folder)?,
-        None => Vec::new(),
-    };
+    let of_run = entries_of_run(run, STATES)?;
     let mut studies = Vec::new();
     for (report, number) in reports.iter().zip(1_usize..) {
         let is_own = |path: &&PathBuf| {
@@ -163,13 +157,7 @@ fn headers(
     reports: &[EvaluationReport],
 ) -> Result<Vec<String>, BundleError> {
     let known = header::known(reports);
-    let of_run = match run
-        .map(|run| run.join(RECORDINGS))
-        .filter(|folder| folder.is_dir())
-    {
-        Some(folder) => entries(&folder)?,
-        None => Vec::new(),
-    };
+    let of_run = entries_of_run(run, RECORDINGS)?;
     let mut headers = Vec::new();
     for (path, is_given) in request
         .datasets
@@ -190,6 +178,15 @@ fn headers(
         }
     }
     Ok(headers)
+}
+
+/// Paths in the folder `name` of a run, in order; none without a run or without this folder.
+fn entries_of_run(run: Option<&Path>, name: &str) -> Result<Vec<PathBuf>, BundleError> {
+    let folder = run.map(|run| run.join(name));
+    match folder.filter(|folder| folder.is_dir()) {
+        Some(folder) => entries(&folder),
+        None => Ok(Vec::new()),
+    }
 }
 
 /// Paths in `folder`, in order.

@@ -1,7 +1,7 @@
 //! Names of the files of a bundle, and the limits of its readers.
 
 /// The manifest, written last and sealed.
-pub const MANIFEST: &str = "bundle.json";
+pub(crate) const MANIFEST: &str = "bundle.json";
 /// The results, as they were written.
 pub(crate) const RESULTS: &str = "results.json";
 /// The digest of the samples.
@@ -16,7 +16,7 @@ pub(crate) const CITATION: &str = "CITATION.cff";
 pub(crate) const LICENCE: &str = "LICENSE";
 /// The header of a dataset.
 pub(crate) const HEADER: &str = "dataset.toml";
-/// Role of such a header.
+/// Role of the header of a dataset.
 pub(crate) const HEADER_ROLE: &str = "dataset";
 /// Texts that a bundle may hold.
 pub(crate) const TEXTS: [&str; 5] = [
@@ -43,9 +43,9 @@ pub(crate) const MOST_CLAIMS: usize = 10_000;
 pub(crate) const MOST_NAME: usize = 255;
 /// Most folders in a name, and the file.
 pub(crate) const MOST_PARTS: usize = 8;
-/// Growth that a packed bundle may have: a multiple of its size, and further bytes.
+/// Growth that a packed bundle may have, as a multiple of its size.
 pub(crate) const GROWTH: u64 = 128;
-/// The further bytes.
+/// Further bytes that a packed bundle may have, whatever its size.
 pub(crate) const GROWTH_BYTES: u64 = 64 << 20;
 
 /// True for a name that a bundle gives to its files.

@@ -20,7 +20,7 @@ pub enum Level {
 }
 
 impl Level {
-    /// Every level, the first first.
+    /// All levels, in the order in which they are verified.
     ///
     /// ```
     /// use taceva_bundle::Level;

@@ -27,13 +27,12 @@ mod verification;
 mod verify;
 
 pub use author::{Author, is_licence};
-pub use card::SEAL_REMARK;
 pub use claim::Claim;
 pub use comparison::{
     BundleComparison, COMPARISON_SCHEMA, ClaimDifference, DefinitionDifference, compare,
 };
 pub use error::{BundleError, Damage};
-pub use layout::{MANIFEST, MOST_BYTES};
+pub use layout::MOST_BYTES;
 pub use level::Level;
 pub use make::{MadeBundle, make};
 pub use manifest::{BUNDLE_SCHEMA, BundledFile, Manifest, StudyFiles, TableFiles, Withheld};

@@ -39,9 +39,9 @@ const REMEDY: &str =
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct MadeBundle {
-    /// Its manifest.
+    /// Manifest of the bundle.
     pub manifest: Manifest,
-    /// Remarks for its maker.
+    /// Remarks for the maker of the bundle.
     pub notes: Vec<String>,
 }
 

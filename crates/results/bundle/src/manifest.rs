@@ -90,6 +90,12 @@ impl StudyFiles {
         let tables = tables.flat_map(|tables| [&tables.truth, &tables.prediction]);
         self.states.iter().chain(tables).chain(&self.samples)
     }
+
+    /// Table whose rows are the samples of the study.
+    pub(crate) fn sample_table(&self) -> Option<&str> {
+        let truth = self.tables.as_ref().map(|tables| tables.truth.as_str());
+        truth.or(self.samples.as_deref())
+    }
 }
 
 /// Two tables that were scored.

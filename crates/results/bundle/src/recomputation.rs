@@ -89,6 +89,7 @@ impl Stop {
     }
 }
 
+/// Scores of the states in `files`; several are merged, or stand side by side if their plans differ.
 fn of_states(source: &Source, files: &StudyFiles) -> Result<EvaluationReport, Stop> {
     if files.states.is_empty() {
         let reason = "no state: evaluate or score again with --state-out, and give the state to `taceva bundle --state`";
@@ -107,6 +108,7 @@ fn of_states(source: &Source, files: &StudyFiles) -> Result<EvaluationReport, St
     as_read(&report)
 }
 
+/// Scores of the tables in `files`, by the plan of their only state.
 fn of_tables(source: &Source, files: &StudyFiles, jobs: NonZeroUsize) -> Result<TableScores, Stop> {
     let [state] = files.states.as_slice() else {
         return Err(Stop::absent(match files.states.len() {

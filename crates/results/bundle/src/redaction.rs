@@ -11,7 +11,7 @@ const REDACTED: &str = "redacted";
 ///
 /// ```
 /// use taceva_bundle::{Redaction, redacted};
-/// let scene = "robot = { driver = \"ur/robot:address=10.0.0.7,serial=X81\" }\nmap = \"/home/lab/map.toml\"\n";
+/// let scene = "robot = { driver = \"ur/robot:address=10.0.0.7,serial=X81\" }\nmap = \"/home/user/map.toml\"\n";
 /// let (text, words) = redacted(scene, &[Redaction::Hosts, Redaction::Paths]);
 /// assert_eq!(
 ///     text,
@@ -172,15 +172,15 @@ mod tests {
             ("mac = \"00:1b:63:84:45:e6\"", "mac = \"redacted\""),
             ("v6 = \"fe80::1\"", "v6 = \"redacted\""),
             ("serial = \"0042\"", "serial = \"redacted\""),
-            ("out = '/home/a lab/x'", "out = 'redacted'"),
+            ("out = '/home/user/a b/x'", "out = 'redacted'"),
             ("out = \"C:\\\\lab\\\\x\"", "out = \"redacted\""),
-            ("# see /home/me/notes here", "# see redacted here"),
-            ("# see `/home/me/notes`", "# see redacted"),
+            ("# see /home/user/notes here", "# see redacted here"),
+            ("# see `/home/user/notes`", "# see redacted"),
             ("port = \"serial:/dev/ttyUSB0\"", "port = \"redacted\""),
             ("v6 = \"fe80::1%eth0\"", "v6 = \"redacted\""),
             ("\"host\" = \"lab-pc\"", "\"host\" = \"redacted\""),
             ("at = \"//server/share\"", "at = \"redacted\""),
-            ("at = \"file:///home/me/x y\"", "at = \"redacted\""),
+            ("at = \"file:///home/user/x y\"", "at = \"redacted\""),
             ("unc = \"\\\\\\\\server\\\\share\"", "unc = \"redacted\""),
             (
                 "unit = \"N/mm\"\nrate = \"1/s\"",

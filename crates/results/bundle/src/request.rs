@@ -12,7 +12,7 @@ use crate::redaction::Redaction;
 pub struct BundleRequest {
     /// Folder of a run, or the JSON of `run`, `evaluate`, `score` or `merge`.
     pub result: PathBuf,
-    /// Day on which it is made.
+    /// Day on which the bundle is made, such as `2026-11-28`.
     pub created: String,
     /// Name in words; `None` for the sensors of the results.
     pub name: Option<String>,

@@ -109,8 +109,7 @@ impl Source {
     /// # Errors
     /// [`BundleError::File`] if it cannot be read.
     pub(crate) fn digest(&self, name: &str) -> Result<String, BundleError> {
-        let path = self.path(name);
-        digest_of(&path)
+        digest_of(&self.path(name))
     }
 
     /// Text of the file `name`, of at most `most` bytes.

@@ -8,6 +8,9 @@ use crate::origin;
 use crate::recomputation::{Recomputation, Stop, TableScores};
 use crate::verification::{ClaimCheck, OtherCheck, Verdict};
 
+/// Reason of a claim that the results lack.
+pub(crate) const NO_SUCH_NUMBER: &str = "results.json has no such number";
+
 /// One study: its results as they stand, and as they were computed again.
 pub(crate) struct StudyCheck<'a> {
     pub(crate) study: usize,
@@ -56,8 +59,7 @@ impl StudyCheck<'_> {
         };
         let named = claim.score_in(&self.report.scores);
         let Some(named) = named.filter(|score| claim.is_of(score)) else {
-            let reason = "results.json has no such number".to_owned();
-            return check.ended(Verdict::Differs, reason);
+            return check.ended(Verdict::Differs, NO_SUCH_NUMBER.to_owned());
         };
         let in_results = Number::of(named, claim.variant.as_deref());
         let is_stated = in_results.is_some_and(|number| number.is_same(claim.number()));

@@ -13,7 +13,7 @@ use crate::level::Level;
 use crate::manifest::{Manifest, SealedManifest, StudyFiles};
 use crate::recomputation::Recomputation;
 use crate::source::Source;
-use crate::study_check::StudyCheck;
+use crate::study_check::{NO_SUCH_NUMBER, StudyCheck};
 use crate::verification::{BundleFacts, ClaimCheck, OtherCheck, Verdict, Verification};
 
 /// Request of a verification.
@@ -157,8 +157,7 @@ pub(crate) fn check(
 }
 
 fn add_levels(found: &mut Verification, checked: &Checked, most: Level) {
-    let absent =
-        |claim: &&ClaimCheck| claim.reason.as_deref() == Some("results.json has no such number");
+    let absent = |claim: &&ClaimCheck| claim.reason.as_deref() == Some(NO_SUCH_NUMBER);
     let lacking = checked.claims.iter().filter(absent).count();
     let reason =
         (lacking > 0).then(|| format!("{} not in results.json", counted(lacking as u64, "claim")));
@@ -205,7 +204,7 @@ fn unchecked(manifest: &Manifest) -> Vec<String> {
         ));
     }
     let mut studies = manifest.studies.iter();
-    if !manifest.withheld.is_empty() && studies.any(|files| form::sample_table(files).is_none()) {
+    if !manifest.withheld.is_empty() && studies.any(|files| files.sample_table().is_none()) {
         remarks.push(
             "The digest of the samples was not computed again: their tables are withheld."
                 .to_owned(),

@@ -176,9 +176,7 @@ fn write_state(state: &StateFile, path: &Path) -> Result<(), StudyError> {
     };
     std::fs::create_dir_all(parent_of(path)).map_err(failed)?;
     replace(path, |staged| -> io::Result<()> {
-        let mut text = Vec::new();
-        state.write(&mut text)?;
-        std::fs::write(staged, text)
+        state.write(&mut std::fs::File::create(staged)?)
     })
     .map_err(failed)
 }

@@ -59,7 +59,7 @@ fn texts_are_redacted_and_counted() {
     let bench = bench();
     bench.write(
         "rig.toml",
-        "address = \"10.0.0.7\"\nmap = \"/home/lab/map.toml\"\nserial = \"X81\"\n",
+        "address = \"10.0.0.7\"\nmap = \"/home/user/map.toml\"\nserial = \"X81\"\n",
     );
     bench.ok(&format!("{BUNDLE} b --text rig.toml --redact hosts,paths"));
     let text = fs::read_to_string(bench.path("b/rig.toml")).expect("written");
@@ -71,7 +71,7 @@ fn texts_are_redacted_and_counted() {
     verified(&bench, "b", 0);
     // What was scored is not redacted, and the command says so.
     let text = fs::read_to_string(bench.path("truth.csv")).expect("written");
-    bench.write("truth.csv", &text.replace("\n7,p7,", "\n7,/home/lab/p7,"));
+    bench.write("truth.csv", &text.replace("\n7,p7,", "\n7,/home/user/p7,"));
     score(&bench, "pred.csv", "marked");
     let ran = bench.run(
         "bundle marked.json --state marked.state --truth truth.csv --pred pred.csv --draft --redact paths --out c",

@@ -8,6 +8,7 @@ const MOST: usize = 60;
 
 /// Values that follow from others, which are named first.
 const FOLLOWING: [&str; 3] = ["cost", "digest", "rig"];
+/// Value of a missing key.
 static NULL: Value = Value::Null;
 
 /// First line that differs between two scenes: `line 3 was …`.
