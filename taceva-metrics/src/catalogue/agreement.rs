@@ -62,13 +62,15 @@ pub(crate) static AGREEMENT: Metric = Metric {
 fn agreement(errors: &Errors<'_>, unit: Unit) -> Numbers {
     let sample = errors.sample();
     let of = |number: fn(&NormalSample) -> f64| sample.map(|sample| number(&sample));
+    let limits = sample.map(|sample| sample.limits());
+    let [slope, chance] = errors.slope();
     Numbers::of(of(NormalSample::half_width))
         .with("bias", unit, Range::Any, errors.mean())
         .with("sd", unit, Range::Positive, of(|sample| sample.sd))
-        .with("lower", unit, Range::Any, of(|sample| sample.limits()[0]))
-        .with("upper", unit, Range::Any, of(|sample| sample.limits()[1]))
-        .with(SLOPE, Unit::One, Range::Any, errors.slope())
-        .with(SLOPE_P, Unit::One, Range::Any, errors.slope_chance())
+        .with("lower", unit, Range::Any, limits.map(|[lower, _]| lower))
+        .with("upper", unit, Range::Any, limits.map(|[_, upper]| upper))
+        .with(SLOPE, Unit::One, Range::Any, slope)
+        .with(SLOPE_P, Unit::One, Range::Any, chance)
 }
 
 /// Replaces the intervals of one channel by those from the components of variance, and finds the chance of a slope of clusters.
@@ -86,9 +88,8 @@ fn settle(found: &mut Intervals, whole: &Whole<'_>) {
     set("sd", of(sample.sd_ends(), sample.freedom));
     set("lower", of(low, sample.freedom));
     set("upper", of(high, sample.freedom));
-    let widths = sample
-        .sd_ends()
-        .map(|end| end * (sample.half_width() / sample.sd));
+    let factor = sample.half_width() / sample.sd;
+    let widths = sample.sd_ends().map(|end| end * factor);
     found.value = Some(of(widths, sample.freedom));
 }
 

@@ -92,17 +92,19 @@ impl Fraction {
 
     /// self / other, rounded once; `None` if `other` is zero.
     pub fn over(&self, other: &Fraction) -> Option<f64> {
-        (!other.is_zero()).then(|| {
-            let (above, below) = (&self.above * &other.below, &self.below * &other.above);
-            above.over(&below)
-        })
+        Some(self.quotient(other)?.to_f64())
     }
 
     /// √(self / other), rounded once; `None` if `other` is zero.
     pub fn root_over(&self, other: &Fraction) -> Option<f64> {
-        (!other.is_zero()).then(|| {
-            let (above, below) = (&self.above * &other.below, &self.below * &other.above);
-            above.root_over(&below)
+        Some(self.quotient(other)?.root())
+    }
+
+    /// self / other, exactly; `None` if `other` is zero.
+    fn quotient(&self, other: &Fraction) -> Option<Fraction> {
+        (!other.is_zero()).then(|| Fraction {
+            above: &self.above * &other.below,
+            below: &self.below * &other.above,
         })
     }
 }

@@ -68,13 +68,13 @@ impl<V> Default for Cells<V> {
 /// The cells of the rows of a batch.
 pub(crate) struct BatchCells<'a, V> {
     cells: &'a mut Cells<V>,
-    points: Option<&'a Labels>,
+    labels: Option<&'a Labels>,
 }
 
 impl<V: Merge + Clone + Default> BatchCells<'_, V> {
     /// The summary of the cell of `row`, to be added to.
     pub(crate) fn at(&mut self, row: usize, step: u32) -> &mut V {
-        let point = self.points.and_then(|points| points.get(row));
+        let point = self.labels.and_then(|labels| labels.get(row));
         self.cells.at(point, step)
     }
 }
@@ -85,7 +85,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
         self.of_labels(batch.points(), batch.rows())
     }
 
-    /// The same for `rows` rows that are located by `labels`.
+    /// The cells for `rows` rows that are located by `labels`. Rows without labels merge all cells into one.
     pub(crate) fn of_labels<'a>(
         &'a mut self,
         labels: Option<&'a Labels>,
@@ -96,7 +96,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
         }
         BatchCells {
             cells: self,
-            points: labels,
+            labels,
         }
     }
 

@@ -111,8 +111,9 @@ impl NormalSample {
     pub fn limit_ends(&self) -> [[f64; 2]; 2] {
         let root = self.worth.sqrt();
         let tail = (1.0 - SHARE) / 2.0;
+        let shift = z() * root;
         // (limit − mean) √n / s has the noncentral t distribution; the lower limit is its mirror image.
-        let end = |share| noncentral_t::quantile(share, self.freedom, z() * root) / root * self.sd;
+        let end = |share| noncentral_t::quantile(share, self.freedom, shift) / root * self.sd;
         let (near, far) = (end(tail), end(1.0 - tail));
         [
             [self.mean - far, self.mean - near],

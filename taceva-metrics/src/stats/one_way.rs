@@ -115,11 +115,6 @@ impl OneWaySums {
         *of_size = &*of_size + above;
     }
 
-    /// Number of readings.
-    pub fn readings(&self) -> u64 {
-        self.readings
-    }
-
     /// Number of groups.
     pub fn groups(&self) -> u64 {
         self.groups

@@ -42,21 +42,13 @@ pub fn least_n_one_sided(share: f64, confidence: f64) -> Option<u64> {
 
 /// Least number from `first` on for which `is_enough` holds, which must be monotonic.
 fn least_n(first: u64, is_enough: impl Fn(f64) -> bool) -> u64 {
-    let real = |n: u64| {
-        #[expect(
-            clippy::cast_precision_loss,
-            reason = "numbers of samples are below 2^53"
-        )]
-        let real = n as f64;
-        real
-    };
     let (mut low, mut high) = (first, first);
-    while !is_enough(real(high)) && high < 1 << 52 {
+    while !is_enough(high as f64) && high < 1 << 52 {
         (low, high) = (high + 1, 2 * high);
     }
     while low < high {
         let middle = low.midpoint(high);
-        match is_enough(real(middle)) {
+        match is_enough(middle as f64) {
             true => high = middle,
             false => low = middle + 1,
         }

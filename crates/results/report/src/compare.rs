@@ -198,7 +198,9 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
                 unpaired.push(reason);
             }
         }
-        answers.extend(pairs.into_iter().map(|pair| answer(pair, studies, request)));
+        let is_demonstration = is_demonstration(studies, &metric);
+        let of_pair = |pair| answer(pair, studies, request, is_demonstration);
+        answers.extend(pairs.into_iter().map(of_pair));
     }
     Comparison {
         asides: asides(studies, &names, &answers),
@@ -212,13 +214,11 @@ pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
 /// Remarks on the answers, by score.
 fn asides(studies: &[Study], names: &[String], answers: &[Answer]) -> Vec<Remarks> {
     let mut asides: Vec<Remarks> = Vec::new();
-    for Answer {
-        metric, channel, ..
-    } in answers
-    {
-        let is_known = |aside: &Remarks| aside.metric == *metric && aside.channel == *channel;
+    for answer in answers {
+        let is_known =
+            |aside: &Remarks| aside.metric == answer.metric && aside.channel == answer.channel;
         if !asides.iter().any(is_known) {
-            asides.push(Remarks::of(studies, names, metric, channel));
+            asides.push(Remarks::of(studies, names, answer));
         }
     }
     asides
@@ -331,7 +331,12 @@ fn decide_together(pairs: &mut [Pair<'_>]) {
     }
 }
 
-fn answer(pair: Pair<'_>, studies: &[Study], request: &CompareRequest) -> Answer {
+fn answer(
+    pair: Pair<'_>,
+    studies: &[Study],
+    request: &CompareRequest,
+    is_demonstration: bool,
+) -> Answer {
     let Score {
         metric, channel, ..
     } = pair.scores.a;
@@ -346,7 +351,6 @@ fn answer(pair: Pair<'_>, studies: &[Study], request: &CompareRequest) -> Answer
             Some(reason.clone()),
         ),
     };
-    let is_demonstration = is_demonstration(studies, metric);
     if let Verdict::Differs { better, .. } = &mut verdict
         && is_demonstration
     {

@@ -75,6 +75,11 @@ pub(crate) fn is_set_everywhere(letter: char) -> bool {
     is_latin && !ABSENT.contains(letter)
 }
 
+/// Text as a quoted string of TOML.
+pub(crate) fn toml_string(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
+}
+
 /// Escapes text for a terminal, by [`taceva_core::shown`].
 pub fn terminal(text: &str) -> String {
     taceva_core::shown(text).to_string()

@@ -73,19 +73,17 @@ impl<'a> Errors<'a> {
         Ok([sample.mean - half, sample.mean + half])
     }
 
-    /// Slope of the errors over the means of truth and prediction.
-    pub(crate) fn slope(&self) -> Finished {
-        self.line().map(|line| line.slope)
-    }
-
-    /// Probability of such a slope by chance, of independent errors; clusters have it from their jackknife.
-    pub(crate) fn slope_chance(&self) -> Finished {
-        let line = self.line()?;
-        match self.are_independent() {
+    /// Slope of the errors over the means of truth and prediction, and the probability that chance alone gives such a slope.
+    ///
+    /// The probability is that of independent errors; clusters have it from their jackknife.
+    pub(crate) fn slope(&self) -> [Finished; 2] {
+        let line = self.line();
+        let chance = line.and_then(|line| match self.are_independent() {
             true => Ok(line.p),
             false if self.totals.is_unnamed => Err(UndefinedReason::NoClusters),
             false => Err(UndefinedReason::NoInterval),
-        }
+        });
+        [line.map(|line| line.slope), chance]
     }
 
     /// True if no two errors belong together.

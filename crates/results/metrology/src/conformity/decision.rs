@@ -135,8 +135,8 @@ pub fn decide(
         }
         (DecisionRule::Guarded { r, .. }, Some(_)) => {
             let guard = r * measured.expanded(coverage).unwrap_or(f64::INFINITY);
-            let inner = moved(measured, limits, guard);
-            let outer = moved(measured, limits, -guard);
+            let inner = measured.narrowed(limits, guard);
+            let outer = measured.narrowed(limits, -guard);
             let is_accepted = inner.is_some_and(|inner| inner.contain(measured.value()));
             // Limits beyond binary64 refuse no value.
             let is_refused = outer.is_some_and(|outer| !outer.contain(measured.value()));
@@ -171,14 +171,6 @@ fn word(is_accepted: bool, is_within: bool, is_refused: bool) -> Word {
     }
 }
 
-/// Limits moved inwards by `guard` on the scale of the distribution; `None` if no range is left.
-fn moved(measured: &Measurement, limits: &Limits, guard: f64) -> Option<Limits> {
-    limits.map(
-        |least| measured.moved(least, guard),
-        |most| measured.moved(most, -guard),
-    )
-}
-
 /// Range of values with at least this probability of conformity; `None` if empty.
 fn acceptance_of(measured: &Measurement, limits: &Limits, least: f64) -> Option<Limits> {
     let u = measured.expanded(0.5)?;
@@ -186,7 +178,7 @@ fn acceptance_of(measured: &Measurement, limits: &Limits, least: f64) -> Option<
         return Some(*limits);
     }
     let is_enough = |guard: f64| {
-        let inner = moved(measured, limits, guard)?;
+        let inner = measured.narrowed(limits, guard)?;
         // A limit that has no place on the scale is not moved. Both ends of two that have one are equally probable.
         let is_moved = |limit: Option<f64>| limit.is_some_and(|limit| measured.holds(limit));
         let low = inner.least().filter(|_| is_moved(limits.least()));
@@ -216,7 +208,7 @@ fn acceptance_of(measured: &Measurement, limits: &Limits, least: f64) -> Option<
         }
     }
     match is_enough(high) {
-        Some(true) => moved(measured, limits, high),
+        Some(true) => measured.narrowed(limits, high),
         _ => None,
     }
 }

@@ -250,9 +250,12 @@ impl Measurement {
         self.scale.holds(value)
     }
 
-    /// `limit` moved by `by` on the scale of the distribution.
-    pub(super) fn moved(&self, limit: f64, by: f64) -> f64 {
-        self.scale.moved(limit, by)
+    /// `limits` moved inwards by `guard` on the scale of the distribution; `None` if no range is left.
+    pub(super) fn narrowed(&self, limits: &Limits, guard: f64) -> Option<Limits> {
+        limits.map(
+            |least| self.scale.moved(least, guard),
+            |most| self.scale.moved(most, -guard),
+        )
     }
 
     /// The same uncertainty on the same scale, for another value.

@@ -111,12 +111,7 @@ impl Population {
             return Ok(None);
         };
         let guard = self.process.guard(&scaled, target)?;
-        Ok(guard.and_then(|guard| {
-            limits.map(
-                |least| self.measured.moved(least, guard),
-                |most| self.measured.moved(most, -guard),
-            )
-        }))
+        Ok(guard.and_then(|guard| self.measured.narrowed(limits, guard)))
     }
 
     fn on_scale(&self, limits: &Limits) -> Option<Limits> {

@@ -42,7 +42,7 @@ impl OpenScale {
         }
     }
 
-    /// That quantity of `value`.
+    /// Quantity of the scale at `value`; `value` itself on its own scale.
     pub(super) fn quantity_of(self, value: f64) -> f64 {
         match self {
             OpenScale::Own | OpenScale::Logarithm => value,

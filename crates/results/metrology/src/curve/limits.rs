@@ -20,7 +20,7 @@ pub(super) type Figure = Result<f64, &'static str>;
 /// Place of figures among limits similar to those of a standard. No class is claimed, because neither the procedure nor the limits are the
 /// standard's own.
 ///
-/// It gets no further variant: figures are within a row, beyond all rows, or incomplete.
+/// This place gets no further variant: figures are within a row, beyond all rows, or incomplete.
 ///
 /// ```
 /// use taceva_metrology::curve::{Indication, IndicationLevel};

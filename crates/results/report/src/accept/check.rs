@@ -1,6 +1,6 @@
 //! Checks of limits on the scores of a study.
 
-use taceva_core::{nearest, shown};
+use taceva_core::shown;
 use taceva_metrics::Standing;
 use taceva_metrology::conformity::{Decision, Limits, Measurement, Word, decide};
 use taceva_results::{Interval, Score};
@@ -9,7 +9,7 @@ use super::interval::LimitInterval;
 use super::limits_file::{Limit, LimitsFile};
 use super::process::ProcessRisk;
 use super::reason;
-use super::subject::Subject;
+use super::subject::{Subject, other_unit};
 use crate::number::numeral;
 use crate::results::Study;
 
@@ -76,18 +76,6 @@ pub fn accept(study: &Study, limits: &LimitsFile) -> Result<Vec<LimitCheck>, Acc
     each.map(|limit| hold(study, limits, limit)).collect()
 }
 
-/// Reason for a limit without a score, with the nearest channel of its metric.
-fn no_such_score(study: &Study, limit: &Limit) -> String {
-    let id = limit.metric.split('.').next();
-    let scores = study.scores.iter();
-    let channels = scores.filter(|score| Some(score.metric.as_str()) == id);
-    let channels = channels.map(|score| score.channel.as_str());
-    match nearest(&limit.channel, channels).filter(|channel| *channel != limit.channel) {
-        Some(channel) => format!("there is no such score; did you mean channel `{channel}`?"),
-        None => "there is no such score".to_owned(),
-    }
-}
-
 fn hold(study: &Study, limits: &LimitsFile, limit: &Limit) -> Result<LimitCheck, AcceptError> {
     let mut check = LimitCheck {
         limit: limit.clone(),
@@ -106,15 +94,21 @@ fn hold(study: &Study, limits: &LimitsFile, limit: &Limit) -> Result<LimitCheck,
         process: None,
         standing: Standing::Counts,
     };
-    let Some(subject) = Subject::find(study, limit) else {
-        check.reason = Some(no_such_score(study, limit));
-        return Ok(check);
+    let subject = match Subject::find(study, limit) {
+        Ok(subject) => subject,
+        Err(reason) => {
+            check.reason = Some(reason);
+            return Ok(check);
+        }
     };
     check.n = subject.whole.n;
     check.standing = subject.whole.standing_of(subject.variant);
-    let Some(asked) = subject.score() else {
-        check.reason = Some("there is no such variant".to_owned());
-        return Ok(check);
+    let asked = match subject.score() {
+        Ok(asked) => asked,
+        Err(reason) => {
+            check.reason = Some(reason);
+            return Ok(check);
+        }
     };
     let Some(number) = asked.value.number() else {
         check.reason = asked
@@ -128,9 +122,7 @@ fn hold(study: &Study, limits: &LimitsFile, limit: &Limit) -> Result<LimitCheck,
     let interval = LimitInterval::of(study, &asked, subject.variant);
     check.ends = interval.ends;
     check.trainings = interval.trainings;
-    let unit = asked.unit;
-    let other_unit = (unit.symbol() != limit.unit)
-        .then(|| format!("the score is in {unit}, the limit in {}", limit.unit));
+    let other_unit = other_unit(&asked, limit);
     if other_unit.is_none() {
         check.decision = decided(limit, number, &interval);
         let decision = check.decision.as_ref();

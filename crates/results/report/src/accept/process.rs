@@ -6,7 +6,7 @@ use taceva_metrology::conformity::{GlobalRisk, Limits, Measurement, Population};
 use super::check::LimitCheck;
 use super::interval::LimitInterval;
 use super::limits_file::Limit;
-use super::subject::Subject;
+use super::subject::{Subject, other_unit};
 use crate::results::Study;
 
 /// Decision risks of one limit, for units of one process.
@@ -67,17 +67,12 @@ fn risk(
 
 /// Score checked by `limit`, with its uncertainty.
 fn measured(study: &Study, limit: &Limit) -> Result<Measurement, String> {
-    let subject = Subject::find(study, limit);
-    let subject = subject.ok_or_else(|| "there is no such score".to_owned())?;
-    let score = subject.score();
-    let score = score.ok_or_else(|| "there is no such variant".to_owned())?;
-    if score.unit.symbol() != limit.unit {
-        return Err(format!(
-            "the score is in {}, the limit in {}",
-            score.unit, limit.unit
-        ));
+    let subject = Subject::find(study, limit)?;
+    let score = subject.score()?;
+    match other_unit(&score, limit) {
+        Some(reason) => Err(reason),
+        None => LimitInterval::of(study, &score, subject.variant).measured,
     }
-    LimitInterval::of(study, &score, subject.variant).measured
 }
 
 /// Remarks on the risks of `checks`: their meaning, and the reason for each missing one.

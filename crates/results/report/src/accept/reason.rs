@@ -13,16 +13,16 @@ pub(super) fn broken(limit: &Limit, value: f64, ends: Option<[f64; 2]>) -> Optio
         (true, Some(ends)) => ends,
         (true, None) => return Some("there is no interval to compare with the limit".to_owned()),
     };
-    let what = if limit.whole_interval {
+    let subject = if limit.whole_interval {
         "interval reaches"
     } else {
         "value is"
     };
     if let Some(most) = limit.most.filter(|most| high > *most) {
-        return Some(format!("{what} {}, above {most}", numeral(high)));
+        return Some(format!("{subject} {}, above {most}", numeral(high)));
     }
     let least = limit.least.filter(|least| low < *least)?;
-    Some(format!("{what} {}, below {least}", numeral(low)))
+    Some(format!("{subject} {}, below {least}", numeral(low)))
 }
 
 /// Remark on a value within the limit, if the interval is missing or crosses the limit.

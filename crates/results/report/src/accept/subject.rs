@@ -1,5 +1,6 @@
 //! Scores to which limits apply.
 
+use taceva_core::nearest;
 use taceva_results::Score;
 
 use super::limits_file::Limit;
@@ -15,31 +16,50 @@ pub(super) struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// Score of `study` to which `limit` applies. A limit without a variant applies to the variant that verdicts use.
-    pub(super) fn find(study: &'a Study, limit: &'a Limit) -> Option<Subject<'a>> {
+    /// Score of `study` to which `limit` applies, or the reason why there is none. A limit without a variant applies to the variant that verdicts
+    /// use.
+    pub(super) fn find(study: &'a Study, limit: &'a Limit) -> Result<Subject<'a>, String> {
         let (metric, variant) = match limit.metric.split_once('.') {
             Some((metric, variant)) => (metric, Some(variant)),
             None => (limit.metric.as_str(), None),
         };
-        let whole = study.score(metric, &limit.channel)?;
+        let whole = study.score(metric, &limit.channel);
+        let whole = whole.ok_or_else(|| no_such_score(study, metric, &limit.channel))?;
         let decided_by = whole.decided_by().map(|decides| decides.name.as_str());
-        Some(Subject {
+        Ok(Subject {
             whole,
             variant: variant.or(decided_by),
         })
     }
 
-    /// The score with value, unit and interval of the variant; `None` if there is no such variant.
-    pub(super) fn score(&self) -> Option<Score> {
+    /// The score with value, unit and interval of the variant, or the reason why there is none.
+    pub(super) fn score(&self) -> Result<Score, String> {
         let Some(name) = self.variant else {
-            return Some(self.whole.clone());
+            return Ok(self.whole.clone());
         };
-        let variant = self.whole.variant(name)?;
-        Some(Score {
+        let variant = self.whole.variant(name);
+        let variant = variant.ok_or_else(|| "there is no such variant".to_owned())?;
+        Ok(Score {
             value: variant.value.clone(),
             unit: variant.unit,
             interval: variant.interval.clone(),
             ..self.whole.clone()
         })
     }
+}
+
+/// Reason for the lack of a score, with the nearest channel of its metric.
+fn no_such_score(study: &Study, metric: &str, channel: &str) -> String {
+    let scores = study.scores.iter().filter(|score| score.metric == metric);
+    let channels = scores.map(|score| score.channel.as_str());
+    match nearest(channel, channels) {
+        Some(known) => format!("there is no such score; did you mean channel `{known}`?"),
+        None => "there is no such score".to_owned(),
+    }
+}
+
+/// Remark on a score in another unit than `limit`; `None` for the same unit.
+pub(super) fn other_unit(score: &Score, limit: &Limit) -> Option<String> {
+    let (unit, of_limit) = (score.unit, &limit.unit);
+    (unit.symbol() != of_limit).then(|| format!("the score is in {unit}, the limit in {of_limit}"))
 }

@@ -5,7 +5,7 @@ use taceva_metrology::conformity::{DecisionRule, Limits, decide};
 
 use super::interval::LimitInterval;
 use super::limits_file::BY_RULES;
-use crate::escape::terminal;
+use crate::escape::{terminal, toml_string};
 use crate::number::{FormattedValue, spaced};
 use crate::results::Study;
 use crate::scores::ScoreTable;
@@ -60,7 +60,7 @@ pub fn limits_template(study: &Study) -> String {
         .partition(|score| score.standing.takes_part());
     let kept = kept.into_iter().map(Score::deciding);
     let limits: String = kept.filter_map(|score| limit(study, &score)).collect();
-    let name = toml::Value::String(format!("limits made from a result of {}", study.sensor));
+    let name = toml_string(&format!("limits made from a result of {}", study.sensor));
     let mut out = format!(
         "# Limits made from a result of {}, serial {}, samples {}.\n\
          # Each is {:.0} % worse than the value of the result (for R² and skill: 1 − value is {:.0} % larger), or the worse end of its interval if that is further: change limits as you need, delete the rest,\n\
@@ -146,14 +146,13 @@ fn limit(study: &Study, score: &Score) -> Option<String> {
     };
     let found =
         FormattedValue::of(&score.value, score.interval.as_ref()).phrase(&spaced(score.unit));
-    let text = |text: &str| toml::Value::String(text.to_owned()).to_string();
     Some(format!(
         "\n# result: {}, n = {}\n[[limit]]\nmetric = {}\nchannel = {}\nunit = {}\n{}{rule}",
         line(&found),
         score.n,
-        text(&score.metric),
-        text(&score.channel),
-        text(score.unit.symbol()),
+        toml_string(&score.metric),
+        toml_string(&score.channel),
+        toml_string(score.unit.symbol()),
         bounds.lines(),
     ))
 }

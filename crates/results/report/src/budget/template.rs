@@ -3,7 +3,7 @@
 use taceva_metrology::budget::{BudgetText, Evidence, Figure, Missing, MonteCarlo};
 use taceva_results::not_measured;
 
-use crate::escape::terminal as line;
+use crate::escape::{terminal as line, toml_string as quoted};
 use crate::number::FormattedValue;
 
 /// Figures for which sources are written, each with the name and further keys of the source. A source with an open key is a comment.
@@ -47,7 +47,6 @@ pub struct BudgetTemplate<'a> {
 impl BudgetTemplate<'_> {
     /// Text of the file, which `taceva budget` accepts unchanged.
     pub fn text(&self) -> String {
-        let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
         let at = format!("{} {}", self.at, self.unit);
         let mut out = format!(
             "# Uncertainty budget of {}, from a result of {}, samples {}.\n# then: taceva budget THIS.toml --results {}\n",

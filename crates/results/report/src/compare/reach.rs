@@ -33,7 +33,7 @@ fn words(test: DifferenceTest, adjusted: f64, tests: usize) -> Option<String> {
         1 => String::new(),
         _ => format!(", {} by Holm over {tests} tests", significant(adjusted)),
     };
-    let can = |groups: &u32| least_p(*groups) * tests as f64 <= LEVEL;
+    let can = |groups: &usize| sign_flips(*groups).least_p() * tests as f64 <= LEVEL;
     let remedy = match (5..32).find(can) {
         Some(groups) => format!("{groups} groups or more can"),
         None => "compare fewer results".to_owned(),
@@ -44,12 +44,13 @@ fn words(test: DifferenceTest, adjusted: f64, tests: usize) -> Option<String> {
     ))
 }
 
-/// Least p value of sign flips over this many groups.
-fn least_p(groups: u32) -> f64 {
-    let most = SignFlip::default().flips;
-    match 2_u32.pow(groups) {
-        patterns if patterns <= most => 2.0 / f64::from(patterns),
-        _ => 1.0 / (f64::from(most) + 1.0),
+/// Test by the signs of this many groups, fewer than 32.
+fn sign_flips(clusters: usize) -> DifferenceTest {
+    let (patterns, most) = (1_u32 << clusters, SignFlip::default().flips);
+    DifferenceTest::SignFlip {
+        clusters,
+        flips: patterns.min(most),
+        exhaustive: patterns <= most,
     }
 }
 

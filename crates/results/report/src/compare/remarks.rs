@@ -2,11 +2,11 @@
 
 use taceva_metrics::Standing;
 
+use super::Answer;
 use crate::light::Light;
 use crate::results::Study;
 use crate::spread;
 use crate::tie::{Tie, tie};
-use crate::training::is_demonstration;
 
 /// Remarks on one score of all studies.
 #[derive(Clone, Debug)]
@@ -24,7 +24,9 @@ pub(super) struct Remarks {
 }
 
 impl Remarks {
-    pub(super) fn of(studies: &[Study], names: &[String], metric: &str, channel: &str) -> Remarks {
+    /// Remarks on the score of `answer`.
+    pub(super) fn of(studies: &[Study], names: &[String], answer: &Answer) -> Remarks {
+        let (metric, channel) = (answer.metric.as_str(), answer.channel.as_str());
         let scores = studies.iter().enumerate();
         let scores: Vec<_> = scores
             .filter_map(|(at, study)| Some((at, study.score(metric, channel)?)))
@@ -50,7 +52,7 @@ impl Remarks {
             channel: channel.to_owned(),
             tie: tie(studies, names, metric, channel),
             barred: barred.collect(),
-            is_demonstration: is_demonstration(studies, metric),
+            is_demonstration: answer.is_demonstration,
             spread: spread::words(studies, names, &counting, metric, channel),
         }
     }

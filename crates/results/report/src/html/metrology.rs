@@ -7,6 +7,7 @@ use taceva_results::Samples;
 
 use super::drawn;
 use crate::contributions;
+use crate::escape::toml_string as quoted;
 use crate::names::names;
 use crate::reference::reference_certificate;
 use crate::residuals::residual_components;
@@ -136,7 +137,6 @@ impl Measurand {
 
     /// Text of the budget file, as `taceva budget` reads it.
     fn sources(&self, at: f64, is_certified: bool) -> String {
-        let quoted = |text: &str| toml::Value::String(text.to_owned()).to_string();
         let symbol = self.unit.symbol();
         let value = match self.unit {
             Unit::One => format!("{at:?}"),

@@ -4,8 +4,7 @@ use taceva_core::counted;
 use taceva_metrology::conformity::{Decision, Word};
 
 use super::Acceptance;
-use crate::accept::reason;
-use crate::accept::{Limit, LimitCheck};
+use crate::accept::{Limit, LimitCheck, reason};
 use crate::number::numeral;
 use crate::table::{Cell, Column, Table};
 
