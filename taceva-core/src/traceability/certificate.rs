@@ -24,6 +24,14 @@ use crate::unit::{Amount, Unit};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        into = "super::schema::WrittenCertificate",
+        try_from = "super::schema::WrittenCertificate"
+    )
+)]
 #[non_exhaustive]
 pub struct Certificate {
     /// Number of the certificate.

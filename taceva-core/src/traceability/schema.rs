@@ -16,7 +16,7 @@ use crate::unit::{Amount, AmountError};
 
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-struct WrittenCertificate {
+pub(super) struct WrittenCertificate {
     number: String,
     laboratory: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -51,15 +51,12 @@ struct WrittenCertificate {
     range: BTreeMap<String, [String; 2]>,
 }
 
-#[derive(serde::Serialize, serde::Deserialize)]
+#[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-struct WrittenTraceability {
+pub(super) struct WrittenTraceability {
     instrument: Instrument,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     driver: Option<String>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     serial: Option<String>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     certificate: Option<Certificate>,
 }
 
@@ -186,9 +183,8 @@ impl TryFrom<WrittenCorrelation> for StatedCorrelation {
     }
 }
 
-impl From<&Certificate> for WrittenCertificate {
-    fn from(certificate: &Certificate) -> WrittenCertificate {
-        let certificate = certificate.clone();
+impl From<Certificate> for WrittenCertificate {
+    fn from(certificate: Certificate) -> WrittenCertificate {
         let (k, p, dof) = match certificate.coverage {
             Coverage::Factor(k) => (Some(k), None, None),
             Coverage::Probability { p, dof } => (None, Some(p), dof),
@@ -237,37 +233,12 @@ impl From<StatedCorrelation> for WrittenCorrelation {
     }
 }
 
-impl Serialize for Certificate {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        WrittenCertificate::from(self).serialize(serializer)
-    }
-}
+impl TryFrom<WrittenTraceability> for Traceability {
+    type Error = CertificateError;
 
-impl<'de> Deserialize<'de> for Certificate {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Certificate, D::Error> {
-        let written = WrittenCertificate::deserialize(deserializer)?;
-        Certificate::try_from(written).map_err(D::Error::custom)
-    }
-}
-
-impl Serialize for Traceability {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let written = WrittenTraceability {
-            instrument: self.instrument,
-            driver: self.driver.clone(),
-            serial: self.serial.clone(),
-            certificate: self.certificate.clone(),
-        };
-        written.serialize(serializer)
-    }
-}
-
-impl<'de> Deserialize<'de> for Traceability {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Traceability, D::Error> {
-        let written = WrittenTraceability::deserialize(deserializer)?;
+    fn try_from(written: WrittenTraceability) -> Result<Traceability, CertificateError> {
         if let Some(certificate) = &written.certificate {
-            let checked = certificate.check(written.instrument);
-            checked.map_err(D::Error::custom)?;
+            certificate.check(written.instrument)?;
         }
         Ok(Traceability {
             instrument: written.instrument,
