@@ -11,6 +11,9 @@ use crate::printable::shown;
 use crate::suggestion::suggestion;
 use crate::unit::{Amount, Unit};
 
+/// Coefficients that a correlation can have, for messages.
+pub(super) const COEFFICIENT: &str = "a number from -1 to 1, or \"unknown\"";
+
 /// Calibration certificate of an instrument, by channel.
 ///
 /// ```
@@ -241,7 +244,7 @@ impl StatedCorrelation {
             Some(r) => Err(CertificateError::value(
                 "correlation",
                 r.to_string(),
-                "a number from -1 to 1, or \"unknown\"",
+                COEFFICIENT,
             )),
             None => Ok(()),
         }

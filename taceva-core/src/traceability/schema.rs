@@ -7,7 +7,7 @@ use serde::de::{Deserialize, Deserializer, Error as _, MapAccess, Visitor};
 use serde::ser::{Serialize, Serializer};
 
 use super::Traceability;
-use super::certificate::{Certificate, StatedCorrelation};
+use super::certificate::{COEFFICIENT, Certificate, StatedCorrelation};
 use super::coverage::Coverage;
 use super::error::CertificateError;
 use super::instrument::Instrument;
@@ -86,7 +86,7 @@ impl<'de> Deserialize<'de> for DateText {
         impl<'de> Visitor<'de> for TextOrDate {
             type Value = DateText;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a day such as 2026-05-12")
+                fmt::Display::fmt(&DateError, f)
             }
             fn visit_str<E>(self, text: &str) -> Result<DateText, E> {
                 Ok(DateText(text.to_owned()))
@@ -95,7 +95,7 @@ impl<'de> Deserialize<'de> for DateText {
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<DateText, A::Error> {
                 match map.next_entry::<String, String>()? {
                     Some((_, text)) => Ok(DateText(text)),
-                    None => Err(A::Error::custom("expected a day such as 2026-05-12")),
+                    None => Err(A::Error::custom(format_args!("expected {DateError}"))),
                 }
             }
         }
@@ -172,8 +172,7 @@ impl TryFrom<WrittenCorrelation> for StatedCorrelation {
             Coefficient::Number(number) => Some(number),
             Coefficient::Word(word) if word == "unknown" => None,
             Coefficient::Word(word) => {
-                let expected = "a number from -1 to 1, or \"unknown\"";
-                return Err(CertificateError::value("correlation", word, expected));
+                return Err(CertificateError::value("correlation", word, COEFFICIENT));
             }
         };
         Ok(StatedCorrelation {
