@@ -5,6 +5,8 @@ use std::str::FromStr;
 
 /// A day of the Gregorian calendar, written `2026-05-12`. Days compare by time.
 ///
+/// This crate computes the calendar itself, because it has no required dependency.
+///
 /// ```
 /// use taceva_core::Date;
 /// let issued: Date = "2026-05-12".parse()?;
@@ -22,7 +24,7 @@ pub struct Date {
 }
 
 impl Date {
-    /// The UTC day of a time in seconds since 1970.
+    /// The UTC day of a Unix time, s.
     pub fn of_unix_s(seconds: u64) -> Date {
         // In the calendar that repeats every 400 years, with years that begin in March.
         let days = seconds / 86_400 + 719_468;

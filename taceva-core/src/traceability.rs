@@ -26,15 +26,20 @@ use crate::date::Date;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "schema::WrittenTraceability"))]
 #[non_exhaustive]
 pub struct Traceability {
     /// Instrument that measured the labels.
     pub instrument: Instrument,
     /// Driver that read the instrument: `ati/netft`; `None` of an import.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub driver: Option<String>,
     /// Serial number that the driver read; `None` if it reads none.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub serial: Option<String>,
     /// Calibration certificate; `None` if the labels are not traceable.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub certificate: Option<Certificate>,
 }
 

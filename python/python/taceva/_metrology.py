@@ -428,6 +428,8 @@ def _cells(column: Any, name: str) -> list[str]:
 
     >>> _cells([0.5, float("nan")], "y"), _cells(["a", None], "part")
     (['0.5', ''], ['a', ''])
+    >>> _cells(np.array(["2026-05-12", "NaT"], dtype="datetime64[ns]"), "by")
+    ['2026-05-12T00:00:00.000000000', '']
     """
     if np.ma.isMaskedArray(column) or hasattr(column, "detach"):
         column = real(column, name)
@@ -441,6 +443,9 @@ def _cells(column: Any, name: str) -> list[str]:
         if len(rows):
             raise ValueError(f"{name} row {rows[0]}: {found[rows[0]]}, expected a finite number, or NaN for a missing one")
         return ["" if number != number else repr(number) for number in found.tolist()]
+    if found.dtype.kind in "mM":
+        # A list of nanoseconds has a number for NaT.
+        return ["" if np.isnat(time) else str(time) for time in found]
     return ["" if _is_missing(cell) else str(cell) for cell in found.tolist()]
 
 

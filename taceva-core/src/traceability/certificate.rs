@@ -11,6 +11,9 @@ use crate::printable::shown;
 use crate::suggestion::suggestion;
 use crate::unit::{Amount, Unit};
 
+/// Coefficients that a correlation can have, for messages.
+pub(super) const COEFFICIENT: &str = "a number from -1 to 1, or \"unknown\"";
+
 /// Calibration certificate of an instrument, by channel.
 ///
 /// ```
@@ -24,6 +27,14 @@ use crate::unit::{Amount, Unit};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        into = "super::schema::WrittenCertificate",
+        try_from = "super::schema::WrittenCertificate"
+    )
+)]
 #[non_exhaustive]
 pub struct Certificate {
     /// Number of the certificate.
@@ -123,7 +134,12 @@ impl Certificate {
             let key = format!("U_relative.{channel}");
             check_channel(instrument, &key, channel)?;
             check_size(&key, share.to_string(), *share)?;
+            if *share >= 1.0 {
+                let expected = "0 or more and below 1, since 1 % is 0.01";
+                return Err(CertificateError::value(key, share.to_string(), expected));
+            }
         }
+        self.check_zeros()?;
         for (channel, [least, most]) in &self.range {
             let key = format!("range.{channel}");
             check_amount(instrument, &key, channel, least)?;
@@ -134,8 +150,30 @@ impl Certificate {
                 return Err(CertificateError::value(key, found, expected));
             }
         }
-        for correlation in &self.correlation {
+        for (position, correlation) in self.correlation.iter().enumerate() {
             correlation.check(instrument)?;
+            let [first, second] = &correlation.between;
+            let mut before = self.correlation.iter().take(position);
+            if before.any(|of| of.between.contains(first) && of.between.contains(second)) {
+                let found = format!("{first}, {second}");
+                let expected = "each pair of channels once";
+                return Err(CertificateError::value("correlation", found, expected));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses a channel whose stated uncertainties are all 0.
+    fn check_zeros(&self) -> Result<(), CertificateError> {
+        for channel in self.expanded.keys().chain(self.relative.keys()) {
+            let amount = self.expanded.get(channel).map(|amount| amount.value);
+            let share = self.relative.get(channel).copied();
+            let mut stated = [amount, share].into_iter().flatten();
+            if !stated.any(|number| number > 0.0) {
+                let expected = "a number above 0 in `U` or `U_relative`";
+                let key = format!("U.{channel}");
+                return Err(CertificateError::value(key, "0", expected));
+            }
         }
         Ok(())
     }
@@ -206,7 +244,7 @@ impl StatedCorrelation {
             Some(r) => Err(CertificateError::value(
                 "correlation",
                 r.to_string(),
-                "a number from -1 to 1, or \"unknown\"",
+                COEFFICIENT,
             )),
             None => Ok(()),
         }

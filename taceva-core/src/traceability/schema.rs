@@ -7,7 +7,7 @@ use serde::de::{Deserialize, Deserializer, Error as _, MapAccess, Visitor};
 use serde::ser::{Serialize, Serializer};
 
 use super::Traceability;
-use super::certificate::{Certificate, StatedCorrelation};
+use super::certificate::{COEFFICIENT, Certificate, StatedCorrelation};
 use super::coverage::Coverage;
 use super::error::CertificateError;
 use super::instrument::Instrument;
@@ -16,7 +16,7 @@ use crate::unit::{Amount, AmountError};
 
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-struct WrittenCertificate {
+pub(super) struct WrittenCertificate {
     number: String,
     laboratory: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -51,15 +51,12 @@ struct WrittenCertificate {
     range: BTreeMap<String, [String; 2]>,
 }
 
-#[derive(serde::Serialize, serde::Deserialize)]
+#[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-struct WrittenTraceability {
+pub(super) struct WrittenTraceability {
     instrument: Instrument,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     driver: Option<String>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     serial: Option<String>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     certificate: Option<Certificate>,
 }
 
@@ -89,7 +86,7 @@ impl<'de> Deserialize<'de> for DateText {
         impl<'de> Visitor<'de> for TextOrDate {
             type Value = DateText;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a day such as 2026-05-12")
+                fmt::Display::fmt(&DateError, f)
             }
             fn visit_str<E>(self, text: &str) -> Result<DateText, E> {
                 Ok(DateText(text.to_owned()))
@@ -98,7 +95,7 @@ impl<'de> Deserialize<'de> for DateText {
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<DateText, A::Error> {
                 match map.next_entry::<String, String>()? {
                     Some((_, text)) => Ok(DateText(text)),
-                    None => Err(A::Error::custom("expected a day such as 2026-05-12")),
+                    None => Err(A::Error::custom(format_args!("expected {DateError}"))),
                 }
             }
         }
@@ -175,8 +172,7 @@ impl TryFrom<WrittenCorrelation> for StatedCorrelation {
             Coefficient::Number(number) => Some(number),
             Coefficient::Word(word) if word == "unknown" => None,
             Coefficient::Word(word) => {
-                let expected = "a number from -1 to 1, or \"unknown\"";
-                return Err(CertificateError::value("correlation", word, expected));
+                return Err(CertificateError::value("correlation", word, COEFFICIENT));
             }
         };
         Ok(StatedCorrelation {
@@ -186,9 +182,8 @@ impl TryFrom<WrittenCorrelation> for StatedCorrelation {
     }
 }
 
-impl From<&Certificate> for WrittenCertificate {
-    fn from(certificate: &Certificate) -> WrittenCertificate {
-        let certificate = certificate.clone();
+impl From<Certificate> for WrittenCertificate {
+    fn from(certificate: Certificate) -> WrittenCertificate {
         let (k, p, dof) = match certificate.coverage {
             Coverage::Factor(k) => (Some(k), None, None),
             Coverage::Probability { p, dof } => (None, Some(p), dof),
@@ -237,37 +232,12 @@ impl From<StatedCorrelation> for WrittenCorrelation {
     }
 }
 
-impl Serialize for Certificate {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        WrittenCertificate::from(self).serialize(serializer)
-    }
-}
+impl TryFrom<WrittenTraceability> for Traceability {
+    type Error = CertificateError;
 
-impl<'de> Deserialize<'de> for Certificate {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Certificate, D::Error> {
-        let written = WrittenCertificate::deserialize(deserializer)?;
-        Certificate::try_from(written).map_err(D::Error::custom)
-    }
-}
-
-impl Serialize for Traceability {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let written = WrittenTraceability {
-            instrument: self.instrument,
-            driver: self.driver.clone(),
-            serial: self.serial.clone(),
-            certificate: self.certificate.clone(),
-        };
-        written.serialize(serializer)
-    }
-}
-
-impl<'de> Deserialize<'de> for Traceability {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Traceability, D::Error> {
-        let written = WrittenTraceability::deserialize(deserializer)?;
+    fn try_from(written: WrittenTraceability) -> Result<Traceability, CertificateError> {
         if let Some(certificate) = &written.certificate {
-            let checked = certificate.check(written.instrument);
-            checked.map_err(D::Error::custom)?;
+            certificate.check(written.instrument)?;
         }
         Ok(Traceability {
             instrument: written.instrument,

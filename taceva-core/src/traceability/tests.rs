@@ -84,6 +84,54 @@ fn a_negative_uncertainty_and_one_that_is_no_number_are_refused() {
 }
 
 #[test]
+fn a_channel_whose_uncertainties_are_all_zero_is_refused() {
+    let zero = |certificate: &mut Certificate| {
+        certificate.expanded = BTreeMap::from([("Fz".to_owned(), amount("0 N"))]);
+    };
+    let expected = "`U.Fz` is `0`, expected a number above 0 in `U` or `U_relative`";
+    assert_eq!(refused(zero), expected);
+    let message = refused(|certificate| {
+        zero(certificate);
+        certificate.relative.insert("Fz".to_owned(), 0.0);
+    });
+    assert_eq!(message, expected);
+    let mut share_alone = certificate();
+    zero(&mut share_alone);
+    share_alone.relative.insert("Fz".to_owned(), 0.001);
+    assert_eq!(share_alone.check(Instrument::Force), Ok(()));
+}
+
+#[test]
+fn a_relative_uncertainty_in_percent_is_refused() {
+    let message = refused(|certificate| {
+        certificate.relative.insert("Fz".to_owned(), 1.0);
+    });
+    assert_eq!(
+        message,
+        "`U_relative.Fz` is `1`, expected 0 or more and below 1, since 1 % is 0.01"
+    );
+}
+
+#[test]
+fn a_pair_of_channels_with_two_correlations_is_refused_in_either_order() {
+    let stated = |first: &str, second: &str, coefficient| StatedCorrelation {
+        between: [first.to_owned(), second.to_owned()],
+        coefficient,
+    };
+    let once = stated("Fx", "Fy", Some(0.5));
+    for twice in [stated("Fx", "Fy", None), stated("Fy", "Fx", Some(-0.5))] {
+        let message = refused(|certificate| certificate.correlation = vec![once.clone(), twice]);
+        assert!(
+            message.ends_with("expected each pair of channels once"),
+            "{message}"
+        );
+    }
+    let mut others = certificate();
+    others.correlation = vec![once, stated("Fx", "Fz", None), stated("Fz", "Fy", None)];
+    assert_eq!(others.check(Instrument::Force), Ok(()));
+}
+
+#[test]
 fn a_certificate_without_any_uncertainty_is_refused() {
     let message = refused(|certificate| certificate.expanded.clear());
     assert!(message.contains("states no uncertainty"), "{message}");

@@ -24,11 +24,11 @@ fn traced(number: &str) -> Traceability {
     certificate.relative.insert("Fx".to_owned(), 0.001);
     let range = [amount("50 mN"), amount("50 N")];
     certificate.range.insert("Fz".to_owned(), range);
-    let stated = |coefficient| taceva_core::StatedCorrelation {
-        between: ["Fx".to_owned(), "Fz".to_owned()],
+    let stated = |other: &str, coefficient| taceva_core::StatedCorrelation {
+        between: ["Fx".to_owned(), other.to_owned()],
         coefficient,
     };
-    certificate.correlation = vec![stated(Some(0.5)), stated(None)];
+    certificate.correlation = vec![stated("Fz", Some(0.5)), stated("Fy", None)];
     certificate.temperature = Some("23 ± 2 C".to_owned());
     let force = Traceability::new(Instrument::Force);
     let force = force.with_driver("ati/netft", Some("42".to_owned()));

@@ -53,8 +53,9 @@ fn outside(
     if count == 0 {
         return None;
     }
-    // Samples at rest are below every range.
-    let severity = match above.is_empty() {
+    // Samples at rest are near 0, so below each range without negative values.
+    let is_rest = above.is_empty() && least.value >= 0.0;
+    let severity = match is_rest {
         true => Severity::Note,
         false => Severity::Warning,
     };

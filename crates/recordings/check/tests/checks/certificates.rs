@@ -95,6 +95,18 @@ fn labels_outside_the_certificates_range_are_counted_by_channel() {
 }
 
 #[test]
+fn a_label_below_a_range_of_both_signs_is_a_warning() {
+    let signed = CERTIFICATE.replace("\"0.05 N\"", "\"-50 N\"");
+    let report = checked(&[0.0, -60.0], VALID_S, &signed);
+    assert_eq!(codes(&report), [("TAC029", Severity::Warning)]);
+    says_nothing(&checked(&[0.0, -40.0], VALID_S, &signed), "TAC029");
+    // Noise at rest alone is no reason to warn.
+    let unsigned = CERTIFICATE.replace("\"0.05 N\"", "\"0 N\"");
+    let report = checked(&[-0.01, 0.5], VALID_S, &unsigned);
+    assert_eq!(codes(&report), [("TAC029", Severity::Note)]);
+}
+
+#[test]
 fn a_certificate_of_the_sensor_bounds_no_labels() {
     let of_sensor = CERTIFICATE.replace("[force.", "[sensor.");
     let report = checked(&[0.0, 60.0], VALID_S, &of_sensor);
