@@ -125,7 +125,7 @@ fn number([red, green, blue]: Colour) -> i32 {
 /// Colour for a value of the zoom control, as in the argument; the number itself if it encodes no colour.
 fn words(value: i32) -> String {
     let colour = [value >> 8, (value >> 4) & MOST, value & MOST];
-    match number(colour) == value && colour[0] <= MOST && value >= 0 {
+    match (0..=number([MOST; 3])).contains(&value) {
         true => colour.map(|level| level.to_string()).join(","),
         false => value.to_string(),
     }

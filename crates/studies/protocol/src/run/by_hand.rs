@@ -113,9 +113,8 @@ impl Run<'_> {
         let Some(operator) = &mut self.operator else {
             return Ok(Answer::Stop);
         };
-        self.tip.supervisor.lock().asks(true);
-        let answer = operator.ask(question, self.tip.cancel);
-        self.tip.supervisor.lock().asks(false);
+        let supervisor = &self.tip.supervisor;
+        let answer = supervisor.during_question(|| operator.ask(question, self.tip.cancel));
         if answer == Answer::Done {
             // The person may have moved the tip down by hand: it then rises before it goes on.
             self.tip.release()?;
@@ -135,9 +134,8 @@ impl Run<'_> {
             return Err(error);
         };
         let question = Question::Acknowledge(fault);
-        self.tip.supervisor.lock().asks(true);
-        let answer = operator.ask(&question, self.tip.cancel);
-        self.tip.supervisor.lock().asks(false);
+        let supervisor = &self.tip.supervisor;
+        let answer = supervisor.during_question(|| operator.ask(&question, self.tip.cancel));
         if answer != Answer::Done {
             return Err(error);
         }

@@ -46,10 +46,8 @@ impl Run<'_> {
             Some(operator) => Some(&mut **operator),
             None => None,
         };
-        self.tip.supervisor.lock().asks(true);
-        let enabled = enable(robot, way, operator, self.tip.cancel);
-        self.tip.supervisor.lock().asks(false);
-        enabled
+        let supervisor = &self.tip.supervisor;
+        supervisor.during_question(|| enable(robot, way, operator, self.tip.cancel))
     }
 
     /// Begins the session, once, before the first press and with its specimen.

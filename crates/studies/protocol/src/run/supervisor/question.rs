@@ -1,6 +1,6 @@
 //! Questions to the operator, and a force that is lost while one stands.
 
-use super::Supervisor;
+use super::{SharedSupervisor, Supervisor};
 
 /// State of the question that stands, if any.
 #[derive(Default)]
@@ -9,6 +9,16 @@ pub(super) struct StandingQuestion {
     /// True if the robot was halted for a lost force since the question began.
     is_halted: bool,
     is_remarked: bool,
+}
+
+impl SharedSupervisor {
+    /// Result of `ask`, which puts a question to the operator. The question stands until `ask` returns.
+    pub(crate) fn during_question<T>(&self, ask: impl FnOnce() -> T) -> T {
+        self.lock().asks(true);
+        let answer = ask();
+        self.lock().asks(false);
+        answer
+    }
 }
 
 impl Supervisor {
