@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::ops::RangeInclusive;
 
 use super::coverage::Coverage;
 use super::error::CertificateError;
@@ -13,6 +14,9 @@ use crate::unit::{Amount, Unit};
 
 /// Coefficients that a correlation can have, for messages.
 pub(super) const COEFFICIENT: &str = "a number from -1 to 1, or \"unknown\"";
+
+/// Accepted coverage factors. 12.7 is that of one degree of freedom at 95 %, so a greater one is a missing decimal point.
+const COVERAGE_FACTORS: RangeInclusive<f64> = 1.0..=20.0;
 
 /// Calibration certificate of an instrument, by channel.
 ///
@@ -215,8 +219,8 @@ impl Certificate {
             Err(CertificateError::value(key, number.to_string(), expected))
         };
         match self.coverage {
-            Coverage::Factor(k) if !(k > 0.0 && k.is_finite()) => {
-                refused("k", k, "a number above 0")
+            Coverage::Factor(k) if !COVERAGE_FACTORS.contains(&k) => {
+                refused("k", k, "a coverage factor from 1 to 20, such as 2")
             }
             Coverage::Probability { p, .. } if !(p > 0.0 && p < 1.0) => {
                 refused("p", p, "a number between 0 and 1")

@@ -84,6 +84,16 @@ fn a_negative_uncertainty_and_one_that_is_no_number_are_refused() {
 }
 
 #[test]
+fn a_coverage_factor_without_its_decimal_point_is_refused() {
+    for (k, found) in [(200.0, "200"), (0.2, "0.2"), (f64::NAN, "NaN")] {
+        let message = refused(|certificate| certificate.coverage = Coverage::Factor(k));
+        let expected =
+            format!("`k` is `{found}`, expected a coverage factor from 1 to 20, such as 2");
+        assert_eq!(message, expected);
+    }
+}
+
+#[test]
 fn a_channel_whose_uncertainties_are_all_zero_is_refused() {
     let zero = |certificate: &mut Certificate| {
         certificate.expanded = BTreeMap::from([("Fz".to_owned(), amount("0 N"))]);
