@@ -87,7 +87,7 @@ impl Page {
         let mut read = Vec::new();
         while !read.windows(words.len()).any(|part| part == words) {
             assert!(
-                began.elapsed() < Duration::from_secs(30),
+                began.elapsed() < Duration::from_secs(120),
                 "{path}: {} never came",
                 words.escape_ascii()
             );
