@@ -1,6 +1,7 @@
 //! Claims of a bundle: the numbers of its results.
 
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 use taceva_core::Unit;
 use taceva_results::{EvaluationReport, Interval, Score};
 
@@ -123,6 +124,43 @@ impl Claim {
         unit_of(score, self.variant.as_deref()) == Some(self.unit)
             && score.n == self.n
             && score.definition == self.definition
+    }
+
+    /// Metric with its variant: `mae`, `hysteresis.ratio`.
+    pub(crate) fn full_metric(&self) -> String {
+        match &self.variant {
+            Some(variant) => format!("{}.{variant}", self.metric),
+            None => self.metric.clone(),
+        }
+    }
+
+    /// Everything but the value in words, for forms without places for it.
+    pub(crate) fn facts(&self) -> String {
+        let interval = match self.ci95 {
+            Some([low, high]) => format!("ci95 [{low}, {high}]"),
+            None => "no ci95".to_owned(),
+        };
+        format!(
+            "{interval}, unit {}, n = {}, definition {}, study {}, computed again from {}",
+            self.unit, self.n, self.definition, self.study, self.level
+        )
+    }
+
+    /// The claim as a `PropertyValue` of schema.org, the one of this number.
+    pub(crate) fn property(&self, number: usize) -> Value {
+        let mut own = json!({
+            "@id": format!("#claim-{number}"),
+            "@type": "PropertyValue",
+            "name": self.words(),
+            "value": self.value,
+            "unitText": self.unit.symbol(),
+            "description": self.facts(),
+        });
+        if let Some([low, high]) = self.ci95 {
+            own["minValue"] = low.into();
+            own["maxValue"] = high.into();
+        }
+        own
     }
 
     /// Metric, variant and channel in words: `mae of Fz`.

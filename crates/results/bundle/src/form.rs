@@ -6,10 +6,11 @@ use std::num::NonZeroUsize;
 use taceva_evaluate::StateFile;
 use taceva_results::EvaluationReport;
 
-use crate::card;
 use crate::claim_list;
+use crate::columns::TableColumns;
 use crate::environment::{ENVIRONMENT_SCHEMA, Environment};
 use crate::error::{BundleError, Damage};
+use crate::generated;
 use crate::header;
 use crate::layout::{
     ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES, is_header,
@@ -121,7 +122,8 @@ pub(crate) fn form(
             // A claim that was edited in the manifest alone is found by its number.
             *claim = claim.as_in(&reports[claim.study]);
         }
-        for (name, expected) in card::texts(&restored) {
+        let tables = TableColumns::of(source, manifest, jobs);
+        for (name, expected) in generated::texts(&restored, &tables) {
             let rule = "generated files are what bundle.json and results.json give";
             match source.text(name, MOST_TEXT) {
                 Ok(found) if found == expected => {}
