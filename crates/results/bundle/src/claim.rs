@@ -141,7 +141,7 @@ impl Claim {
             None => "no ci95".to_owned(),
         };
         format!(
-            "{interval}, unit {}, n = {}, definition {}, study {}, computed again from {}",
+            "{interval}, unit {}, n = {}, definition {}, study {}, level {}",
             self.unit, self.n, self.definition, self.study, self.level
         )
     }

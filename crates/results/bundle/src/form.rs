@@ -6,19 +6,21 @@ use std::num::NonZeroUsize;
 use taceva_evaluate::StateFile;
 use taceva_results::EvaluationReport;
 
+use crate::author::is_name;
 use crate::claim_list;
 use crate::columns::TableColumns;
 use crate::environment::{ENVIRONMENT_SCHEMA, Environment};
 use crate::error::{BundleError, Damage};
-use crate::generated;
 use crate::header;
 use crate::layout::{
     ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES, is_header,
 };
 use crate::manifest::{Manifest, badge_of, source_of};
 use crate::name;
+use crate::organization::Organization;
 use crate::sample_digest::{SAMPLES_SCHEMA, SampleDigest, StudySamples};
 use crate::source::Source;
+use crate::texts;
 
 /// Most findings of damage that are listed.
 const MOST_DAMAGE: usize = 50;
@@ -100,6 +102,7 @@ pub(crate) fn form(
     let mut damage = Vec::new();
     damage.extend(studies(source, manifest, reports));
     damage.extend(origin(manifest, reports));
+    damage.extend(owners(manifest));
     if damage.is_empty() {
         damage.extend(claim_list::fault(manifest, reports));
     }
@@ -115,15 +118,15 @@ pub(crate) fn form(
         .iter()
         .filter(|file| file.role == HEADER_ROLE || is_header(&file.path));
     damage.extend(headers.filter_map(|file| dataset_header(source, &file.path, &known).err()));
-    // Another version may write these texts in other words.
-    if manifest.taceva == env!("CARGO_PKG_VERSION") {
+    // Another version may write these texts in other words. A digest that was not checked could be of any length, and forms repeat it.
+    if damage.is_empty() && manifest.taceva == env!("CARGO_PKG_VERSION") {
         let mut restored = manifest.clone();
         for claim in &mut restored.claims {
             // A claim that was edited in the manifest alone is found by its number.
             *claim = claim.as_in(&reports[claim.study]);
         }
         let tables = TableColumns::of(source, manifest, jobs);
-        for (name, expected) in generated::texts(&restored, &tables) {
+        for (name, expected) in texts::all(&restored, &tables) {
             let rule = "generated files are what bundle.json and results.json give";
             match source.text(name, MOST_TEXT) {
                 Ok(found) if found == expected => {}
@@ -225,6 +228,18 @@ fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
             "the origin of samples is that of the results",
             problem,
         )
+    })
+}
+
+/// Authors or an organization that no command states, since forms repeat them.
+fn owners(manifest: &Manifest) -> Option<Damage> {
+    let are_names = manifest.authors.iter().all(|author| is_name(&author.name));
+    let organization = manifest.organization.as_ref();
+    let is_right = are_names && organization.is_none_or(Organization::is_right);
+    (!is_right).then(|| {
+        let rule = "authors and their organization have a name, and it an address";
+        let problem = "an author or the organization has a name or an address that is empty, too long or cannot be printed";
+        Damage::new(MANIFEST, rule, problem)
     })
 }
 

@@ -12,7 +12,6 @@ use crate::claim::{claims, words};
 use crate::columns::TableColumns;
 use crate::environment::Environment;
 use crate::error::BundleError;
-use crate::generated;
 use crate::inputs::Inputs;
 use crate::layout::{
     ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_MANIFEST, MOST_TEXT, RESULTS, SAMPLES,
@@ -23,6 +22,7 @@ use crate::redaction::{Redaction, redacted};
 use crate::request::BundleRequest;
 use crate::sample_digest::{SampleDigest, StudySamples};
 use crate::source::Source;
+use crate::texts;
 use crate::verification::{ClaimCheck, Verdict};
 use crate::verify::{VerifyRequest, check};
 use crate::writer::Writer;
@@ -151,7 +151,7 @@ fn write(inputs: &Inputs, request: &BundleRequest, root: &Path) -> Result<MadeBu
     manifest.files = writer.sorted();
     let source = Source::open(root, u64::MAX)?;
     let tables = TableColumns::of(&source, &manifest, request.jobs);
-    for (name, text) in generated::texts(&manifest, &tables) {
+    for (name, text) in texts::all(&manifest, &tables) {
         writer.add(name, "card", text.as_bytes())?;
     }
     manifest.files = writer.sorted();

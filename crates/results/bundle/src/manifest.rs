@@ -17,8 +17,8 @@ pub const BUNDLE_SCHEMA: &str = "taceva.bundle/1";
 
 /// Content of every bundle.
 pub(crate) const ABOUT: &str = "Results of TacEva with what is needed to compute them again.";
-/// Sentence on a draft.
-const DRAFT: &str = "Draft: author or licence is missing.";
+/// Sentence on a bundle without author or licence.
+const UNFINISHED: &str = "Draft: author or licence is missing.";
 
 /// Content of `bundle.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -179,8 +179,8 @@ impl Manifest {
 
     /// Sentences that nothing was measured, and that the bundle is a draft, where this is so.
     pub(crate) fn remarks(&self) -> Vec<String> {
-        let draft = self.is_unfinished.then(|| DRAFT.to_owned());
-        self.badge.iter().cloned().chain(draft).collect()
+        let unfinished = self.is_unfinished.then(|| UNFINISHED.to_owned());
+        self.badge.iter().cloned().chain(unfinished).collect()
     }
 
     /// Content of the bundle in words, with the remarks.

@@ -32,7 +32,7 @@ fn result(manifest: &Manifest, study: usize) -> Option<Value> {
             "task": {"type": "tactile-measurement"},
             "dataset": {
                 "type": "tactile-samples",
-                "name": manifest.name,
+                "name": format!("samples of study {study}"),
                 "args": {
                     "samples": manifest.samples_digest,
                     "source": manifest.source,

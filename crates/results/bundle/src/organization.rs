@@ -41,14 +41,18 @@ impl FromStr for Organization {
         };
         let (name, rest) = text.split_once('<').ok_or_else(refused)?;
         let url = rest.trim().strip_suffix('>').ok_or_else(refused)?;
-        let name = name.trim();
-        match is_name(name) && is_address(url) {
-            true => Ok(Organization {
-                name: name.to_owned(),
-                url: url.to_owned(),
-            }),
-            false => Err(refused()),
-        }
+        let own = Organization {
+            name: name.trim().to_owned(),
+            url: url.to_owned(),
+        };
+        own.is_right().then_some(own).ok_or_else(refused)
+    }
+}
+
+impl Organization {
+    /// True if name and address can be printed.
+    pub(crate) fn is_right(&self) -> bool {
+        is_name(&self.name) && is_address(&self.url)
     }
 }
 

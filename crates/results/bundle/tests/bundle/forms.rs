@@ -204,3 +204,22 @@ fn tables_of_the_bundle_are_record_sets_with_the_types_of_their_columns() {
     let withheld = Bench::of(|request| request.withholds_predictions = true);
     assert_eq!(withheld.json("croissant.json")["recordSet"], json!([]));
 }
+
+#[test]
+fn an_author_or_an_organization_that_no_command_states_is_damage() {
+    let bench = Bench::of(finished);
+    let whole = bench.json("bundle.json");
+    let address = format!("https://{}", "x".repeat(1000));
+    for (place, value) in [
+        ("/authors/0/name", "a\u{1b}[2J"),
+        ("/organization/name", ""),
+        ("/organization/url", &address),
+    ] {
+        let mut manifest = whole.clone();
+        *manifest.pointer_mut(place).expect(place) = value.into();
+        bench.relist(manifest);
+        let found = bench.verified(Level::Form);
+        assert_eq!(found.outcome(), Outcome::Damaged, "{place}");
+        assert_eq!(found.damage[0].path, "bundle.json", "{place}");
+    }
+}

@@ -6,7 +6,7 @@ use crate::manifest::Manifest;
 use crate::{card, croissant, eval_results, ro_crate};
 
 /// Generated texts by file name; `tables` are the columns of the tables that the bundle holds.
-pub(crate) fn texts(manifest: &Manifest, tables: &[TableColumns]) -> [(&'static str, String); 6] {
+pub(crate) fn all(manifest: &Manifest, tables: &[TableColumns]) -> [(&'static str, String); 6] {
     [
         (CITATION, card::citation(manifest)),
         (LICENCE, card::licence(manifest)),
