@@ -213,7 +213,7 @@ fn an_author_or_an_organization_that_no_command_states_is_damage() {
     for (place, value) in [
         ("/authors/0/name", "a\u{1b}[2J"),
         ("/organization/name", ""),
-        ("/organization/url", &address),
+        ("/organization/url", address.as_str()),
     ] {
         let mut manifest = whole.clone();
         *manifest.pointer_mut(place).expect(place) = value.into();
