@@ -7,6 +7,7 @@ use std::path::Path;
 
 use taceva_evaluate::read_table;
 
+use crate::layout::{MOST_COLUMNS, MOST_NAME};
 use crate::manifest::{Manifest, StudyFiles};
 use crate::sample_digest::IDS;
 use crate::source::Source;
@@ -31,15 +32,14 @@ pub(crate) struct Column {
 impl TableColumns {
     /// Tables behind the studies of `manifest`. They are read, so that neither manifest nor Croissant can state other columns.
     ///
-    /// Tables that cannot be read, and those with another separator than a comma, are left out.
+    /// Tables that cannot be read, those with another separator than a comma, and those with too many columns are left out.
     pub(crate) fn of(
         source: &Source,
         manifest: &Manifest,
         jobs: NonZeroUsize,
     ) -> Vec<TableColumns> {
         let names = manifest.studies.iter().flat_map(StudyFiles::table_names);
-        let tables = names.filter_map(|name| TableColumns::read(&source.path(name), name, jobs));
-        tables.collect()
+        bounded(names.filter_map(|name| TableColumns::read(&source.path(name), name, jobs)))
     }
 
     fn read(path: &Path, name: &str, jobs: NonZeroUsize) -> Option<TableColumns> {
@@ -61,7 +61,8 @@ impl TableColumns {
                 "sc:Text"
             }
         };
-        let named = names.iter().enumerate().filter(|(_, own)| !own.is_empty());
+        let columns = names.iter().enumerate();
+        let named = columns.filter(|(_, own)| (1..=MOST_NAME).contains(&own.len()));
         let columns: Vec<Column> = named
             .map(|(column, own)| Column {
                 name: own.clone(),
@@ -73,6 +74,16 @@ impl TableColumns {
             columns,
         })
     }
+}
+
+/// The first of `tables`, without those that exceed [`MOST_COLUMNS`] together.
+fn bounded(tables: impl Iterator<Item = TableColumns>) -> Vec<TableColumns> {
+    let mut left = MOST_COLUMNS;
+    let within = tables.filter_map(|table| {
+        left = left.checked_sub(table.columns.len())?;
+        Some(table)
+    });
+    within.collect()
 }
 
 /// True if the first line of the file at `path` is `names` with commas between them.
@@ -112,6 +123,25 @@ mod tests {
         let found = types("id,n,Fz [N],part,empty\n1,2,0.5,a,\n2,-3,,b,\n");
         let expected = vec!["sc:Text", "sc:Integer", "sc:Float", "sc:Text", "sc:Float"];
         assert_eq!(found, Some(expected));
+    }
+
+    #[test]
+    fn columns_are_bounded_in_number_and_names_in_length() {
+        let long = "x".repeat(MOST_NAME + 1);
+        let found = types(&format!("id,{long}\n1,0.5\n"));
+        assert_eq!(found, Some(vec!["sc:Text"]));
+        let table = |count: usize| TableColumns {
+            path: count.to_string(),
+            columns: (0..count)
+                .map(|own| Column {
+                    name: own.to_string(),
+                    data_type: "sc:Text",
+                })
+                .collect(),
+        };
+        let found = bounded([MOST_COLUMNS - 2, 3, 2, 1].into_iter().map(table));
+        let counts: Vec<usize> = found.iter().map(|own| own.columns.len()).collect();
+        assert_eq!(counts, [MOST_COLUMNS - 2, 2]);
     }
 
     #[test]

@@ -47,6 +47,10 @@ pub(crate) const MOST_TEXT: u64 = 24 << 20;
 pub(crate) const MOST_TABLE: u64 = 256 << 20;
 /// Most claims, and most scores of the results.
 pub(crate) const MOST_CLAIMS: usize = 10_000;
+/// Most authors.
+pub(crate) const MOST_AUTHORS: usize = 1_000;
+/// Most columns of all tables that `croissant.json` lists.
+pub(crate) const MOST_COLUMNS: usize = 10_000;
 /// Most bytes of a name.
 pub(crate) const MOST_NAME: usize = 255;
 /// Most folders in a name, and the file.
