@@ -6,8 +6,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use taceva_core::shown;
 
-/// Longest name of an author, in bytes.
-const MOST_NAME: usize = 200;
+/// Longest name of an author or an organization, in bytes.
+pub(crate) const MOST_NAME: usize = 200;
 /// Longest licence, in bytes.
 const MOST_LICENCE: usize = 64;
 
@@ -63,6 +63,11 @@ impl FromStr for Author {
 }
 
 impl Author {
+    /// True if the name can be printed and the identifier has its check digit.
+    pub(crate) fn is_right(&self) -> bool {
+        is_name(&self.name) && self.orcid.as_deref().is_none_or(is_orcid)
+    }
+
     /// Address of the identifier.
     pub(crate) fn address(&self) -> Option<String> {
         let orcid = self.orcid.as_ref()?;

@@ -6,18 +6,18 @@ use std::num::NonZeroUsize;
 use taceva_evaluate::StateFile;
 use taceva_results::EvaluationReport;
 
-use crate::author::is_name;
+use crate::author::{MOST_NAME, is_licence};
 use crate::claim_list;
 use crate::columns::TableColumns;
 use crate::environment::{ENVIRONMENT_SCHEMA, Environment};
 use crate::error::{BundleError, Damage};
 use crate::header;
 use crate::layout::{
-    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES, is_header,
+    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_AUTHORS, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES,
+    is_header,
 };
 use crate::manifest::{Manifest, badge_of, source_of};
 use crate::name;
-use crate::organization::Organization;
 use crate::sample_digest::{SAMPLES_SCHEMA, SampleDigest, StudySamples};
 use crate::source::Source;
 use crate::texts;
@@ -231,16 +231,28 @@ fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
     })
 }
 
-/// Authors or an organization that no command states, since forms repeat them.
-fn owners(manifest: &Manifest) -> Option<Damage> {
-    let are_names = manifest.authors.iter().all(|author| is_name(&author.name));
-    let organization = manifest.organization.as_ref();
-    let is_right = are_names && organization.is_none_or(Organization::is_right);
-    (!is_right).then(|| {
-        let rule = "authors and their organization have a name, and it an address";
-        let problem = "an author or the organization has a name or an address that is empty, too long or cannot be printed";
-        Damage::new(MANIFEST, rule, problem)
-    })
+/// Fault of authors, organization or licence, which forms repeat.
+pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
+    let authors = &manifest.authors;
+    let (organization, licence) = (manifest.organization.as_ref(), manifest.licence.as_deref());
+    let problem = if authors.len() > MOST_AUTHORS {
+        format!("{} authors, expected at most {MOST_AUTHORS}", authors.len())
+    } else if let Some(position) = authors.iter().position(|author| !author.is_right()) {
+        let number = position + 1;
+        format!(
+            "author {number}: expected a printable name of 1 to {MOST_NAME} bytes, and an ORCID with its check digit"
+        )
+    } else if organization.is_some_and(|own| !own.is_right()) {
+        format!(
+            "organization: expected a printable name of 1 to {MOST_NAME} bytes, and the address of its page"
+        )
+    } else if licence.is_some_and(|own| !is_licence(own)) {
+        "licence: expected an SPDX identifier, such as CC-BY-4.0".to_owned()
+    } else {
+        return None;
+    };
+    let rule = "authors, organization and licence are such as `taceva bundle` takes";
+    Some(Damage::new(MANIFEST, rule, problem))
 }
 
 /// Rejects a header without its seal, and one of a dataset that is not in `known`.

@@ -12,6 +12,7 @@ use crate::claim::{claims, words};
 use crate::columns::TableColumns;
 use crate::environment::Environment;
 use crate::error::BundleError;
+use crate::form::owners;
 use crate::inputs::Inputs;
 use crate::layout::{
     ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_MANIFEST, MOST_TEXT, RESULTS, SAMPLES,
@@ -147,6 +148,9 @@ fn write(inputs: &Inputs, request: &BundleRequest, root: &Path) -> Result<MadeBu
         redacted: counts,
         samples_digest: samples.digest,
     };
+    if let Some(fault) = owners(&manifest) {
+        return Err(BundleError::Damaged(fault));
+    }
     set_levels(&mut manifest, inputs, request, root)?;
     manifest.files = writer.sorted();
     let source = Source::open(root, u64::MAX)?;

@@ -3,7 +3,7 @@
 use std::fs;
 
 use serde_json::{Value, json};
-use taceva_bundle::{BundleRequest, Level, Outcome};
+use taceva_bundle::{BundleRequest, Level, Outcome, make};
 use taceva_files::seal::json::reseal;
 
 use super::Bench;
@@ -206,20 +206,40 @@ fn tables_of_the_bundle_are_record_sets_with_the_types_of_their_columns() {
 }
 
 #[test]
-fn an_author_or_an_organization_that_no_command_states_is_damage() {
+fn authors_organization_and_licence_that_no_command_states_are_damage() {
     let bench = Bench::of(finished);
     let whole = bench.json("bundle.json");
+    let crowd = vec![json!({"name": "Ada"}); 1001];
     let address = format!("https://{}", "x".repeat(1000));
-    for (place, value) in [
-        ("/authors/0/name", "a\u{1b}[2J"),
-        ("/organization/name", ""),
-        ("/organization/url", address.as_str()),
+    for (place, value, problem) in [
+        ("/authors", json!(crowd), "1001 authors"),
+        ("/authors/0/name", json!("a\u{1b}[2J"), "author 1: "),
+        ("/authors/0/orcid", json!("x".repeat(1000)), "author 1: "),
+        ("/organization/name", json!(""), "organization: "),
+        ("/organization/url", json!(address), "organization: "),
+        ("/licence", json!("ask me"), "licence: "),
     ] {
         let mut manifest = whole.clone();
-        *manifest.pointer_mut(place).expect(place) = value.into();
+        *manifest.pointer_mut(place).expect(place) = value;
         bench.relist(manifest);
         let found = bench.verified(Level::Form);
-        assert_eq!(found.outcome(), Outcome::Damaged, "{place}");
-        assert_eq!(found.damage[0].path, "bundle.json", "{place}");
+        let [damage] = found.damage.as_slice() else {
+            panic!("{place}: {:?}", found.damage);
+        };
+        assert_eq!(damage.path, "bundle.json");
+        assert!(damage.problem.starts_with(problem), "{place}: {damage}");
     }
+}
+
+#[test]
+fn a_bundle_of_an_author_without_a_name_is_not_written() {
+    let bench = Bench::new();
+    let at = |name: &str| bench.folder.path().join(name);
+    let mut request = BundleRequest::new(&at("result.json"), "2026-11-28");
+    request.states = vec![at("result.state")];
+    finished(&mut request);
+    request.authors[0].name.clear();
+    let error = make(&request, &at("nameless")).expect_err("no name");
+    assert!(error.to_string().contains("author 1: "), "{error}");
+    assert!(!at("nameless").exists());
 }
