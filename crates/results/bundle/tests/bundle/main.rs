@@ -163,38 +163,30 @@ fn an_edit_of_results_and_manifest_alike_is_found_at_the_scores() {
     let (results, manifest) = (bench.json("results.json"), bench.json("bundle.json"));
     let claims = manifest["claims"].as_array().expect("claims").len();
     let mut draws = Draws(11);
-    let mut at_scores = 0;
     for _ in 0..200 {
         let (mut results, mut manifest) = (results.clone(), manifest.clone());
         // Generated files of another version are not compared.
         manifest["taceva"] = "0.0.0".into();
         let at = draws.below(claims);
         let claim = manifest["claims"][at].clone();
-        if !claim["variant"].is_null() {
-            continue;
-        }
         let new = claim["value"].as_f64().expect("a number") * 0.75 + 0.001;
         let [metric, channel] =
             ["metric", "channel"].map(|key| claim[key].as_str().expect("a name"));
-        results["metrics"][metric][channel]["value"] = new.into();
+        let mut number = &mut results["metrics"][metric][channel];
+        if let Some(variant) = claim["variant"].as_str() {
+            number = &mut number[variant];
+        }
+        number["value"] = new.into();
         manifest["claims"][at]["value"] = new.into();
         let text = serde_json::to_string_pretty(&results).expect("JSON");
         let text = json::reseal(&text, "2026-11-28", "forged").expect("JSON");
         fs::write(bench.path("results.json"), text).expect("room");
         bench.relist(manifest);
         let found = bench.verified(Level::Scores);
-        assert_eq!(
-            found.outcome(),
-            Outcome::Unverified,
-            "{metric} of {channel}"
-        );
-        let differing = found
-            .claims
-            .iter()
-            .filter(|claim| claim.verdict == Verdict::Differs);
-        let levels: Vec<Level> = differing.map(|claim| claim.level).collect();
-        assert_eq!(levels, [Level::Scores], "{metric} of {channel}");
-        at_scores += 1;
+        assert_eq!(found.outcome(), Outcome::Unverified, "{claim}");
+        let own = found.claims.iter();
+        let differing = own.filter(|own| own.verdict == Verdict::Differs);
+        let levels: Vec<Level> = differing.map(|own| own.level).collect();
+        assert_eq!(levels, [Level::Scores], "{claim}");
     }
-    assert!(at_scores > 50, "{at_scores} edits reached the scores");
 }
