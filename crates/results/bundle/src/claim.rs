@@ -128,10 +128,7 @@ impl Claim {
 
     /// Metric with its variant: `mae`, `hysteresis.ratio`.
     pub(crate) fn full_metric(&self) -> String {
-        match &self.variant {
-            Some(variant) => format!("{}.{variant}", self.metric),
-            None => self.metric.clone(),
-        }
+        full_metric(&self.metric, self.variant.as_deref())
     }
 
     /// Everything but the value in words, for forms without places for it.
@@ -147,7 +144,7 @@ impl Claim {
     }
 
     /// The claim as a `PropertyValue` of schema.org, the one of this number.
-    pub(crate) fn property(&self, number: usize) -> Value {
+    fn property(&self, number: usize) -> Value {
         let mut own = json!({
             "@id": format!("#claim-{number}"),
             "@type": "PropertyValue",
@@ -171,10 +168,21 @@ impl Claim {
 
 /// Metric, variant and channel in words: `hysteresis.ratio of Fz`.
 pub(crate) fn words(metric: &str, variant: Option<&str>, channel: &str) -> String {
+    format!("{} of {channel}", full_metric(metric, variant))
+}
+
+fn full_metric(metric: &str, variant: Option<&str>) -> String {
     match variant {
-        Some(variant) => format!("{metric}.{variant} of {channel}"),
-        None => format!("{metric} of {channel}"),
+        Some(variant) => format!("{metric}.{variant}"),
+        None => metric.to_owned(),
     }
+}
+
+/// Claims as values of schema.org, each with an identifier of its number.
+pub(crate) fn properties(claims: &[Claim]) -> Vec<Value> {
+    let numbered = claims.iter().enumerate();
+    let properties = numbered.map(|(number, claim)| claim.property(number));
+    properties.collect()
 }
 
 /// Unit of a score or of one of its variants.

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use crate::claim::properties;
 use crate::columns::{Column, TableColumns};
 use crate::manifest::{BundledFile, Manifest};
 
@@ -39,10 +40,6 @@ const TERMS: [&str; 26] = [
 pub(crate) fn text(manifest: &Manifest, tables: &[TableColumns]) -> String {
     let files: Vec<Value> = manifest.given_files().map(file).collect();
     let records: Vec<Value> = tables.iter().map(record_set).collect();
-    let claims = manifest.claims.iter().enumerate();
-    let claims: Vec<Value> = claims
-        .map(|(number, claim)| claim.property(number))
-        .collect();
     let mut own = json!({
         "@context": context(),
         "@type": "sc:Dataset",
@@ -54,7 +51,7 @@ pub(crate) fn text(manifest: &Manifest, tables: &[TableColumns]) -> String {
         "citeAs": cited(manifest),
         "distribution": files,
         "recordSet": records,
-        "variableMeasured": claims,
+        "variableMeasured": properties(&manifest.claims),
     });
     let authors = manifest.authors.iter().map(|author| {
         let mut own = json!({"@type": "sc:Person", "name": author.name});

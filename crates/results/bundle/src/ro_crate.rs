@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::card::NO_LICENCE;
+use crate::claim::properties;
 use crate::layout::{CRATE, RESULTS};
 use crate::manifest::{BundledFile, Manifest, StudyFiles};
 
@@ -15,10 +16,7 @@ const RUN: &str = "#recomputation";
 
 /// Text of `ro-crate-metadata.json`.
 pub(crate) fn text(manifest: &Manifest) -> String {
-    let claims = manifest.claims.iter().enumerate();
-    let claims: Vec<Value> = claims
-        .map(|(number, claim)| claim.property(number))
-        .collect();
+    let claims = properties(&manifest.claims);
     let authors = authors(manifest);
     let mut root = json!({
         "@id": "./",
