@@ -1,4 +1,4 @@
-//! Description of a bundle as an RO-Crate 1.1 with a Process Run Crate 0.5: its files, and that the program computed its claims again.
+//! Description of a bundle as an RO-Crate 1.1 with a Process Run Crate 0.5: its files, and the run that computed its claims again.
 
 use serde_json::{Value, json};
 
@@ -102,7 +102,7 @@ fn run(manifest: &Manifest) -> Value {
         "@id": RUN,
         "@type": "CreateAction",
         "name": "taceva bundle",
-        "description": "Computes every claim of the results again from states and tables.",
+        "description": "Computes the claims of the results again from states and tables, as deep as these allow.",
         "instrument": reference(PROGRAM),
         "object": from,
         "result": reference(RESULTS),
