@@ -143,7 +143,7 @@ impl Claim {
         )
     }
 
-    /// The claim as a `PropertyValue` of schema.org, the one of this number.
+    /// The claim as a `PropertyValue` of schema.org, identified by `number`.
     fn property(&self, number: usize) -> Value {
         let mut own = json!({
             "@id": format!("#claim-{number}"),
@@ -178,7 +178,7 @@ fn full_metric(metric: &str, variant: Option<&str>) -> String {
     }
 }
 
-/// Claims as values of schema.org, each with an identifier of its number.
+/// Claims as values of schema.org, numbered from 0.
 pub(crate) fn properties(claims: &[Claim]) -> Vec<Value> {
     let numbered = claims.iter().enumerate();
     let properties = numbered.map(|(number, claim)| claim.property(number));

@@ -251,7 +251,7 @@ pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
     } else {
         return None;
     };
-    let rule = "authors, organization and licence are such as `taceva bundle` takes";
+    let rule = "authors, organization and licence are those that `taceva bundle` takes";
     Some(Damage::new(MANIFEST, rule, problem))
 }
 
