@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
-use taceva_bundle::{Author, Level, MOST_BYTES, Redaction};
+use taceva_bundle::{Author, Level, MOST_BYTES, Organization, Redaction};
 
 use super::{ListFormat, Output};
 
@@ -66,6 +66,9 @@ pub(crate) struct BundleMake {
     /// An author, with an ORCID if there is one; may be repeated
     #[arg(long = "author", value_name = "NAME <ORCID>")]
     pub(crate) authors: Vec<Author>,
+    /// The organization of the authors, which publishes the bundle
+    #[arg(long, value_name = "NAME <URL>")]
+    pub(crate) organization: Option<Organization>,
     /// The licence, as an SPDX identifier such as CC-BY-4.0
     #[arg(long, value_name = "SPDX", value_parser = licence)]
     pub(crate) licence: Option<String>,

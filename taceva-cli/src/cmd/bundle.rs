@@ -29,6 +29,7 @@ fn made(args: &BundleMake, context: &Context) -> anyhow::Result<u8> {
     let mut request = BundleRequest::new(result, &day);
     request.name.clone_from(&args.name);
     request.authors.clone_from(&args.authors);
+    request.organization.clone_from(&args.organization);
     request.licence.clone_from(&args.licence);
     request.states.clone_from(&args.states);
     if let (Some(truth), Some(prediction)) = (&args.truth, &args.prediction) {

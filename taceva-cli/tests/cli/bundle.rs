@@ -9,7 +9,7 @@ use std::fs;
 use serde_json::Value;
 
 use crate::support::Bench;
-use forgery::{accept, edit, manifest, relist};
+use forgery::{accept, edit, manifest, of_another_version, relist};
 
 /// Words behind a result, without the place of the bundle.
 const BUNDLE: &str = "bundle result.json --state result.state --truth truth.csv --pred pred.csv --draft --date 2026-11-28 --out";
@@ -133,8 +133,17 @@ fn a_bundle_without_author_or_licence_is_refused_unless_it_is_a_draft() {
     let words = "bundle result.json --state result.state --out b";
     bench.refused(words, 2, "or make a draft by --draft");
     bench.refused(&format!("{words} --author Ada"), 2, "--licence SPDX");
-    bench.ok(&format!("{words} --author Ada --licence CC-BY-4.0 -q"));
-    assert!(manifest(&bench, "b")["draft"].is_null());
+    bench.refused(
+        &format!("{words} --organization Lab"),
+        2,
+        "expected NAME <URL>",
+    );
+    let words = format!("{words} --author Ada --licence CC-BY-4.0 -q");
+    bench.ok(&format!("{words} --organization Lab<https://lab.example>"));
+    let manifest = manifest(&bench, "b");
+    crate::schema::check("bundle", &manifest);
+    assert!(manifest["draft"].is_null());
+    assert_eq!(manifest["organization"]["url"], "https://lab.example");
     let text = fs::read_to_string(bench.path("b/CITATION.cff")).expect("written");
     assert!(
         text.contains("name: \"Ada\"") && text.contains("license: \"CC-BY-4.0\""),
@@ -238,7 +247,7 @@ fn results_and_state_that_are_changed_alike_differ_from_the_predictions() {
         bench.path("b/tables/prediction.csv"),
     )
     .expect("room");
-    relist(&bench, "b", |_| {});
+    relist(&bench, "b", of_another_version);
     let found = verified(&bench, "b", 1);
     let differing = of_verdict(&found, "differs");
     assert!(!differing.is_empty(), "{}", found["summary"]);
@@ -261,7 +270,7 @@ fn a_state_of_another_setting_makes_claims_not_recomputable() {
         text.replacen("\"gate_n\":0.02", "\"gate_n\":0.05", 1)
     });
     accept(&path);
-    relist(&bench, "b", |_| {});
+    relist(&bench, "b", of_another_version);
     let found = verified(&bench, "b", 1);
     assert!(
         !of_verdict(&found, "not recomputable").is_empty(),
@@ -323,7 +332,7 @@ fn simulated_results_say_everywhere_that_nothing_was_measured() {
         text.replacen("\"source\": \"simulated\"", "\"source\": \"recorded\"", 1)
     });
     accept(&results);
-    relist(&bench, "b", |manifest| manifest["taceva"] = "0.0.0".into());
+    relist(&bench, "b", of_another_version);
     let found = verified(&bench, "b", 1);
     assert_eq!(found["others"][0]["part"], "subject", "{}", found["others"]);
 }

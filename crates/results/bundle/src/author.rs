@@ -6,8 +6,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use taceva_core::shown;
 
-/// Longest name of an author, in bytes.
-const MOST_NAME: usize = 200;
+/// Longest name of an author or an organization, in bytes.
+pub(crate) const MOST_NAME: usize = 200;
 /// Longest licence, in bytes.
 const MOST_LICENCE: usize = 64;
 
@@ -49,7 +49,7 @@ impl FromStr for Author {
             }
         };
         let name = name.trim();
-        if name.is_empty() || name.len() > MOST_NAME || name.chars().any(taceva_core::is_obeyed) {
+        if !is_name(name) {
             return Err(format!(
                 "`{}`: expected a name of 1 to {MOST_NAME} bytes",
                 shown(text)
@@ -62,13 +62,31 @@ impl FromStr for Author {
     }
 }
 
+impl Author {
+    /// True if the name can be printed and the identifier has its check digit.
+    pub(crate) fn is_right(&self) -> bool {
+        is_name(&self.name) && self.orcid.as_deref().is_none_or(is_orcid)
+    }
+
+    /// Address of the identifier.
+    pub(crate) fn address(&self) -> Option<String> {
+        let orcid = self.orcid.as_ref()?;
+        Some(format!("https://orcid.org/{orcid}"))
+    }
+}
+
 impl fmt::Display for Author {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.orcid {
-            Some(orcid) => write!(f, "{} (https://orcid.org/{orcid})", self.name),
+        match self.address() {
+            Some(address) => write!(f, "{} ({address})", self.name),
             None => f.write_str(&self.name),
         }
     }
+}
+
+/// True for a name of a person or an organization that can be printed.
+pub(crate) fn is_name(text: &str) -> bool {
+    (1..=MOST_NAME).contains(&text.len()) && !text.contains(taceva_core::is_obeyed)
 }
 
 /// True for four groups of four digits whose last digit is the check digit of ISO 7064, mod 11-2.

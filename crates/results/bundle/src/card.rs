@@ -1,36 +1,32 @@
 //! Texts for readers of a bundle, generated from its manifest: the card, how to cite it, the licence.
 
+use serde_json::{Value, json};
 use taceva_core::{counted, shown};
 
-use crate::layout::{CARD, CITATION, LICENCE};
-use crate::manifest::Manifest;
+use crate::manifest::{ABOUT, Manifest};
+use crate::model_card::front_matter;
+use crate::yaml;
 
+/// Sentence on a bundle without a licence.
+pub(crate) const NO_LICENCE: &str = "No licence is stated, so nobody may copy these files.";
 /// Sentence on what a seal shows.
 pub(crate) const SEAL_REMARK: &str = "A seal is a digest and no signature: it shows damage and careless edits, not fraud. A bundle whose predictions, states and \
      results were all changed alike cannot be distinguished from an honest one without the model or the truth from elsewhere.";
 
-/// Generated texts by file name, in order.
-pub(crate) fn texts(manifest: &Manifest) -> [(&'static str, String); 3] {
-    [
-        (CITATION, citation(manifest)),
-        (LICENCE, licence(manifest)),
-        (CARD, card(manifest)),
-    ]
-}
-
-fn card(manifest: &Manifest) -> String {
-    let mut text = format!("# {}\n\n", cell(&manifest.name));
-    if let Some(badge) = &manifest.badge {
-        text += &format!("> **{badge}**\n\n");
+/// Text of `README.md`.
+pub(crate) fn card(manifest: &Manifest) -> String {
+    let mut text = front_matter(manifest);
+    text += &format!("# {}\n\n", cell(&manifest.name));
+    for remark in manifest.remarks() {
+        text += &format!("> **{remark}**\n\n");
     }
-    if manifest.is_unfinished {
-        text += "> **Draft**: author or licence is missing.\n\n";
-    }
-    text += "Results of TacEva with what is needed to compute them again. `taceva bundle verify` on this folder or file does so.\n\n";
+    text += &format!("{ABOUT} `taceva bundle verify` on this folder or file does so.\n\n");
     text += "| fact | value |\n|---|---|\n";
     let authors: Vec<String> = manifest.authors.iter().map(ToString::to_string).collect();
+    let organization = manifest.organization.as_ref().map(ToString::to_string);
     for (fact, value) in [
         ("authors", authors.join(", ")),
+        ("organization", organization.unwrap_or_default()),
         ("made on", manifest.created.clone()),
         ("made by", format!("TacEva {}", manifest.taceva)),
         ("licence", manifest.licence.clone().unwrap_or_default()),
@@ -71,33 +67,40 @@ fn card(manifest: &Manifest) -> String {
     text
 }
 
-fn citation(manifest: &Manifest) -> String {
-    let mut text =
-        "cff-version: 1.2.0\nmessage: \"Cite this bundle as below.\"\ntype: dataset\n".to_owned();
-    text += &format!("title: {}\n", quoted(&manifest.name));
-    text += "authors:\n";
-    for author in &manifest.authors {
-        text += &format!("  - name: {}\n", quoted(&author.name));
-        if let Some(orcid) = &author.orcid {
-            text += &format!("    orcid: \"https://orcid.org/{orcid}\"\n");
+/// Text of `CITATION.cff`.
+pub(crate) fn citation(manifest: &Manifest) -> String {
+    let authors = manifest.authors.iter().map(|author| {
+        let mut own = json!({"name": author.name});
+        if let Some(address) = author.address() {
+            own["orcid"] = address.into();
         }
+        own
+    });
+    let mut authors: Vec<Value> = authors.collect();
+    if authors.is_empty() {
+        authors.push(json!({"name": "not stated"}));
     }
-    if manifest.authors.is_empty() {
-        text += "  - name: \"not stated\"\n";
-    }
-    text += &format!("date-released: {}\n", quoted(&manifest.created));
+    let mut own = json!({
+        "cff-version": "1.2.0",
+        "message": "Cite this bundle as below.",
+        "type": "dataset",
+        "title": manifest.name,
+        "authors": authors,
+        "date-released": manifest.created,
+    });
     if let Some(licence) = &manifest.licence {
-        text += &format!("license: {}\n", quoted(licence));
+        own["license"] = licence.as_str().into();
     }
-    text
+    yaml::block(&own)
 }
 
-fn licence(manifest: &Manifest) -> String {
+/// Text of `LICENSE`.
+pub(crate) fn licence(manifest: &Manifest) -> String {
     match &manifest.licence {
         Some(licence) => format!(
             "SPDX-License-Identifier: {licence}\n\nThe text of this licence: https://spdx.org/licenses/{licence}.html\n"
         ),
-        None => "No licence is stated, so nobody may copy these files.\n".to_owned(),
+        None => format!("{NO_LICENCE}\n"),
     }
 }
 
@@ -116,9 +119,4 @@ fn cell(text: &str) -> String {
         }
     }
     written
-}
-
-/// Text as a scalar of YAML, which takes the strings of JSON.
-fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
 }

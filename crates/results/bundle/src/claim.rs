@@ -1,6 +1,7 @@
 //! Claims of a bundle: the numbers of its results.
 
 use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
 use taceva_core::Unit;
 use taceva_results::{EvaluationReport, Interval, Score};
 
@@ -125,6 +126,40 @@ impl Claim {
             && score.definition == self.definition
     }
 
+    /// Metric with its variant: `mae`, `hysteresis.ratio`.
+    pub(crate) fn full_metric(&self) -> String {
+        full_metric(&self.metric, self.variant.as_deref())
+    }
+
+    /// Everything but the value in words, for forms without places for it.
+    pub(crate) fn facts(&self) -> String {
+        let interval = match self.ci95 {
+            Some([low, high]) => format!("ci95 [{low}, {high}]"),
+            None => "no ci95".to_owned(),
+        };
+        format!(
+            "{interval}, unit {}, n = {}, definition {}, study {}, level {}",
+            self.unit, self.n, self.definition, self.study, self.level
+        )
+    }
+
+    /// The claim as a `PropertyValue` of schema.org, identified by `number`.
+    fn property(&self, number: usize) -> Value {
+        let mut own = json!({
+            "@id": format!("#claim-{number}"),
+            "@type": "PropertyValue",
+            "name": self.words(),
+            "value": self.value,
+            "unitText": self.unit.symbol(),
+            "description": self.facts(),
+        });
+        if let Some([low, high]) = self.ci95 {
+            own["minValue"] = low.into();
+            own["maxValue"] = high.into();
+        }
+        own
+    }
+
     /// Metric, variant and channel in words: `mae of Fz`.
     pub(crate) fn words(&self) -> String {
         words(&self.metric, self.variant.as_deref(), &self.channel)
@@ -133,10 +168,21 @@ impl Claim {
 
 /// Metric, variant and channel in words: `hysteresis.ratio of Fz`.
 pub(crate) fn words(metric: &str, variant: Option<&str>, channel: &str) -> String {
+    format!("{} of {channel}", full_metric(metric, variant))
+}
+
+fn full_metric(metric: &str, variant: Option<&str>) -> String {
     match variant {
-        Some(variant) => format!("{metric}.{variant} of {channel}"),
-        None => format!("{metric} of {channel}"),
+        Some(variant) => format!("{metric}.{variant}"),
+        None => metric.to_owned(),
     }
+}
+
+/// Claims as values of schema.org, numbered from 0.
+pub(crate) fn properties(claims: &[Claim]) -> Vec<Value> {
+    let numbered = claims.iter().enumerate();
+    let properties = numbered.map(|(number, claim)| claim.property(number));
+    properties.collect()
 }
 
 /// Unit of a score or of one of its variants.

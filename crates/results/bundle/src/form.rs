@@ -6,18 +6,21 @@ use std::num::NonZeroUsize;
 use taceva_evaluate::StateFile;
 use taceva_results::EvaluationReport;
 
-use crate::card;
+use crate::author::{MOST_NAME, is_licence};
 use crate::claim_list;
+use crate::columns::TableColumns;
 use crate::environment::{ENVIRONMENT_SCHEMA, Environment};
 use crate::error::{BundleError, Damage};
 use crate::header;
 use crate::layout::{
-    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES, is_header,
+    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_AUTHORS, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES,
+    is_header,
 };
 use crate::manifest::{Manifest, badge_of, source_of};
 use crate::name;
 use crate::sample_digest::{SAMPLES_SCHEMA, SampleDigest, StudySamples};
 use crate::source::Source;
+use crate::texts;
 
 /// Most findings of damage that are listed.
 const MOST_DAMAGE: usize = 50;
@@ -99,6 +102,7 @@ pub(crate) fn form(
     let mut damage = Vec::new();
     damage.extend(studies(source, manifest, reports));
     damage.extend(origin(manifest, reports));
+    damage.extend(owners(manifest));
     if damage.is_empty() {
         damage.extend(claim_list::fault(manifest, reports));
     }
@@ -114,14 +118,15 @@ pub(crate) fn form(
         .iter()
         .filter(|file| file.role == HEADER_ROLE || is_header(&file.path));
     damage.extend(headers.filter_map(|file| dataset_header(source, &file.path, &known).err()));
-    // Another version may write these texts in other words.
-    if manifest.taceva == env!("CARGO_PKG_VERSION") {
+    // Another version may write these texts in other words. A digest that was not checked could be of any length, and forms repeat it.
+    if damage.is_empty() && manifest.taceva == env!("CARGO_PKG_VERSION") {
         let mut restored = manifest.clone();
         for claim in &mut restored.claims {
             // A claim that was edited in the manifest alone is found by its number.
             *claim = claim.as_in(&reports[claim.study]);
         }
-        for (name, expected) in card::texts(&restored) {
+        let tables = TableColumns::of(source, manifest, jobs);
+        for (name, expected) in texts::all(&restored, &tables) {
             let rule = "generated files are what bundle.json and results.json give";
             match source.text(name, MOST_TEXT) {
                 Ok(found) if found == expected => {}
@@ -224,6 +229,30 @@ fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
             problem,
         )
     })
+}
+
+/// Fault of authors, organization or licence, which forms repeat.
+pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
+    let authors = &manifest.authors;
+    let (organization, licence) = (manifest.organization.as_ref(), manifest.licence.as_deref());
+    let problem = if authors.len() > MOST_AUTHORS {
+        format!("{} authors, expected at most {MOST_AUTHORS}", authors.len())
+    } else if let Some(position) = authors.iter().position(|author| !author.is_right()) {
+        let number = position + 1;
+        format!(
+            "author {number}: expected a printable name of 1 to {MOST_NAME} bytes, and an ORCID with its check digit"
+        )
+    } else if organization.is_some_and(|own| !own.is_right()) {
+        format!(
+            "organization: expected a printable name of 1 to {MOST_NAME} bytes, and the address of its page"
+        )
+    } else if licence.is_some_and(|own| !is_licence(own)) {
+        "licence: expected an SPDX identifier, such as CC-BY-4.0".to_owned()
+    } else {
+        return None;
+    };
+    let rule = "authors, organization and licence are those that `taceva bundle` takes";
+    Some(Damage::new(MANIFEST, rule, problem))
 }
 
 /// Rejects a header without its seal, and one of a dataset that is not in `known`.

@@ -14,6 +14,14 @@ pub(crate) const CARD: &str = "README.md";
 pub(crate) const CITATION: &str = "CITATION.cff";
 /// The licence.
 pub(crate) const LICENCE: &str = "LICENSE";
+/// The claims for the hub of Hugging Face.
+pub(crate) const EVAL_RESULTS: &str = ".eval_results/taceva.yaml";
+/// The description as a Croissant.
+pub(crate) const CROISSANT: &str = "croissant.json";
+/// The description as an RO-Crate.
+pub(crate) const CRATE: &str = "ro-crate-metadata.json";
+/// Files that the manifest generates.
+pub(crate) const GENERATED: [&str; 6] = [CARD, CITATION, LICENCE, EVAL_RESULTS, CROISSANT, CRATE];
 /// The header of a dataset.
 pub(crate) const HEADER: &str = "dataset.toml";
 /// Role of the header of a dataset.
@@ -39,6 +47,10 @@ pub(crate) const MOST_TEXT: u64 = 24 << 20;
 pub(crate) const MOST_TABLE: u64 = 256 << 20;
 /// Most claims, and most scores of the results.
 pub(crate) const MOST_CLAIMS: usize = 10_000;
+/// Most authors.
+pub(crate) const MOST_AUTHORS: usize = 1_000;
+/// Most columns of all tables that `croissant.json` lists.
+pub(crate) const MOST_COLUMNS: usize = 10_000;
 /// Most bytes of a name.
 pub(crate) const MOST_NAME: usize = 255;
 /// Most folders in a name, and the file.
@@ -50,19 +62,12 @@ pub(crate) const GROWTH_BYTES: u64 = 64 << 20;
 
 /// True for a name that a bundle gives to its files.
 pub(crate) fn is_own(name: &str) -> bool {
-    let fixed = [
-        MANIFEST,
-        RESULTS,
-        SAMPLES,
-        ENVIRONMENT,
-        CARD,
-        CITATION,
-        LICENCE,
-    ];
+    let fixed = [MANIFEST, RESULTS, SAMPLES, ENVIRONMENT];
     let is_inner = ["states/", "tables/"]
         .iter()
         .any(|own| name.starts_with(own));
-    fixed.contains(&name) || TEXTS.contains(&name) || is_inner || is_header(name)
+    let is_fixed = fixed.contains(&name) || GENERATED.contains(&name);
+    is_fixed || TEXTS.contains(&name) || is_inner || is_header(name)
 }
 
 /// True for the name of a header: `dataset.toml`, `dataset-2.toml`.

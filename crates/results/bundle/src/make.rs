@@ -1,33 +1,32 @@
 //! Making of a bundle: written beside its place, compared with what was computed again, then renamed.
 
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::Write as _;
+use std::fs;
 use std::path::Path;
 
 use taceva_core::counted;
-use taceva_files::seal::digest_of_bytes;
-use taceva_files::{Staged, TemporaryFolder, parent_of, replace, sync_folder};
+use taceva_files::{Staged, TemporaryFolder, parent_of, replace};
 
 use crate::archive;
-use crate::card;
 use crate::claim::{claims, words};
+use crate::columns::TableColumns;
 use crate::environment::Environment;
 use crate::error::BundleError;
-use crate::inputs::{Inputs, StudyInputs};
+use crate::form::owners;
+use crate::inputs::Inputs;
 use crate::layout::{
-    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_MANIFEST, MOST_TABLE, MOST_TEXT, RESULTS,
-    SAMPLES, is_own,
+    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_MANIFEST, MOST_TEXT, RESULTS, SAMPLES,
+    is_own,
 };
-use crate::manifest::{
-    BUNDLE_SCHEMA, BundledFile, Manifest, StudyFiles, TableFiles, Withheld, badge_of, source_of,
-};
+use crate::manifest::{BUNDLE_SCHEMA, Manifest, badge_of, source_of};
 use crate::redaction::{Redaction, redacted};
 use crate::request::BundleRequest;
 use crate::sample_digest::{SampleDigest, StudySamples};
-use crate::source::{Source, digest_of};
+use crate::source::Source;
+use crate::texts;
 use crate::verification::{ClaimCheck, Verdict};
 use crate::verify::{VerifyRequest, check};
+use crate::writer::Writer;
 
 /// Prefix of the folder in which a packed bundle is made.
 const STAGED: &str = ".taceva-bundle-";
@@ -95,10 +94,7 @@ fn check_replaceable(out: &Path) -> Result<(), BundleError> {
 
 /// Writes the bundle into the empty folder `root`, the manifest last.
 fn write(inputs: &Inputs, request: &BundleRequest, root: &Path) -> Result<MadeBundle, BundleError> {
-    let mut writer = Writer {
-        root,
-        files: Vec::new(),
-    };
+    let mut writer = Writer::new(root);
     writer.add(RESULTS, "results", inputs.text.as_bytes())?;
     let (mut studies, mut withheld, mut samples) = (Vec::new(), Vec::new(), Vec::new());
     for (number, (study, report)) in inputs.studies.iter().zip(&inputs.reports).enumerate() {
@@ -141,6 +137,7 @@ fn write(inputs: &Inputs, request: &BundleRequest, root: &Path) -> Result<MadeBu
         taceva: env!("CARGO_PKG_VERSION").to_owned(),
         licence: request.licence.clone(),
         authors: request.authors.clone(),
+        organization: request.organization.clone(),
         is_unfinished: request.authors.is_empty() || request.licence.is_none(),
         source: source_of(&inputs.reports),
         badge: badge_of(&inputs.reports),
@@ -151,14 +148,17 @@ fn write(inputs: &Inputs, request: &BundleRequest, root: &Path) -> Result<MadeBu
         redacted: counts,
         samples_digest: samples.digest,
     };
+    if let Some(fault) = owners(&manifest) {
+        return Err(BundleError::Damaged(fault));
+    }
     set_levels(&mut manifest, inputs, request, root)?;
-    for (name, text) in card::texts(&manifest) {
+    manifest.files = writer.sorted();
+    let source = Source::open(root, u64::MAX)?;
+    let tables = TableColumns::of(&source, &manifest, request.jobs);
+    for (name, text) in texts::all(&manifest, &tables) {
         writer.add(name, "card", text.as_bytes())?;
     }
-    manifest.files = writer.files.clone();
-    manifest
-        .files
-        .sort_by(|one, other| one.path.cmp(&other.path));
+    manifest.files = writer.sorted();
     let text = manifest.sealed()?;
     let scores = inputs.reports.iter().map(|report| report.scores.len());
     let numbers = scores.sum::<usize>().max(manifest.claims.len());
@@ -263,134 +263,4 @@ fn notes(inputs: &Inputs, request: &BundleRequest, written: &Writer<'_>) -> Vec<
         }
     }
     notes
-}
-
-/// Files of a bundle while it is written.
-struct Writer<'a> {
-    root: &'a Path,
-    files: Vec<BundledFile>,
-}
-
-impl Writer<'_> {
-    /// Writes a new file.
-    fn add(&mut self, name: &str, role: &str, bytes: &[u8]) -> Result<(), BundleError> {
-        let path = self.root.join(name);
-        let folder = parent_of(&path);
-        fs::create_dir_all(folder).map_err(BundleError::file(folder))?;
-        let written = File::create_new(&path).and_then(|mut file| {
-            file.write_all(bytes)?;
-            file.sync_all()
-        });
-        written.map_err(BundleError::file(&path))?;
-        self.files.push(BundledFile {
-            path: name.to_owned(),
-            size: bytes.len() as u64,
-            sha256: digest_of_bytes(bytes),
-            role: role.to_owned(),
-        });
-        Ok(())
-    }
-
-    /// Writes a value as JSON.
-    fn json(
-        &mut self,
-        name: &str,
-        role: &str,
-        value: &impl serde::Serialize,
-    ) -> Result<(), BundleError> {
-        let text = serde_json::to_string_pretty(value)
-            .map_err(|error| BundleError::input(Path::new(name), error.to_string()))?;
-        self.add(name, role, format!("{text}\n").as_bytes())
-    }
-
-    /// Copies the file at `from`, of at most `most` bytes.
-    fn copy(&mut self, name: &str, role: &str, from: &Path, most: u64) -> Result<(), BundleError> {
-        let about = fs::metadata(from).map_err(BundleError::file(from))?;
-        if !about.is_file() || about.len() > most {
-            let remedy = match role {
-                "state" => "score fewer metrics by --metrics",
-                _ => "leave tables out by --without predictions",
-            };
-            let problem = format!(
-                "{} bytes, expected a regular file of at most {most}; {remedy}",
-                about.len()
-            );
-            return Err(BundleError::input(from, problem));
-        }
-        let bytes = fs::read(from).map_err(BundleError::file(from))?;
-        self.add(name, role, &bytes)
-    }
-
-    /// Copies the files of study `number`, or states the digests of its tables.
-    fn study(
-        &mut self,
-        number: usize,
-        study: &StudyInputs,
-        is_without_tables: bool,
-        withheld: &mut Vec<Withheld>,
-    ) -> Result<StudyFiles, BundleError> {
-        let mut files = StudyFiles::default();
-        for (position, from) in study.states.iter().enumerate() {
-            let name = match position {
-                0 => format!("states/{number}.json"),
-                position => format!("states/{number}-{position}.json"),
-            };
-            self.copy(&name, "state", from, MOST_TEXT)?;
-            files.states.push(name);
-        }
-        if is_without_tables {
-            let tables = study.tables.iter();
-            let tables = tables
-                .flat_map(|tables| [("truth", &tables.truth), ("prediction", &tables.prediction)]);
-            let samples = study.samples.iter().map(|samples| ("samples", samples));
-            for (role, from) in tables.chain(samples) {
-                withheld.push(Withheld {
-                    role: role.to_owned(),
-                    reason: "left out by --without predictions".to_owned(),
-                    digest: digest_of(from)?,
-                });
-            }
-            return Ok(files);
-        }
-        if let Some(tables) = &study.tables {
-            let [truth, prediction] =
-                [("truth", &tables.truth), ("prediction", &tables.prediction)]
-                    .map(|(role, from)| format!("tables/{role}.{}", ending(from)));
-            self.copy(&truth, "truth", &tables.truth, MOST_TABLE)?;
-            self.copy(&prediction, "prediction", &tables.prediction, MOST_TABLE)?;
-            files.tables = Some(TableFiles {
-                truth,
-                prediction,
-                key: tables.key.clone(),
-            });
-        }
-        if let Some(from) = &study.samples {
-            let name = format!("tables/samples-{number}.csv");
-            self.copy(&name, "samples", from, MOST_TABLE)?;
-            files.samples = Some(name);
-        }
-        Ok(files)
-    }
-
-    /// Syncs the names of all files to disk.
-    fn sync(&self) -> Result<(), BundleError> {
-        for name in ["states", "tables", ""] {
-            let folder = self.root.join(name);
-            if folder.is_dir() {
-                sync_folder(&folder).map_err(BundleError::file(&folder))?;
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Ending of the copy of a table: `parquet`, else `csv`.
-fn ending(path: &Path) -> &'static str {
-    let is_parquet = path
-        .extension()
-        .is_some_and(|own| own.eq_ignore_ascii_case("parquet"));
-    match is_parquet {
-        true => "parquet",
-        false => "csv",
-    }
 }

@@ -9,10 +9,16 @@ use taceva_results::{EvaluationReport, not_measured};
 use crate::author::Author;
 use crate::claim::Claim;
 use crate::error::{BundleError, Damage};
-use crate::layout::MANIFEST;
+use crate::layout::{GENERATED, MANIFEST};
+use crate::organization::Organization;
 
 /// Schema of the manifest.
 pub const BUNDLE_SCHEMA: &str = "taceva.bundle/1";
+
+/// Content of every bundle.
+pub(crate) const ABOUT: &str = "Results of TacEva with what is needed to compute them again.";
+/// Sentence on a bundle without author or licence.
+const UNFINISHED: &str = "Draft: author or licence is missing.";
 
 /// Content of `bundle.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,6 +36,9 @@ pub struct Manifest {
     pub licence: Option<String>,
     /// Authors; none for a draft.
     pub authors: Vec<Author>,
+    /// Organization of the authors, which publishes the bundle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub organization: Option<Organization>,
     /// True if author or licence is still missing.
     #[serde(rename = "draft", default, skip_serializing_if = "std::ops::Not::not")]
     pub is_unfinished: bool,
@@ -68,6 +77,24 @@ pub struct BundledFile {
     pub role: String,
 }
 
+impl BundledFile {
+    /// Hexadecimal digits of the digest.
+    pub(crate) fn digits(&self) -> &str {
+        self.sha256.strip_prefix("sha256:").unwrap_or(&self.sha256)
+    }
+
+    /// Media type, as Croissant names it.
+    pub(crate) fn media_type(&self) -> &'static str {
+        match self.path.rsplit('.').next() {
+            Some("json") => "application/json",
+            Some("csv") => "text/csv",
+            Some("parquet") => "application/x-parquet",
+            Some("toml") => "application/toml",
+            _ => "text/plain",
+        }
+    }
+}
+
 /// Files behind a study.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -86,9 +113,14 @@ pub struct StudyFiles {
 impl StudyFiles {
     /// Names of all files.
     pub(crate) fn names(&self) -> impl Iterator<Item = &String> {
+        self.states.iter().chain(self.table_names())
+    }
+
+    /// Names of the tables.
+    pub(crate) fn table_names(&self) -> impl Iterator<Item = &String> {
         let tables = self.tables.iter();
         let tables = tables.flat_map(|tables| [&tables.truth, &tables.prediction]);
-        self.states.iter().chain(tables).chain(&self.samples)
+        tables.chain(&self.samples)
     }
 
     /// Table whose rows are the samples of the study.
@@ -139,6 +171,31 @@ pub(crate) struct SealedManifest {
 }
 
 impl Manifest {
+    /// Files that the manifest does not generate.
+    pub(crate) fn given_files(&self) -> impl Iterator<Item = &BundledFile> {
+        let files = self.files.iter();
+        files.filter(|file| !GENERATED.contains(&file.path.as_str()))
+    }
+
+    /// Sentences that nothing was measured, and that the bundle is a draft, where this is so.
+    pub(crate) fn remarks(&self) -> Vec<String> {
+        let unfinished = self.is_unfinished.then(|| UNFINISHED.to_owned());
+        self.badge.iter().cloned().chain(unfinished).collect()
+    }
+
+    /// Content of the bundle in words, with the remarks.
+    pub(crate) fn description(&self) -> String {
+        let mut sentences = self.remarks();
+        sentences.insert(0, ABOUT.to_owned());
+        sentences.join(" ")
+    }
+
+    /// Address of the licence.
+    pub(crate) fn licence_address(&self) -> Option<String> {
+        let licence = self.licence.as_ref()?;
+        Some(format!("https://spdx.org/licenses/{licence}"))
+    }
+
     /// Reads the text of a manifest.
     ///
     /// # Errors

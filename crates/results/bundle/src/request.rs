@@ -4,6 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use crate::author::Author;
+use crate::organization::Organization;
 use crate::redaction::Redaction;
 
 /// Request of a bundle.
@@ -18,6 +19,8 @@ pub struct BundleRequest {
     pub name: Option<String>,
     /// Authors; none for a draft.
     pub authors: Vec<Author>,
+    /// Organization of the authors, which publishes the bundle.
+    pub organization: Option<Organization>,
     /// SPDX identifier of the licence; `None` for a draft.
     pub licence: Option<String>,
     /// States of the results, for results of one study.
@@ -67,6 +70,7 @@ impl BundleRequest {
             created: created.to_owned(),
             name: None,
             authors: Vec::new(),
+            organization: None,
             licence: None,
             states: Vec::new(),
             tables: None,

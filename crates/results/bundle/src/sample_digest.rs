@@ -14,7 +14,7 @@ use crate::error::BundleError;
 pub(crate) const SAMPLES_SCHEMA: &str = "taceva.samples/1";
 
 /// Names of the column with the ids of samples.
-const IDS: [&str; 4] = [Samples::KEY, "id", "sample_id", "index"];
+pub(crate) const IDS: [&str; 4] = [Samples::KEY, "id", "sample_id", "index"];
 /// Column with the digest of each frame.
 const FRAME: &str = "frame_sha256";
 /// Columns that are no labels.

@@ -199,7 +199,7 @@ fn unchecked(manifest: &Manifest) -> Vec<String> {
     let own = env!("CARGO_PKG_VERSION");
     if manifest.taceva != own {
         remarks.push(format!(
-            "README.md, CITATION.cff and LICENSE were not compared: TacEva {} is said to have written them, and this is {own}.",
+            "The generated files were not compared: TacEva {} is said to have written them, and this is {own}.",
             manifest.taceva
         ));
     }

@@ -29,6 +29,11 @@ pub(super) fn manifest(bench: &Bench, folder: &str) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
+/// Names another version, whose generated files are not compared.
+pub(super) fn of_another_version(manifest: &mut Value) {
+    manifest["taceva"] = "0.0.0".into();
+}
+
 /// Changes the manifest in `folder`, and states size and digest of every file as it is now.
 pub(super) fn relist(bench: &Bench, folder: &str, change: impl FnOnce(&mut Value)) {
     let mut manifest = manifest(bench, folder);

@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::forgery::{accept, edit, manifest, relist};
+use super::forgery::{accept, edit, manifest, of_another_version, relist};
 use super::{BUNDLE, bench, of_verdict, verified};
 use crate::support::Bench;
 
@@ -29,6 +29,7 @@ fn change_results(bench: &Bench, change: impl FnOnce(&mut Value)) {
 /// Removes the state of the bundle `b` with every word on it, but for the level of claims.
 fn drop_state(bench: &Bench) {
     relist(bench, "b", |manifest| {
+        of_another_version(manifest);
         let files = manifest["files"].as_array_mut().expect("files");
         files.retain(|file| file["role"] != "state");
         manifest["studies"][0]
@@ -114,7 +115,6 @@ fn a_claim_that_states_a_level_without_its_files_is_not_verified() {
     );
     // An honest one is verified as deep as it goes, and no deeper.
     relist(&bench, "b", |manifest| {
-        manifest["taceva"] = "0.0.0".into();
         for claim in manifest["claims"].as_array_mut().expect("claims") {
             claim["level"] = "form".into();
         }
@@ -136,7 +136,6 @@ fn a_level_that_no_claim_can_reach_is_no_success_without_claims() {
         results["metrics"] = Value::Object(serde_json::Map::new())
     });
     relist(&bench, "b", |manifest| {
-        manifest["taceva"] = "0.0.0".into();
         manifest["claims"] = Value::Array(Vec::new());
     });
     verified(&bench, "b --level scores", 1);
@@ -152,7 +151,7 @@ fn a_score_that_the_results_lack_is_found_in_the_state() {
         metrics.remove(name).expect("there");
     });
     relist(&bench, "b", |manifest| {
-        manifest["taceva"] = "0.0.0".into();
+        of_another_version(manifest);
         let claims = manifest["claims"].as_array_mut().expect("claims");
         claims.retain(|claim| claim["metric"] != metric);
     });
@@ -170,7 +169,7 @@ fn a_number_of_samples_that_is_edited_everywhere_differs_from_the_state() {
         results["metrics"][metric][channel]["n"] = 4000.into()
     });
     relist(&bench, "b", |manifest| {
-        manifest["taceva"] = "0.0.0".into();
+        of_another_version(manifest);
         for claim in manifest["claims"].as_array_mut().expect("claims") {
             if claim["metric"] == first["metric"] && claim["channel"] == first["channel"] {
                 claim["n"] = 4000.into();
@@ -190,7 +189,7 @@ fn inputs_and_settings_that_the_results_rename_differ_from_the_state() {
         results["provenance"]["tables"]["truth"] = format!("sha256:{}", "0".repeat(64)).into();
         results["subject"]["sensor"] = "Another".into();
     });
-    relist(&bench, "b", |_| {});
+    relist(&bench, "b", of_another_version);
     let found = verified(&bench, "b", 1);
     let others = found["others"].as_array().expect("others");
     let parts: Vec<&str> = others

@@ -1,0 +1,155 @@
+//! Description of a bundle as a Croissant 1.0: its files with digests, its tables as record sets, its claims.
+
+use serde_json::{Value, json};
+
+use crate::claim::properties;
+use crate::columns::{Column, TableColumns};
+use crate::manifest::{BundledFile, Manifest};
+
+/// Terms of the published context that Croissant defines without a type.
+const TERMS: [&str; 26] = [
+    "citeAs",
+    "column",
+    "equivalentProperty",
+    "extract",
+    "field",
+    "fileObject",
+    "fileProperty",
+    "fileSet",
+    "format",
+    "includes",
+    "isLiveDataset",
+    "jsonPath",
+    "key",
+    "md5",
+    "parentField",
+    "path",
+    "recordSet",
+    "references",
+    "regex",
+    "repeated",
+    "replace",
+    "samplingRate",
+    "separator",
+    "source",
+    "subField",
+    "transform",
+];
+
+/// Text of `croissant.json`; `tables` become its record sets.
+pub(crate) fn text(manifest: &Manifest, tables: &[TableColumns]) -> String {
+    let files: Vec<Value> = manifest.given_files().map(file).collect();
+    let records: Vec<Value> = tables.iter().map(record_set).collect();
+    let mut own = json!({
+        "@context": context(),
+        "@type": "sc:Dataset",
+        "conformsTo": "http://mlcommons.org/croissant/1.0",
+        "name": manifest.name,
+        "description": manifest.description(),
+        "version": "1.0.0",
+        "datePublished": manifest.created,
+        "citeAs": cited(manifest),
+        "distribution": files,
+        "recordSet": records,
+        "variableMeasured": properties(&manifest.claims),
+    });
+    let authors = manifest.authors.iter().map(|author| {
+        let mut own = json!({"@type": "sc:Person", "name": author.name});
+        if let Some(address) = author.address() {
+            own["url"] = address.into();
+        }
+        own
+    });
+    let authors: Vec<Value> = authors.collect();
+    if !authors.is_empty() {
+        own["creator"] = authors.into();
+    }
+    if let Some(licence) = manifest.licence_address() {
+        own["license"] = licence.into();
+    }
+    if let Some(organization) = &manifest.organization {
+        let (name, url) = (&organization.name, &organization.url);
+        own["publisher"] = json!({"@type": "sc:Organization", "name": name, "url": url});
+        own["url"] = url.as_str().into();
+    }
+    format!("{own:#}\n")
+}
+
+/// The published context of Croissant 1.0.
+fn context() -> Value {
+    let mut own = json!({
+        "@language": "en",
+        "@vocab": "https://schema.org/",
+        "sc": "https://schema.org/",
+        "cr": "http://mlcommons.org/croissant/",
+        "rai": "http://mlcommons.org/croissant/RAI/",
+        "dct": "http://purl.org/dc/terms/",
+        "conformsTo": "dct:conformsTo",
+        "data": {"@id": "cr:data", "@type": "@json"},
+        "dataType": {"@id": "cr:dataType", "@type": "@vocab"},
+        "examples": {"@id": "cr:examples", "@type": "@json"},
+    });
+    for term in TERMS {
+        own[term] = format!("cr:{term}").into();
+    }
+    own
+}
+
+/// Authors, year and name.
+fn cited(manifest: &Manifest) -> String {
+    let names = manifest.authors.iter().map(|author| author.name.as_str());
+    let names: Vec<&str> = names.collect();
+    let authors = match names.as_slice() {
+        [] => "Authors not stated".to_owned(),
+        names => names.join(", "),
+    };
+    let year = manifest.created.split('-').next().unwrap_or_default();
+    format!("{authors} ({year}): {}", manifest.name)
+}
+
+fn file(file: &BundledFile) -> Value {
+    json!({
+        "@type": "cr:FileObject",
+        "@id": file.path,
+        "name": file.path,
+        "description": file.role,
+        "contentUrl": file.path,
+        "contentSize": format!("{} B", file.size),
+        "encodingFormat": file.media_type(),
+        "sha256": file.digits(),
+    })
+}
+
+fn record_set(table: &TableColumns) -> Value {
+    let name = table.path.rsplit('/').next().unwrap_or_default();
+    let name = name.split('.').next().unwrap_or_default();
+    let columns = table.columns.iter().enumerate();
+    let fields = columns.map(|(position, column)| field(table, name, position, column));
+    let fields: Vec<Value> = fields.collect();
+    json!({
+        "@type": "cr:RecordSet",
+        "@id": name,
+        "name": name,
+        "field": fields,
+    })
+}
+
+/// Field of a column. An identifier holds no blanks, so columns with such names are numbered.
+fn field(table: &TableColumns, record_set: &str, position: usize, column: &Column) -> Value {
+    let is_plain = |letter: char| letter.is_alphanumeric() || "_.-".contains(letter);
+    let id = match column.name.chars().all(is_plain) {
+        true => format!("{record_set}/{}", column.name),
+        false => format!("{record_set}/column-{position}"),
+    };
+    json!({
+        "@type": "cr:Field",
+        "@id": id,
+        "name": id,
+        "description": column.name,
+        "dataType": column.data_type,
+        "source": {
+            "fileObject": {"@id": table.path},
+            "extract": {"column": column.name},
+        },
+    })
+}

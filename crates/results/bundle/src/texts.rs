@@ -1,0 +1,18 @@
+//! Files that the manifest generates: compared with what is there, and never read back.
+
+use crate::columns::TableColumns;
+use crate::layout::{CARD, CITATION, CRATE, CROISSANT, EVAL_RESULTS, LICENCE};
+use crate::manifest::Manifest;
+use crate::{card, croissant, eval_results, ro_crate};
+
+/// Generated texts by file name; `tables` are the columns of the tables that the bundle holds.
+pub(crate) fn all(manifest: &Manifest, tables: &[TableColumns]) -> [(&'static str, String); 6] {
+    [
+        (CITATION, card::citation(manifest)),
+        (LICENCE, card::licence(manifest)),
+        (CARD, card::card(manifest)),
+        (EVAL_RESULTS, eval_results::text(manifest)),
+        (CROISSANT, croissant::text(manifest, tables)),
+        (CRATE, ro_crate::text(manifest)),
+    ]
+}
