@@ -20,6 +20,7 @@ mod note;
 mod over_seeds;
 mod plan;
 mod predict;
+mod prediction_check;
 mod provenance;
 mod recordings;
 mod recount;
@@ -65,13 +66,14 @@ pub use predict::{
     AtBound, Predicted, Predictor, Target, model_extractor, predict, predict_target,
     predicted_numbers, predicted_table, truth,
 };
+pub use prediction_check::{PredictionCheck, check_predictions};
 pub use provenance::{choices, model as model_provenance, of as provenance_of};
 pub use recordings::{depth_zeros, reduced};
 pub use recount::{Recount, recount_samples};
 pub use report::skipped;
 pub use row_ledger::Taken;
 pub use rows::{DataPart, Divided, Need, require_samples, usable};
-pub use run_layout::{PLANS, RECORDINGS, STATES};
+pub use run_layout::{MODELS, PLANS, RECORDINGS, STATES};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
     Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, read_table,
