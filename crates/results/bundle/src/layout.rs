@@ -18,6 +18,8 @@ pub(crate) const LICENCE: &str = "LICENSE";
 pub(crate) const HEADER: &str = "dataset.toml";
 /// Role of the header of a dataset.
 pub(crate) const HEADER_ROLE: &str = "dataset";
+/// Role of a model file.
+pub(crate) const MODEL_ROLE: &str = "model";
 /// Texts that a bundle may hold.
 pub(crate) const TEXTS: [&str; 5] = [
     "scene.toml",
@@ -37,6 +39,8 @@ pub(crate) const MOST_MANIFEST: u64 = 8 << 20;
 pub(crate) const MOST_TEXT: u64 = 24 << 20;
 /// Most bytes of a table.
 pub(crate) const MOST_TABLE: u64 = 256 << 20;
+/// Most bytes of a model file, as its reader has it.
+pub(crate) const MOST_MODEL: u64 = 256 << 20;
 /// Most claims, and most scores of the results.
 pub(crate) const MOST_CLAIMS: usize = 10_000;
 /// Most bytes of a name.
@@ -59,7 +63,7 @@ pub(crate) fn is_own(name: &str) -> bool {
         CITATION,
         LICENCE,
     ];
-    let is_inner = ["states/", "tables/"]
+    let is_inner = ["states/", "tables/", "model/"]
         .iter()
         .any(|own| name.starts_with(own));
     fixed.contains(&name) || TEXTS.contains(&name) || is_inner || is_header(name)

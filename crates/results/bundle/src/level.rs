@@ -17,6 +17,8 @@ pub enum Level {
     Scores,
     /// Tables give the states and the scores.
     Predictions,
+    /// The model gives the predictions of the tables again, on its recording.
+    Model,
 }
 
 impl Level {
@@ -27,7 +29,13 @@ impl Level {
     /// assert!(Level::ALL.is_sorted());
     /// assert_eq!(Level::Predictions.to_string(), "predictions");
     /// ```
-    pub const ALL: [Level; 4] = [Level::Files, Level::Form, Level::Scores, Level::Predictions];
+    pub const ALL: [Level; 5] = [
+        Level::Files,
+        Level::Form,
+        Level::Scores,
+        Level::Predictions,
+        Level::Model,
+    ];
 }
 
 impl fmt::Display for Level {
@@ -37,6 +45,7 @@ impl fmt::Display for Level {
             Level::Form => "form",
             Level::Scores => "scores",
             Level::Predictions => "predictions",
+            Level::Model => "model",
         })
     }
 }

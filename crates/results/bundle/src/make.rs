@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::io::Write as _;
 use std::path::Path;
 
-use taceva_core::counted;
+use taceva_core::{SilentProgress, counted};
 use taceva_files::seal::digest_of_bytes;
 use taceva_files::{Staged, TemporaryFolder, parent_of, replace, sync_folder};
 
@@ -14,10 +14,10 @@ use crate::card;
 use crate::claim::{claims, words};
 use crate::environment::Environment;
 use crate::error::BundleError;
-use crate::inputs::{Inputs, StudyInputs};
+use crate::inputs::{Inputs, StudyInputs, ending};
 use crate::layout::{
-    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_MANIFEST, MOST_TABLE, MOST_TEXT, RESULTS,
-    SAMPLES, is_own,
+    ENVIRONMENT, HEADER_ROLE, MANIFEST, MODEL_ROLE, MOST_CLAIMS, MOST_MANIFEST, MOST_MODEL,
+    MOST_TABLE, MOST_TEXT, RESULTS, SAMPLES, is_own,
 };
 use crate::manifest::{
     BUNDLE_SCHEMA, BundledFile, Manifest, StudyFiles, TableFiles, Withheld, badge_of, source_of,
@@ -188,7 +188,7 @@ fn set_levels(
     let source = Source::open(root, u64::MAX)?;
     let mut asked = VerifyRequest::new(root);
     asked.jobs = request.jobs;
-    let checked = check(&source, manifest, &inputs.reports, &asked);
+    let checked = check(&source, manifest, &inputs.reports, &asked, &SilentProgress);
     let is_wrong = |claim: &&ClaimCheck| match claim.verdict {
         Verdict::Differs => true,
         Verdict::NotRecomputable => !claim.is_absent,
@@ -309,6 +309,7 @@ impl Writer<'_> {
         if !about.is_file() || about.len() > most {
             let remedy = match role {
                 "state" => "score fewer metrics by --metrics",
+                MODEL_ROLE => "leave the model out",
                 _ => "leave tables out by --without predictions",
             };
             let problem = format!(
@@ -338,6 +339,12 @@ impl Writer<'_> {
             self.copy(&name, "state", from, MOST_TEXT)?;
             files.states.push(name);
         }
+        if let Some(from) = &study.model {
+            let name = format!("model/{number}.taceva");
+            self.copy(&name, MODEL_ROLE, from, MOST_MODEL)?;
+            files.model = Some(name);
+        }
+        withheld.extend(study.withheld_model());
         if is_without_tables {
             let tables = study.tables.iter();
             let tables = tables
@@ -374,23 +381,12 @@ impl Writer<'_> {
 
     /// Syncs the names of all files to disk.
     fn sync(&self) -> Result<(), BundleError> {
-        for name in ["states", "tables", ""] {
+        for name in ["states", "tables", "model", ""] {
             let folder = self.root.join(name);
             if folder.is_dir() {
                 sync_folder(&folder).map_err(BundleError::file(&folder))?;
             }
         }
         Ok(())
-    }
-}
-
-/// Ending of the copy of a table: `parquet`, else `csv`.
-fn ending(path: &Path) -> &'static str {
-    let is_parquet = path
-        .extension()
-        .is_some_and(|own| own.eq_ignore_ascii_case("parquet"));
-    match is_parquet {
-        true => "parquet",
-        false => "csv",
     }
 }

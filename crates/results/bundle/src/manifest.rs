@@ -9,7 +9,7 @@ use taceva_results::{EvaluationReport, not_measured};
 use crate::author::Author;
 use crate::claim::Claim;
 use crate::error::{BundleError, Damage};
-use crate::layout::MANIFEST;
+use crate::layout::{MANIFEST, MODEL_ROLE};
 
 /// Schema of the manifest.
 pub const BUNDLE_SCHEMA: &str = "taceva.bundle/1";
@@ -81,6 +81,9 @@ pub struct StudyFiles {
     /// The table of samples that an evaluation wrote.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samples: Option<String>,
+    /// The model file that made the predictions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model: Option<String>,
 }
 
 impl StudyFiles {
@@ -88,7 +91,8 @@ impl StudyFiles {
     pub(crate) fn names(&self) -> impl Iterator<Item = &String> {
         let tables = self.tables.iter();
         let tables = tables.flat_map(|tables| [&tables.truth, &tables.prediction]);
-        self.states.iter().chain(tables).chain(&self.samples)
+        let inputs = self.states.iter().chain(tables).chain(&self.samples);
+        inputs.chain(&self.model)
     }
 
     /// Table whose rows are the samples of the study.
@@ -172,6 +176,18 @@ impl Manifest {
         })
     }
 
+    /// True if tables were left out.
+    pub(crate) fn withholds_tables(&self) -> bool {
+        let mut withheld = self.withheld.iter();
+        withheld.any(|own| own.role != MODEL_ROLE)
+    }
+
+    /// Digest that the manifest states of the file `name`.
+    pub(crate) fn digest(&self, name: &str) -> Option<&str> {
+        let file = self.files.iter().find(|file| file.path == name)?;
+        Some(&file.sha256)
+    }
+
     /// The sealed text.
     ///
     /// # Errors
@@ -183,6 +199,13 @@ impl Manifest {
         })?;
         Ok(format!("{sealed}\n"))
     }
+}
+
+/// Digest of the model file behind `report`; `None` for a model that the caller holds, or none.
+pub(crate) fn model_digest(report: &EvaluationReport) -> Option<&str> {
+    let model = report.provenance.model.as_ref()?;
+    let digest = model.digest.as_str();
+    Some(digest).filter(|digest| digest.starts_with("sha256:"))
 }
 
 /// True if the whole seal is that of its content. A seal shows which key was changed, and its digest does not cover its own words.

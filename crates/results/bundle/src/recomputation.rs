@@ -3,10 +3,14 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use taceva_evaluate::{Recount, RowKey, merge, recount_samples, recount_tables, side_by_side};
+use taceva_core::shown;
+use taceva_evaluate::{
+    PredictionCheck, Recount, RowKey, Work, check_predictions, merge, recount_samples,
+    recount_tables, side_by_side,
+};
 use taceva_results::{EvaluationReport, Samples, Score, Skip, read, sealed};
 
-use crate::layout::{MOST_TABLE, MOST_TEXT};
+use crate::layout::{MOST_MODEL, MOST_TABLE, MOST_TEXT};
 use crate::manifest::StudyFiles;
 use crate::source::Source;
 
@@ -33,6 +37,20 @@ pub(crate) struct Recomputation {
     /// Scores, subject and provenance by the states.
     pub(crate) states: Result<EvaluationReport, Stop>,
     pub(crate) tables: Result<TableScores, Stop>,
+    /// Table of samples, compared with the model on its recording.
+    pub(crate) model: Result<PredictionCheck, Stop>,
+}
+
+/// Depth and means of a recomputation.
+#[derive(Clone, Copy)]
+pub(crate) struct Means<'a> {
+    /// True if tables are scored again.
+    pub(crate) reads_tables: bool,
+    /// Recordings on which models predict again; `None` if they do not.
+    pub(crate) datasets: Option<&'a [PathBuf]>,
+    /// True if this machine has the instruction sets of the one that made the bundle.
+    pub(crate) has_same_sets: bool,
+    pub(crate) work: Work<'a>,
 }
 
 impl Recomputation {
@@ -41,16 +59,16 @@ impl Recomputation {
         Recomputation {
             states: Err(Stop::absent("not asked for")),
             tables: Err(Stop::absent("not asked for")),
+            model: Err(Stop::absent("not asked for")),
         }
     }
 
-    /// Scores of the study with these files and this report, with those of tables if `with_tables`.
+    /// Scores of the study with these files and this report.
     pub(crate) fn of(
         source: &Source,
         files: &StudyFiles,
         report: &EvaluationReport,
-        with_tables: bool,
-        jobs: NonZeroUsize,
+        means: Means<'_>,
     ) -> Recomputation {
         let own = &report.provenance;
         let unscored = match (own.tables.is_empty(), own.part.is_some()) {
@@ -62,12 +80,16 @@ impl Recomputation {
         };
         Recomputation {
             states: of_states(source, files),
-            tables: match with_tables {
+            tables: match means.reads_tables {
                 false => Err(Stop::absent("not asked for")),
                 true => match unscored {
                     Some(reason) => Err(Stop::absent(reason)),
-                    None => of_tables(source, files, jobs),
+                    None => of_tables(source, files, means.work.jobs),
                 },
+            },
+            model: match means.datasets {
+                None => Err(Stop::absent("not asked for")),
+                Some(datasets) => of_model(source, files, report, datasets, means),
             },
         }
     }
@@ -143,6 +165,42 @@ fn of_tables(source: &Source, files: &StudyFiles, jobs: NonZeroUsize) -> Result<
         // A table of samples lacks what metrics of the truth alone read.
         has_other_sums: files.tables.is_some() && !recount.has_equal_sums,
         left_out: recount.left_out,
+    })
+}
+
+/// Table of samples in `files`, compared with the predictions of the model on one of `datasets`.
+fn of_model(
+    source: &Source,
+    files: &StudyFiles,
+    report: &EvaluationReport,
+    datasets: &[PathBuf],
+    means: Means<'_>,
+) -> Result<PredictionCheck, Stop> {
+    let Some(model) = &files.model else {
+        let reason = "no model: make the bundle again with --model FILE";
+        return Err(Stop::absent(reason));
+    };
+    let Some(table) = &files.samples else {
+        let reason = "no table of samples, which holds the predictions of the model";
+        return Err(Stop::absent(reason));
+    };
+    let own = &report.provenance;
+    if datasets.is_empty() {
+        let stated = own.dataset.as_deref().unwrap_or("of the results");
+        let reason = format!("no recording: name {} by --dataset", shown(stated));
+        return Err(Stop::absent(&reason));
+    }
+    source.size(model, MOST_MODEL).map_err(Stop::failed)?;
+    let text = source.text(table, MOST_TABLE).map_err(Stop::failed)?;
+    let samples = Samples::read(&text).map_err(Stop::failed)?;
+    drop(text);
+    let model = source.path(model);
+    let found = check_predictions(&model, datasets, own, &samples, means.work);
+    Ok(match found.map_err(Stop::failed)? {
+        PredictionCheck::Near { first, .. } if means.has_same_sets => {
+            PredictionCheck::Differs(first)
+        }
+        found => found,
     })
 }
 
