@@ -3,6 +3,7 @@
 mod forgery;
 mod hidden;
 mod inputs;
+mod model;
 
 use std::fs;
 

@@ -256,8 +256,8 @@ fn compared(
         },
         Some(first) if most <= NEAR => PredictionCheck::Near { share: most, first },
         Some(first) => PredictionCheck::Differs(format!(
-            "{} not that of the model, the first: {first}",
-            counted(differing, "prediction")
+            "{} from the predictions of the model, the first: {first}",
+            counted(differing, "difference")
         )),
     }
 }
