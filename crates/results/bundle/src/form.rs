@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 
-use taceva_evaluate::StateFile;
 use taceva_results::EvaluationReport;
 
 use crate::card;
@@ -90,7 +89,7 @@ pub(crate) fn results(source: &Source) -> Result<Vec<EvaluationReport>, Damage> 
     })
 }
 
-/// Faults of the form of a bundle whose files are those of its manifest.
+/// Faults of the form, except of states, of a bundle whose files are those of its manifest.
 ///
 /// # Errors
 /// [`BundleError::File`] for a file that cannot be read.
@@ -171,17 +170,6 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
         if let Some(name) = unlisted {
             damage.push(Damage::new(name, rule, "it is missing"));
             continue;
-        }
-        for name in &files.states {
-            let rule = "states have their schema and seal";
-            match source.size(name, MOST_TEXT) {
-                Err(own) => damage.push(own),
-                Ok(_) => {
-                    if let Err(error) = StateFile::read(&source.path(name)) {
-                        damage.push(Damage::new(name, rule, error.to_string()));
-                    }
-                }
-            }
         }
         let table = report.provenance.samples_table.as_deref();
         let model = model_digest(report);

@@ -37,6 +37,8 @@ pub const MOST_BYTES: u64 = 2 << 30;
 pub(crate) const MOST_MANIFEST: u64 = 8 << 20;
 /// Most bytes of a text: JSON, TOML or Markdown.
 pub(crate) const MOST_TEXT: u64 = 24 << 20;
+/// Most bytes of all states of one study.
+pub(crate) const MOST_STATES: u64 = 64 << 20;
 /// Most bytes of a table.
 pub(crate) const MOST_TABLE: u64 = 256 << 20;
 /// Most bytes of a model file, as its reader has it.

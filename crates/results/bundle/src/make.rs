@@ -189,6 +189,10 @@ fn set_levels(
     let mut asked = VerifyRequest::new(root);
     asked.jobs = request.jobs;
     let checked = check(&source, manifest, &inputs.reports, &asked, &SilentProgress);
+    if let Some(damage) = checked.damage.first() {
+        let problem = format!("{damage}; {REMEDY}");
+        return Err(BundleError::input(&inputs.path, problem));
+    }
     let is_wrong = |claim: &&ClaimCheck| match claim.verdict {
         Verdict::Differs => true,
         Verdict::NotRecomputable => !claim.is_absent,

@@ -5,12 +5,13 @@ use std::path::PathBuf;
 
 use taceva_core::shown;
 use taceva_evaluate::{
-    PredictionCheck, Recount, RowKey, Work, check_predictions, merge, recount_samples,
-    recount_tables, side_by_side,
+    PredictionCheck, ReadState, Recount, RowKey, Work, check_predictions, merge_read,
+    recount_samples, recount_tables, side_by_side,
 };
 use taceva_results::{EvaluationReport, Samples, Score, Skip, read, sealed};
 
-use crate::layout::{MOST_MODEL, MOST_TABLE, MOST_TEXT};
+use crate::error::Damage;
+use crate::layout::{MOST_MODEL, MOST_STATES, MOST_TABLE, MOST_TEXT};
 use crate::manifest::StudyFiles;
 use crate::source::Source;
 
@@ -68,6 +69,7 @@ impl Recomputation {
         source: &Source,
         files: &StudyFiles,
         report: &EvaluationReport,
+        states: &[ReadState],
         means: Means<'_>,
     ) -> Recomputation {
         let own = &report.provenance;
@@ -79,12 +81,12 @@ impl Recomputation {
             (false, _) => Some("name the tables that were scored by --truth and --pred"),
         };
         Recomputation {
-            states: of_states(source, files),
+            states: of_states(states),
             tables: match means.reads_tables {
                 false => Err(Stop::absent("not asked for")),
                 true => match unscored {
                     Some(reason) => Err(Stop::absent(reason)),
-                    None => of_tables(source, files, means.work.jobs),
+                    None => of_tables(source, files, states, means.work.jobs),
                 },
             },
             model: match means.datasets {
@@ -111,29 +113,54 @@ impl Stop {
     }
 }
 
-/// Scores of the states in `files`; several are merged, or stand side by side if their plans differ.
-fn of_states(source: &Source, files: &StudyFiles) -> Result<EvaluationReport, Stop> {
-    if files.states.is_empty() {
+/// States in `files`, each of which is read once.
+///
+/// # Errors
+/// The damage that keeps one from being read.
+pub(crate) fn states(source: &Source, files: &StudyFiles) -> Result<Vec<ReadState>, Damage> {
+    let mut total = 0_u64;
+    for name in &files.states {
+        total = total.saturating_add(source.size(name, MOST_TEXT)?);
+        if total > MOST_STATES {
+            let rule = "files are not too long to read";
+            let problem = format!(
+                "the states of its study have more than {MOST_STATES} bytes together; merge them by `taceva merge --state-out`"
+            );
+            return Err(Damage::new(name, rule, problem));
+        }
+    }
+    let rule = "states have their schema and seal";
+    let read = |name: &String| {
+        let read = ReadState::read(&source.path(name));
+        read.map_err(|error| Damage::new(name, rule, error.to_string()))
+    };
+    files.states.iter().map(read).collect()
+}
+
+/// Scores of `states`; several are merged, or stand side by side if their plans differ.
+fn of_states(states: &[ReadState]) -> Result<EvaluationReport, Stop> {
+    if states.is_empty() {
         let reason = "no state: evaluate or score again with --state-out, and give the state to `taceva bundle --state`";
         return Err(Stop::absent(reason));
     }
-    for name in &files.states {
-        source.size(name, MOST_TEXT).map_err(Stop::failed)?;
-    }
-    let paths: Vec<PathBuf> = files.states.iter().map(|name| source.path(name)).collect();
     // Shards merge; the states of the phases of a run have plans of their own.
-    let report = match merge(&paths) {
+    let report = match merge_read(states) {
         Ok((report, _)) => report,
-        Err(error) if paths.len() == 1 => return Err(Stop::failed(error)),
-        Err(error) => side_by_side(&paths).map_err(|_| Stop::failed(error))?,
+        Err(error) if states.len() == 1 => return Err(Stop::failed(error)),
+        Err(error) => side_by_side(states).map_err(|_| Stop::failed(error))?,
     };
     as_read(&report)
 }
 
-/// Scores of the tables in `files`, by the plan of their only state.
-fn of_tables(source: &Source, files: &StudyFiles, jobs: NonZeroUsize) -> Result<TableScores, Stop> {
-    let [state] = files.states.as_slice() else {
-        return Err(Stop::absent(match files.states.len() {
+/// Scores of the tables in `files`, by the plan of the only state.
+fn of_tables(
+    source: &Source,
+    files: &StudyFiles,
+    states: &[ReadState],
+    jobs: NonZeroUsize,
+) -> Result<TableScores, Stop> {
+    let [state] = states else {
+        return Err(Stop::absent(match states.len() {
             0 => "no state, which says how tables are scored",
             _ => "several states, and tables are compared with one",
         }));
@@ -145,7 +172,7 @@ fn of_tables(source: &Source, files: &StudyFiles, jobs: NonZeroUsize) -> Result<
             }
             let key = tables.key.as_deref().map(RowKey::from);
             recount_tables(
-                &source.path(state),
+                state,
                 &source.path(&tables.truth),
                 &source.path(&tables.prediction),
                 key.as_ref(),
@@ -156,7 +183,7 @@ fn of_tables(source: &Source, files: &StudyFiles, jobs: NonZeroUsize) -> Result<
         (None, Some(name)) => {
             let text = source.text(name, MOST_TABLE).map_err(Stop::failed)?;
             let samples = Samples::read(&text).map_err(Stop::failed)?;
-            recount_samples(&source.path(state), &samples, jobs).map_err(Stop::failed)?
+            recount_samples(state, &samples, jobs).map_err(Stop::failed)?
         }
         (None, None) => return Err(Stop::absent("no tables")),
     };
@@ -209,4 +236,25 @@ fn as_read(report: &EvaluationReport) -> Result<EvaluationReport, Stop> {
     let text = sealed(report).map_err(Stop::failed)?;
     let mut reports = read(&text).map_err(Stop::failed)?;
     reports.pop().ok_or_else(|| Stop::failed("no scores"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn states_that_are_too_long_together_are_refused_before_one_is_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut files = StudyFiles::default();
+        for number in 0..3 {
+            let name = format!("{number}.json");
+            let file = std::fs::File::create(folder.path().join(&name)).expect("room");
+            file.set_len(MOST_TEXT).expect("a hole");
+            files.states.push(name);
+        }
+        let source = Source::open(folder.path(), u64::MAX).expect("a folder");
+        let damage = states(&source, &files).expect_err("72 MiB");
+        assert_eq!(damage.path, "2.json");
+        assert!(damage.problem.contains("merge them"), "{damage}");
+    }
 }

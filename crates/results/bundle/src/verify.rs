@@ -12,7 +12,7 @@ use crate::form;
 use crate::layout::{MANIFEST, MOST_BYTES, MOST_MANIFEST, MOST_TABLE};
 use crate::level::Level;
 use crate::manifest::{Manifest, SealedManifest, StudyFiles};
-use crate::recomputation::{Means, Recomputation};
+use crate::recomputation::{self, Means, Recomputation};
 use crate::source::Source;
 use crate::study_check::{NO_SUCH_NUMBER, StudyCheck};
 use crate::verification::{BundleFacts, ClaimCheck, OtherCheck, Verdict, Verification};
@@ -120,6 +120,9 @@ pub fn verify_with(
         return Ok(found.damaged_at(Level::Form, damage));
     }
     let checked = check(&source, manifest, &reports, request, progress);
+    if !checked.damage.is_empty() {
+        return Ok(found.damaged_at(Level::Form, checked.damage));
+    }
     add_levels(&mut found, &checked, most);
     found.remarks.extend(checked.remarks);
     found.claims = checked.claims;
@@ -131,6 +134,8 @@ pub fn verify_with(
 pub(crate) struct Checked {
     pub(crate) claims: Vec<ClaimCheck>,
     pub(crate) others: Vec<OtherCheck>,
+    /// States that cannot be read.
+    pub(crate) damage: Vec<Damage>,
     /// Reasons why a study has no scores of states.
     states: Vec<String>,
     /// Reasons why a study has no scores of tables.
@@ -165,16 +170,25 @@ pub(crate) fn check(
     let mut checked = Checked {
         claims: Vec::new(),
         others: Vec::new(),
+        damage: Vec::new(),
         states: Vec::new(),
         tables: Vec::new(),
         models: Vec::new(),
         remarks: Vec::new(),
     };
     for (study, (report, files)) in reports.iter().zip(&manifest.studies).enumerate() {
+        let states = match recomputation::states(source, files) {
+            Ok(states) => states,
+            Err(damage) => {
+                checked.damage.push(damage);
+                continue;
+            }
+        };
         let again = match most < Level::Scores {
             true => Recomputation::none(),
-            false => Recomputation::of(source, files, report, means),
+            false => Recomputation::of(source, files, report, &states, means),
         };
+        drop(states);
         let named = |reason: &str| format!("study {study}: {reason}");
         let stop = again.states.as_ref().err();
         checked.states.extend(stop.map(|stop| named(&stop.reason)));

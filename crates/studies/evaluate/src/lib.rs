@@ -54,7 +54,7 @@ pub use evaluate::{
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
-pub use merge::{merge, side_by_side};
+pub use merge::{merge, merge_read, side_by_side};
 pub use neighbours::Resemblance;
 pub use note::{
     Coverage, Detection, Division, FewClusters, Independence, Learning, Neighbours, Note, PairedBy,
@@ -80,7 +80,7 @@ pub use score::{
     recount_tables, score_in_one_pass,
 };
 pub use skill::{skill, with_skill};
-pub use state_file::{STATE_SCHEMA, StateFile};
+pub use state_file::{ReadState, STATE_SCHEMA, StateFile};
 pub use subject::of as subject_of;
 pub use validation::fit_validated;
 pub use work::Work;
