@@ -1,5 +1,7 @@
 //! Bundles under many small changes: each is found, and none is a panic.
 
+mod hostile;
+
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -15,6 +17,7 @@ use taceva_files::seal::{digest_of_bytes, json};
 /// Bundle of two scored tables, in a folder.
 struct Bench {
     folder: tempfile::TempDir,
+    request: BundleRequest,
 }
 
 impl Bench {
@@ -55,7 +58,7 @@ impl Bench {
         request.states = vec![at("result.state")];
         request.tables = Some(ScoredTables::new(&at("truth.csv"), &at("pred.csv"), None));
         make(&request, &at("b")).expect("a bundle");
-        Bench { folder }
+        Bench { folder, request }
     }
 
     fn path(&self, name: &str) -> PathBuf {
@@ -66,6 +69,20 @@ impl Bench {
         let mut request = VerifyRequest::new(&self.path(""));
         request.level = Some(level);
         verify(&request).expect("readable")
+    }
+
+    /// Writes `manifest` with the sizes and digests of the files as they are, sealed.
+    fn relist(&self, mut manifest: Value) {
+        for file in manifest["files"].as_array_mut().expect("files") {
+            let path = file["path"].as_str().expect("a path");
+            let bytes = fs::read(self.path(path)).expect("there");
+            file["size"] = bytes.len().into();
+            file["sha256"] = digest_of_bytes(&bytes).into();
+        }
+        manifest.as_object_mut().expect("an object").remove("seal");
+        let text = serde_json::to_string_pretty(&manifest).expect("JSON");
+        let sealed = json::seal(&text).expect("an object");
+        fs::write(self.path("bundle.json"), sealed).expect("room");
     }
 
     fn json(&self, name: &str) -> Value {
@@ -157,19 +174,7 @@ fn an_edit_of_results_manifest_and_card_alike_is_found_at_the_scores() {
         fs::write(bench.path("results.json"), text).expect("room");
         let text = card.replacen(&format!("| {old} |"), &format!("| {new} |"), 1);
         fs::write(bench.path("README.md"), text).expect("room");
-        for file in manifest["files"].as_array_mut().expect("files") {
-            let bytes =
-                fs::read(bench.path(file["path"].as_str().expect("a path"))).expect("there");
-            file["size"] = bytes.len().into();
-            file["sha256"] = digest_of_bytes(&bytes).into();
-        }
-        manifest.as_object_mut().expect("an object").remove("seal");
-        let text = serde_json::to_string_pretty(&manifest).expect("JSON");
-        fs::write(
-            bench.path("bundle.json"),
-            json::seal(&text).expect("an object"),
-        )
-        .expect("room");
+        bench.relist(manifest);
         let found = bench.verified(Level::Scores);
         // Two claims of one value leave the card unlike the results, which is damage.
         if found.outcome() == Outcome::Unverified {
