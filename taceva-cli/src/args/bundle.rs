@@ -143,6 +143,8 @@ pub(crate) enum LevelArg {
     Predictions,
     /// The model gives the predictions again, on the recording that --dataset names
     Model,
+    /// A fit by the card of the model gives it again, or scores within their intervals; takes as long as the fit did
+    Fit,
 }
 
 impl From<LevelArg> for Level {
@@ -153,6 +155,7 @@ impl From<LevelArg> for Level {
             LevelArg::Scores => Level::Scores,
             LevelArg::Predictions => Level::Predictions,
             LevelArg::Model => Level::Model,
+            LevelArg::Fit => Level::Fit,
         }
     }
 }

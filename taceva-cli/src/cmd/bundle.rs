@@ -7,7 +7,7 @@ use taceva_core::{counted, shown};
 
 use super::{Context, Usage};
 use crate::args::{
-    Bundle, BundleDiff, BundleMake, BundleSubject, BundleVerify, WithPart, WithoutPart,
+    Bundle, BundleDiff, BundleMake, BundleSubject, BundleVerify, LevelArg, WithPart, WithoutPart,
 };
 use crate::{date, exit, output, report};
 
@@ -74,6 +74,11 @@ fn verified(args: &BundleVerify, context: &Context) -> anyhow::Result<u8> {
     request.most = args.most;
     request.datasets.clone_from(&args.datasets);
     request.jobs = context.jobs;
+    if args.level == Some(LevelArg::Fit) {
+        context.say(format_args!(
+            "each model is fitted again, which takes as long as its first fit"
+        ));
+    }
     let found = verify_with(&request, &context.progress)?;
     output::write_as(to.format, to.path.as_deref(), |out| {
         report::bundle::verification(&found, to.format, out)

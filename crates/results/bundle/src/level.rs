@@ -19,6 +19,8 @@ pub enum Level {
     Predictions,
     /// The model gives the predictions of the tables again, on its recording.
     Model,
+    /// A fit by the card of the model gives the model again, or scores within their intervals.
+    Fit,
 }
 
 impl Level {
@@ -29,12 +31,13 @@ impl Level {
     /// assert!(Level::ALL.is_sorted());
     /// assert_eq!(Level::Predictions.to_string(), "predictions");
     /// ```
-    pub const ALL: [Level; 5] = [
+    pub const ALL: [Level; 6] = [
         Level::Files,
         Level::Form,
         Level::Scores,
         Level::Predictions,
         Level::Model,
+        Level::Fit,
     ];
 }
 
@@ -46,6 +49,7 @@ impl fmt::Display for Level {
             Level::Scores => "scores",
             Level::Predictions => "predictions",
             Level::Model => "model",
+            Level::Fit => "fit",
         })
     }
 }

@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use taceva_core::shown;
 use taceva_evaluate::{
-    PredictionCheck, ReadState, Recount, RowKey, Work, check_predictions, merge_read,
-    recount_samples, recount_tables, side_by_side,
+    PredictionCheck, ReadState, Recount, Refit, RowKey, Work, check_predictions, merge_read,
+    recount_samples, recount_tables, refit, side_by_side,
 };
 use taceva_results::{EvaluationReport, Samples, Score, Skip, read, sealed};
 
@@ -40,6 +40,16 @@ pub(crate) struct Recomputation {
     pub(crate) tables: Result<TableScores, Stop>,
     /// Table of samples, compared with the model on its recording.
     pub(crate) model: Result<PredictionCheck, Stop>,
+    pub(crate) fit: Result<FitScores, Stop>,
+}
+
+/// Outcome of a repeated fit.
+#[derive(Clone, Debug)]
+pub(crate) enum FitScores {
+    /// The same model.
+    Equal,
+    /// Scores of another model.
+    Other(Vec<Score>),
 }
 
 /// Depth and means of a recomputation.
@@ -49,6 +59,8 @@ pub(crate) struct Means<'a> {
     pub(crate) reads_tables: bool,
     /// Recordings on which models predict again; `None` if they do not.
     pub(crate) datasets: Option<&'a [PathBuf]>,
+    /// True if models are fitted again.
+    pub(crate) fits: bool,
     /// True if this machine has the instruction sets of the one that made the bundle.
     pub(crate) has_same_sets: bool,
     pub(crate) work: Work<'a>,
@@ -61,6 +73,7 @@ impl Recomputation {
             states: Err(Stop::absent("not asked for")),
             tables: Err(Stop::absent("not asked for")),
             model: Err(Stop::absent("not asked for")),
+            fit: Err(Stop::absent("not asked for")),
         }
     }
 
@@ -92,6 +105,10 @@ impl Recomputation {
             model: match means.datasets {
                 None => Err(Stop::absent("not asked for")),
                 Some(datasets) => of_model(source, files, report, datasets, means),
+            },
+            fit: match means.datasets.filter(|_| means.fits) {
+                None => Err(Stop::absent("not asked for")),
+                Some(datasets) => of_fit(source, files, report, states, datasets, means.work),
             },
         }
     }
@@ -203,25 +220,16 @@ fn of_model(
     datasets: &[PathBuf],
     means: Means<'_>,
 ) -> Result<PredictionCheck, Stop> {
-    let Some(model) = &files.model else {
-        let reason = "no model: make the bundle again with --model FILE";
-        return Err(Stop::absent(reason));
-    };
+    let model = model_file(source, files)?;
     let Some(table) = &files.samples else {
         let reason = "no table of samples, which holds the predictions of the model";
         return Err(Stop::absent(reason));
     };
     let own = &report.provenance;
-    if datasets.is_empty() {
-        let stated = own.dataset.as_deref().unwrap_or("of the results");
-        let reason = format!("no recording: name {} by --dataset", shown(stated));
-        return Err(Stop::absent(&reason));
-    }
-    source.size(model, MOST_MODEL).map_err(Stop::failed)?;
+    check_named(datasets, report)?;
     let text = source.text(table, MOST_TABLE).map_err(Stop::failed)?;
     let samples = Samples::read(&text).map_err(Stop::failed)?;
     drop(text);
-    let model = source.path(model);
     let found = check_predictions(&model, datasets, own, &samples, means.work);
     Ok(match found.map_err(Stop::failed)? {
         PredictionCheck::Near { first, .. } if means.has_same_sets => {
@@ -229,6 +237,52 @@ fn of_model(
         }
         found => found,
     })
+}
+
+/// Model in `files` fitted again on one of `datasets`, with the scores of another one by the plan of the only state.
+fn of_fit(
+    source: &Source,
+    files: &StudyFiles,
+    report: &EvaluationReport,
+    states: &[ReadState],
+    datasets: &[PathBuf],
+    work: Work<'_>,
+) -> Result<FitScores, Stop> {
+    let model = model_file(source, files)?;
+    let ([state], Some(_)) = (states, &report.provenance.part) else {
+        let reason = "a fit is repeated for an evaluation with one state";
+        return Err(Stop::absent(reason));
+    };
+    check_named(datasets, report)?;
+    let fitted = refit(&model, datasets, &report.provenance, work);
+    let samples = match fitted.map_err(Stop::failed)? {
+        Refit::Equal => return Ok(FitScores::Equal),
+        Refit::Other(samples) => samples,
+        _ => return Err(Stop::absent("not compared")),
+    };
+    let recount = recount_samples(state, &samples, work.jobs).map_err(Stop::failed)?;
+    Ok(FitScores::Other(recount.report.scores))
+}
+
+/// Path of the model in `files`.
+fn model_file(source: &Source, files: &StudyFiles) -> Result<PathBuf, Stop> {
+    let Some(model) = &files.model else {
+        let reason = "no model: make the bundle again with --model FILE";
+        return Err(Stop::absent(reason));
+    };
+    source.size(model, MOST_MODEL).map_err(Stop::failed)?;
+    Ok(source.path(model))
+}
+
+/// Rejects an empty list of recordings.
+fn check_named(datasets: &[PathBuf], report: &EvaluationReport) -> Result<(), Stop> {
+    if !datasets.is_empty() {
+        return Ok(());
+    }
+    let stated = report.provenance.dataset.as_deref();
+    let stated = shown(stated.unwrap_or("of the results"));
+    let reason = format!("no recording: name {stated} by --dataset");
+    Err(Stop::absent(&reason))
 }
 
 /// `report` as it is read from its JSON, so that both sides of a comparison have one form.

@@ -6,7 +6,7 @@ use taceva_results::{EvaluationReport, Score};
 use crate::claim::{Claim, Number, words};
 use crate::level::Level;
 use crate::origin;
-use crate::recomputation::{Recomputation, Stop, TableScores};
+use crate::recomputation::{FitScores, Recomputation, Stop, TableScores};
 use crate::verification::{ClaimCheck, OtherCheck, Verdict};
 
 /// Reason of a claim that the results lack.
@@ -88,10 +88,44 @@ impl StudyCheck<'_> {
         };
         let is_compared = check.level == Level::Predictions
             && matches!(check.verdict, Verdict::Equal | Verdict::Within);
-        match self.most >= Level::Model && is_compared {
+        let check = match self.most >= Level::Model && is_compared {
             true => self.by_model(check),
             false => check,
+        };
+        let is_compared = check.level == Level::Model
+            && matches!(check.verdict, Verdict::Equal | Verdict::Within);
+        match self.most >= Level::Fit && is_compared {
+            true => self.by_fit(check, claim),
+            false => check,
         }
+    }
+
+    /// The verdict on a claim of the model after a repeated fit.
+    fn by_fit(&self, mut check: ClaimCheck, claim: &Claim) -> ClaimCheck {
+        let scores = match &self.again.fit {
+            Ok(FitScores::Other(scores)) => scores,
+            Ok(FitScores::Equal) => {
+                check.level = Level::Fit;
+                return check;
+            }
+            Err(stop) => return check.not_compared("a repeated fit", stop),
+        };
+        let score = claim.score_in(scores);
+        let again = score.and_then(|score| Number::of(score, claim.variant.as_deref()));
+        let (Some(again), Some([low, high])) = (again, claim.ci95) else {
+            let reason = "the repeated fit gives another model, and the claim has no interval";
+            return check.ended(Verdict::NotRecomputable, reason.to_owned());
+        };
+        check.level = Level::Fit;
+        let (verdict, place) = match (low..=high).contains(&again.value) {
+            true => (Verdict::Within, "within"),
+            false => (Verdict::Differs, "outside"),
+        };
+        let reason = format!(
+            "the repeated fit gives another model, whose {} is {place} the interval",
+            again.value
+        );
+        check.ended(verdict, reason)
     }
 
     /// The verdict on a claim of the tables after their comparison with the model.

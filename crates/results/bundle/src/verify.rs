@@ -142,6 +142,8 @@ pub(crate) struct Checked {
     tables: Vec<String>,
     /// Reasons why a study was not compared with its model.
     models: Vec<String>,
+    /// Reasons why the model of a study was not fitted again.
+    fits: Vec<String>,
     /// Remarks on models that were compared.
     remarks: Vec<String>,
 }
@@ -159,6 +161,7 @@ pub(crate) fn check(
     let means = Means {
         reads_tables: most >= Level::Predictions,
         datasets: is_of_model.then_some(request.datasets.as_slice()),
+        fits: most >= Level::Fit,
         has_same_sets: is_of_model
             && form::environment(source).is_ok_and(|own| own.has_same_sets()),
         work: Work {
@@ -174,6 +177,7 @@ pub(crate) fn check(
         states: Vec::new(),
         tables: Vec::new(),
         models: Vec::new(),
+        fits: Vec::new(),
         remarks: Vec::new(),
     };
     for (study, (report, files)) in reports.iter().zip(&manifest.studies).enumerate() {
@@ -196,6 +200,8 @@ pub(crate) fn check(
         checked.tables.extend(stop.map(|stop| named(&stop.reason)));
         let stop = again.model.as_ref().err();
         checked.models.extend(stop.map(|stop| named(&stop.reason)));
+        let stop = again.fit.as_ref().err();
+        checked.fits.extend(stop.map(|stop| named(&stop.reason)));
         checked.remarks.extend(match &again.model {
             Ok(PredictionCheck::Equal { samples }) => Some(format!(
                 "Study {study}: the model gives the predictions of {} again, bit for bit.",
@@ -231,6 +237,7 @@ fn add_levels(found: &mut Verification, checked: &Checked, most: Level) {
         (Level::Scores, &checked.states),
         (Level::Predictions, &checked.tables),
         (Level::Model, &checked.models),
+        (Level::Fit, &checked.fits),
     ] {
         if level > most {
             return;

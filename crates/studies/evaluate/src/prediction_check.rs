@@ -50,18 +50,7 @@ pub fn check_predictions(
     work: Work<'_>,
 ) -> Result<PredictionCheck, EvaluateError> {
     let dataset = dataset_of(datasets, provenance)?;
-    let model = Models::builtin().open(model).map_err(|error| match error {
-        ModelFileError::Format {
-            source: FormatError::NoPlugin { id, key },
-            ..
-        } => EvaluateError::Request(format!(
-            "the model was fitted by `{}` of the plugin `{}`, and no plugin is loaded for a file of others",
-            shown(&key),
-            shown(&id)
-        )),
-        ModelFileError::Format { source, .. } => EvaluateError::ModelFormat(source),
-        error => EvaluateError::Request(error.to_string()),
-    })?;
+    let model = built_in_model(model)?;
     let part = provenance.part.as_deref().map(part_named).transpose()?;
     let planned = part.map(|part| Target::new(&dataset, &model, Some(part)));
     let planned = planned.transpose()?;
@@ -90,8 +79,27 @@ pub fn check_predictions(
     Ok(compared(&dataset, &predicted, &lines, samples))
 }
 
+/// The model at `path`, which is a file of others: no plugin is loaded for it.
+pub(crate) fn built_in_model(path: &Path) -> Result<Model, EvaluateError> {
+    Models::builtin().open(path).map_err(|error| match error {
+        ModelFileError::Format {
+            source: FormatError::NoPlugin { id, key },
+            ..
+        } => EvaluateError::Request(format!(
+            "the model was fitted by `{}` of the plugin `{}`, and no plugin is loaded for a file of others",
+            shown(&key),
+            shown(&id)
+        )),
+        ModelFileError::Format { source, .. } => EvaluateError::ModelFormat(source),
+        error => EvaluateError::Request(error.to_string()),
+    })
+}
+
 /// The recording with the digest that the results state: one of `datasets`, or all of them joined.
-fn dataset_of(datasets: &[PathBuf], provenance: &Provenance) -> Result<Dataset, EvaluateError> {
+pub(crate) fn dataset_of(
+    datasets: &[PathBuf],
+    provenance: &Provenance,
+) -> Result<Dataset, EvaluateError> {
     let stated = provenance.dataset.as_deref().unwrap_or("no recording");
     let (mut found, mut opened) = (Vec::new(), Vec::new());
     for path in datasets {
@@ -125,7 +133,7 @@ fn dataset_of(datasets: &[PathBuf], provenance: &Provenance) -> Result<Dataset, 
     )))
 }
 
-fn part_named(name: &str) -> Result<DataPart, EvaluateError> {
+pub(crate) fn part_named(name: &str) -> Result<DataPart, EvaluateError> {
     let mut parts = [
         DataPart::Train,
         DataPart::Validation,

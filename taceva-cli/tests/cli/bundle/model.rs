@@ -35,6 +35,27 @@ fn a_model_in_a_bundle_gives_every_claim_again_on_its_recording() {
 }
 
 #[test]
+fn a_model_is_fitted_again_by_its_card_when_that_is_asked_for() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} --model m.taceva"));
+    let found = verified(&bench, "b --level fit --dataset data", 0);
+    let claims = found["claims"].as_array().expect("claims");
+    assert_eq!(of_verdict(&found, "equal").len(), claims.len(), "{found}");
+    assert!(claims.iter().all(|claim| claim["level"] == "fit"));
+    // A model of another recording has nothing to be fitted on.
+    bench.record_with_noise("other", 20, 1);
+    bench.ok("evaluate other --with m.taceva --metrics mae --format json --out r.json --state-out r.state --samples-out r.samples.csv --force -q");
+    bench.ok(&format!("{BUNDLE} --model m.taceva --force"));
+    verified(&bench, "b --level model --dataset other", 0);
+    let found = verified(&bench, "b --level fit --dataset other", 1);
+    let levels = found["levels"].to_string();
+    assert!(
+        levels.contains("the model was fitted on another recording"),
+        "{levels}"
+    );
+}
+
+#[test]
 fn the_level_of_the_model_says_what_is_missing() {
     let bench = bench();
     bench.ok(&format!("{BUNDLE} --model m.taceva"));

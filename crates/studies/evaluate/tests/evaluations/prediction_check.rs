@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use taceva_evaluate::{ModelChoice, PredictionCheck, check_predictions, evaluate, fit};
+use taceva_evaluate::{
+    ModelChoice, PredictionCheck, Refit, check_predictions, evaluate, fit, refit,
+};
 use taceva_results::{Provenance, Samples};
 
 use crate::taxels::{WORK, of, request};
@@ -91,4 +93,15 @@ fn other_labels_and_samples_differ_whatever_was_predicted() {
     bench.differs(head, "of that part");
     let (name, cells) = last.split_once(',').expect("cells");
     bench.differs(&format!("{head}\nnot-{name},{cells}"), "is sample `not-");
+}
+
+#[test]
+fn a_fit_by_the_card_gives_the_same_model_and_no_other_recording_is_taken() {
+    let bench = Bench::new();
+    let at = |name: &str| -> PathBuf { bench.folder.path().join(name) };
+    let fitted = |data: &str| refit(&at("m.taceva"), &[at(data)], &bench.provenance, WORK);
+    assert_eq!(fitted("data").expect("fitted"), Refit::Equal);
+    crate::taxel_drawing::record(&at("other"), 400);
+    let error = fitted("other").expect_err("another recording").to_string();
+    assert!(error.starts_with("the recording is sha256:"), "{error}");
 }
