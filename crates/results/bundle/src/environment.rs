@@ -45,9 +45,12 @@ impl Environment {
         }
     }
 
-    /// True if this machine has the same instruction sets.
+    /// True if this machine has the same instruction sets, and the program uses the fastest.
     pub(crate) fn has_same_sets(&self) -> bool {
-        self.arch == std::env::consts::ARCH && self.instruction_sets == instruction_sets()
+        let sets = instruction_sets();
+        let used = Isa::detect();
+        let is_fastest = sets.first().is_some_and(|set| set == used.name());
+        is_fastest && self.arch == std::env::consts::ARCH && self.instruction_sets == sets
     }
 }
 
