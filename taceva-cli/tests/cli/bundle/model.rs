@@ -56,6 +56,18 @@ fn a_model_is_fitted_again_by_its_card_when_that_is_asked_for() {
 }
 
 #[test]
+fn predictions_by_another_instruction_set_are_equal_or_within() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} --model m.taceva"));
+    let mut command = bench.command("bundle verify b --level model --dataset data -q");
+    let output = command.env("TACEVA_ISA", "portable").output();
+    let output = output.expect("the program starts");
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.contains("level    model: reached"), "{said}");
+}
+
+#[test]
 fn the_level_of_the_model_says_what_is_missing() {
     let bench = bench();
     bench.ok(&format!("{BUNDLE} --model m.taceva"));
