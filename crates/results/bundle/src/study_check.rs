@@ -324,3 +324,6 @@ fn definition(score: &Score) -> String {
         false => format!("{} with {}", score.definition, constants.join(", ")),
     }
 }
+
+#[cfg(test)]
+mod tests;
