@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::{Channel, counted, shown};
 use taceva_dataset::Dataset;
-use taceva_models::{FormatError, Model, ModelFileError, Models};
+use taceva_models::{FormatError, Model, ModelFileError, Models, library_models};
 use taceva_results::{Provenance, SampleChannel, Samples};
 
 use crate::error::EvaluateError;
@@ -50,7 +50,7 @@ pub fn check_predictions(
     work: Work<'_>,
 ) -> Result<PredictionCheck, EvaluateError> {
     let dataset = dataset_of(datasets, provenance)?;
-    let model = built_in_model(model)?;
+    let model = compiled_model(model)?;
     let part = provenance.part.as_deref().map(part_named).transpose()?;
     let planned = part.map(|part| Target::new(&dataset, &model, Some(part)));
     let planned = planned.transpose()?;
@@ -79,9 +79,14 @@ pub fn check_predictions(
     Ok(compared(&dataset, &predicted, &lines, samples))
 }
 
+/// Models that are compiled into this program. Plugins are not among them.
+pub(crate) fn compiled_models() -> Models {
+    Models::builtin().with_libraries(library_models())
+}
+
 /// The model at `path`, which is a file of others: no plugin is loaded for it.
-pub(crate) fn built_in_model(path: &Path) -> Result<Model, EvaluateError> {
-    Models::builtin().open(path).map_err(|error| match error {
+pub(crate) fn compiled_model(path: &Path) -> Result<Model, EvaluateError> {
+    compiled_models().open(path).map_err(|error| match error {
         ModelFileError::Format {
             source: FormatError::NoPlugin { id, key },
             ..
@@ -174,17 +179,14 @@ fn other_samples(dataset: &Dataset, rows: &[usize], samples: &Samples) -> Option
     rows.iter().enumerate().find_map(|(at, row)| {
         let found = samples.word(Samples::KEY, at).unwrap_or_default();
         // The name of a joined recording is that of its folder, which may be another one here.
-        let (expected, is_same) = match dataset.recording_of(*row) {
-            Some((own, row)) => {
-                let own = own.table().samples()[row].as_str();
-                (own, found.ends_with(own))
-            }
-            None => {
-                let own = dataset.table().samples()[*row].as_str();
-                (own, found == own)
-            }
+        let (expected, own) = match dataset.recording_of(*row) {
+            Some((own, row)) => (
+                own.table().samples()[row].as_str(),
+                found.split_once('/').map_or("", |(_, own)| own),
+            ),
+            None => (dataset.table().samples()[*row].as_str(), found),
         };
-        (!is_same).then(|| {
+        (own != expected).then(|| {
             format!(
                 "line {} of the table is sample `{}`, and the recording has `{}` there",
                 at + 2,
@@ -245,7 +247,7 @@ fn compared(
             differing += 1;
             // An unclipped prediction differs by as much as a clipped one, or more.
             for [found, again] in pairs.chain([[found, again]]) {
-                most = most.max(distance(channel, found, again) / range);
+                most = most.max(share(distance(channel, found, again), range));
             }
             first.get_or_insert_with(|| {
                 format!(
@@ -284,6 +286,18 @@ fn label_range(dataset: &Dataset, channel: &Channel) -> f64 {
     (high - low).max(0.0)
 }
 
+/// `distance` as a share of `range`; infinite if it is no number, as for a model that predicts none.
+fn share(distance: f64, range: f64) -> f64 {
+    if distance <= 0.0 {
+        return 0.0;
+    }
+    let share = distance / range;
+    match share.is_nan() {
+        true => f64::INFINITY,
+        false => share,
+    }
+}
+
 /// Distance of two predictions, along the shorter way around for an angle with a period.
 fn distance(channel: &Channel, one: Option<f64>, other: Option<f64>) -> f64 {
     let (Some(one), Some(other)) = (one, other) else {
@@ -305,4 +319,17 @@ fn is_same(one: Option<f64>, other: Option<f64>) -> bool {
 
 fn words(number: Option<f64>) -> String {
     number.map_or_else(|| "none".to_owned(), |number| format!("{number:?}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_prediction_that_is_no_number_is_never_near() {
+        let to_nan = |one| share(distance(&Channel::FZ, Some(one), Some(f64::NAN)), 1.0);
+        assert!(to_nan(0.5) > NEAR);
+        assert!(share(1e-9, 0.0) > NEAR);
+        assert!(share(0.0, 0.0) <= NEAR);
+    }
 }

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use taceva_models::{ModelSettings, Models};
+use taceva_models::ModelSettings;
 use taceva_results::{Provenance, Samples};
 
 use crate::error::EvaluateError;
 use crate::fit::{FitPlan, FitRequest, Recipe};
 use crate::predict::{Target, predict_target};
-use crate::prediction_check::{built_in_model, dataset_of, part_named};
+use crate::prediction_check::{compiled_model, compiled_models, dataset_of, part_named};
 use crate::rows::Divided;
 use crate::samples;
 use crate::work::Work;
@@ -38,7 +38,7 @@ pub fn refit(
 ) -> Result<Refit, EvaluateError> {
     let part = provenance.part.as_deref().map(part_named).transpose()?;
     let dataset = dataset_of(datasets, provenance)?;
-    let model = built_in_model(model)?;
+    let model = compiled_model(model)?;
     let card = model.card();
     let divided = Divided::by_model(&dataset, &model)?;
     let divided = divided.filter(|_| card.provenance.validation.is_none());
@@ -51,7 +51,7 @@ pub fn refit(
     let channels = model.channels().iter();
     let channels = channels.map(|channel| channel.name().to_owned()).collect();
     let request = FitRequest {
-        model: Models::builtin().find(&card.model)?,
+        model: compiled_models().find(&card.model)?,
         settings: ModelSettings::parse(card.settings.iter().map(String::as_str))?,
         channels,
         split: Some(divided.spec.to_string()),
