@@ -62,12 +62,12 @@ fn with_header(tar: &[u8], draws: &mut Draws) -> Vec<u8> {
         (124, b"-0000000001\0"),
         (345, b"../../\0"),
     ];
-    match draws.below(words.len() + 6) {
-        place if place < words.len() => {
-            let (start, word) = words[place];
-            header[start..start + word.len()].copy_from_slice(word);
-        }
-        place => header[156] = b"125LxgS"[place - words.len()],
+    // Links, folders, devices, attributes, long names and sparse files.
+    let kinds = b"125LxgS";
+    let place = draws.below(words.len() + kinds.len());
+    match words.get(place) {
+        Some((start, word)) => header[*start..start + word.len()].copy_from_slice(word),
+        None => header[156] = kinds[place - words.len()],
     }
     header[148..156].fill(b' ');
     let sum: u32 = header.iter().copied().map(u32::from).sum();
@@ -164,10 +164,11 @@ fn spoil_file(bench: &Bench, whole: &BTreeMap<PathBuf, Vec<u8>>, draws: &mut Dra
     }
     let changed = match read {
         Some(mut value) if draws.below(4) > 0 => {
+            let is_sealed = value.get("seal").is_some();
             change(&mut value, draws);
             let text = value.to_string();
-            let sealed = seal::reseal(&text, "2026-11-29", "spoiled");
-            sealed.unwrap_or(text).into_bytes()
+            let sealed = is_sealed.then(|| seal::reseal(&text, "2026-11-29", "spoiled").ok());
+            sealed.flatten().unwrap_or(text).into_bytes()
         }
         None if path.extension().is_some_and(|own| own == "csv") && draws.below(4) > 0 => {
             with_cell(bytes, draws)
