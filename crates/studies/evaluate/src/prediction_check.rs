@@ -40,8 +40,8 @@ pub enum PredictionCheck {
 /// The results with `provenance` name the recording and the part. No plugin is loaded. Several folders are one recording each, or joined.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] if no recording has the digest of the results; [`EvaluateError::ModelFormat`] for a file that is no model of
-/// this program, or needs a plugin; others as [`predict_target`].
+/// [`EvaluateError::Request`] if no recording has the digest of the results, or the model needs a plugin. [`EvaluateError::ModelFormat`] for a
+/// file that is no model of this program. Others as [`predict_target`].
 pub fn check_predictions(
     model: &Path,
     datasets: &[PathBuf],

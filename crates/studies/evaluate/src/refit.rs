@@ -28,8 +28,8 @@ pub enum Refit {
 /// The results with `provenance` name the recording and the part. No plugin is loaded.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] if no recording has the digest of the results, or the model was fitted on another one or on every sample after
-/// a cross-validation; others as [`fit`](crate::fit()).
+/// [`EvaluateError::Request`] if no recording has the digest of the results, or the model was fitted on another one. The same for a model of
+/// every sample after a cross-validation. Others as [`fit`](crate::fit()).
 pub fn refit(
     model: &Path,
     datasets: &[PathBuf],
