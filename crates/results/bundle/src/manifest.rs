@@ -201,11 +201,12 @@ impl Manifest {
     }
 }
 
-/// Digest of the model file behind `report`; `None` for a model that the caller holds, or none.
+/// Digest of the model file behind `report`; `None` for a model that the caller holds, the models of a cross-validation, or none.
 pub(crate) fn model_digest(report: &EvaluationReport) -> Option<&str> {
-    let model = report.provenance.model.as_ref()?;
-    let digest = model.digest.as_str();
-    Some(digest).filter(|digest| digest.starts_with("sha256:"))
+    let own = &report.provenance;
+    let is_file = |digest: &&str| digest.starts_with("sha256:") && own.cross_validation().is_none();
+    let digest = own.model.as_ref().map(|model| model.digest.as_str());
+    digest.filter(is_file)
 }
 
 /// True if the whole seal is that of its content. A seal shows which key was changed, and its digest does not cover its own words.
@@ -230,4 +231,22 @@ pub(crate) fn source_of(reports: &[EvaluationReport]) -> String {
 /// Sentence on samples of `reports` that nobody measured.
 pub(crate) fn badge_of(reports: &[EvaluationReport]) -> Option<String> {
     not_measured(reports.iter().map(|report| report.subject.source.as_str()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::model_digest;
+
+    #[test]
+    fn the_models_of_a_cross_validation_are_no_file() {
+        let result = r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "drawn"},
+            "provenance": {"part": "test", "split": "random",
+                "model": {"name": "ridge", "settings": {}, "digest": "sha256:0", "fitted_on": "sha256:1"}},
+            "metrics": {"mae": {"Fz": {"value": 0.1, "unit": "N"}}}}"#;
+        let sealed = taceva_files::seal::json::seal(result).expect("JSON");
+        let mut report = taceva_results::read(&sealed).expect("results").remove(0);
+        assert_eq!(model_digest(&report), Some("sha256:0"));
+        report.provenance.split = Some("cv:5 by-point".to_owned());
+        assert_eq!(model_digest(&report), None);
+    }
 }

@@ -1,4 +1,4 @@
-//! Verification of a bundle: files, form, scores and predictions, as deep as its files allow.
+//! Verification of a bundle: files, form, scores, predictions and models, as deep as its files allow.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
