@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use taceva_core::{Channel, counted, shown};
+use taceva_core::{Channel, FeatureShape, counted, shown};
 use taceva_dataset::Dataset;
 use taceva_models::{FormatError, Model, ModelFileError, Models, library_models};
 use taceva_results::{Provenance, SampleChannel, Samples};
@@ -14,6 +14,8 @@ use crate::work::Work;
 
 /// Greatest difference of predictions on two instruction sets, as a share of the range of the labels.
 const NEAR: f64 = 1e-5;
+/// Most bytes of the features that a model file of others may ask for.
+const MOST_FEATURES: u64 = 16 << 30;
 
 /// Outcome of the comparison of a table of samples with a recording and a model.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,6 +75,7 @@ pub fn check_predictions(
         let problem = "no sample of the table has a prediction of the model".to_owned();
         return Ok(PredictionCheck::Differs(problem));
     }
+    check_features(model.card().features.shape(), target.rows.len())?;
     let predicted = predict_target(&dataset, &model, &target, work)?;
     let found = target.rows.iter().map(|row| rows.binary_search(row).ok());
     let lines: Vec<usize> = found.flatten().collect();
@@ -98,6 +101,20 @@ pub(crate) fn compiled_model(path: &Path) -> Result<Model, EvaluateError> {
         ModelFileError::Format { source, .. } => EvaluateError::ModelFormat(source),
         error => EvaluateError::Request(error.to_string()),
     })
+}
+
+/// Rejects a model whose features of `rows` samples, four bytes each, would fill the memory.
+fn check_features(shape: FeatureShape, rows: usize) -> Result<(), EvaluateError> {
+    let bytes = [shape.len(), rows].map(|count| count as u64);
+    let bytes = bytes.into_iter().fold(4, u64::saturating_mul);
+    match bytes <= MOST_FEATURES {
+        true => Ok(()),
+        false => Err(EvaluateError::Request(format!(
+            "the model reads {bytes} bytes of features of {}, expected at most {MOST_FEATURES}; if you trust it, evaluate the recording \
+             with it by `taceva evaluate --with`",
+            counted(rows, "sample")
+        ))),
+    }
 }
 
 /// The recording with the digest that the results state: one of `datasets`, or all of them joined.
@@ -331,5 +348,20 @@ mod tests {
         assert!(to_nan(0.5) > NEAR);
         assert!(share(1e-9, 0.0) > NEAR);
         assert!(share(0.0, 0.0) <= NEAR);
+    }
+
+    #[test]
+    fn features_that_would_fill_the_memory_are_refused() {
+        let shape = |side| FeatureShape {
+            height: side,
+            width: side,
+            depth: 3,
+        };
+        assert!(check_features(shape(100), 20_000).is_ok());
+        let error = check_features(shape(1024), 20_000).expect_err("240 GB");
+        assert!(
+            error.to_string().contains("features of 20000 samples"),
+            "{error}"
+        );
     }
 }
