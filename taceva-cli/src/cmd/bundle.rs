@@ -3,7 +3,7 @@
 use taceva_bundle::{
     BundleRequest, Outcome, ScoredTables, VerifyRequest, compare, make, verify_with,
 };
-use taceva_core::{counted, shown};
+use taceva_core::{Progress as _, counted, shown};
 
 use super::{Context, Usage};
 use crate::args::{
@@ -80,6 +80,9 @@ fn verified(args: &BundleVerify, context: &Context) -> anyhow::Result<u8> {
         ));
     }
     let found = verify_with(&request, &context.progress)?;
+    if context.progress.is_cancelled() {
+        anyhow::bail!("stopped before the verification ended");
+    }
     output::write_as(to.format, to.path.as_deref(), |out| {
         report::bundle::verification(&found, to.format, out)
     })?;
