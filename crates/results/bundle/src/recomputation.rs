@@ -52,9 +52,9 @@ pub(crate) enum FitScores {
     Other(Vec<Score>),
 }
 
-/// Depth and means of a recomputation.
+/// Depth, inputs and threads of a recomputation.
 #[derive(Clone, Copy)]
-pub(crate) struct Means<'a> {
+pub(crate) struct RecomputationSettings<'a> {
     /// True if tables are scored again.
     pub(crate) reads_tables: bool,
     /// Recordings on which models predict again; `None` if they do not.
@@ -83,7 +83,7 @@ impl Recomputation {
         files: &StudyFiles,
         report: &EvaluationReport,
         states: &[ReadState],
-        means: Means<'_>,
+        settings: RecomputationSettings<'_>,
     ) -> Recomputation {
         let own = &report.provenance;
         let unscored = match (own.tables.is_empty(), own.part.is_some()) {
@@ -95,20 +95,20 @@ impl Recomputation {
         };
         Recomputation {
             states: of_states(states),
-            tables: match means.reads_tables {
+            tables: match settings.reads_tables {
                 false => Err(Stop::absent("not asked for")),
                 true => match unscored {
                     Some(reason) => Err(Stop::absent(reason)),
-                    None => of_tables(source, files, states, means.work.jobs),
+                    None => of_tables(source, files, states, settings.work.jobs),
                 },
             },
-            model: match means.datasets {
+            model: match settings.datasets {
                 None => Err(Stop::absent("not asked for")),
-                Some(datasets) => of_model(source, files, report, datasets, means),
+                Some(datasets) => of_model(source, files, report, datasets, settings),
             },
-            fit: match means.datasets.filter(|_| means.fits) {
+            fit: match settings.datasets.filter(|_| settings.fits) {
                 None => Err(Stop::absent("not asked for")),
-                Some(datasets) => of_fit(source, files, report, states, datasets, means.work),
+                Some(datasets) => of_fit(source, files, report, states, datasets, settings.work),
             },
         }
     }
@@ -218,7 +218,7 @@ fn of_model(
     files: &StudyFiles,
     report: &EvaluationReport,
     datasets: &[PathBuf],
-    means: Means<'_>,
+    settings: RecomputationSettings<'_>,
 ) -> Result<PredictionCheck, Stop> {
     let model = model_file(source, files)?;
     let Some(table) = &files.samples else {
@@ -230,9 +230,9 @@ fn of_model(
     let text = source.text(table, MOST_TABLE).map_err(Stop::failed)?;
     let samples = Samples::read(&text).map_err(Stop::failed)?;
     drop(text);
-    let found = check_predictions(&model, datasets, own, &samples, means.work);
+    let found = check_predictions(&model, datasets, own, &samples, settings.work);
     Ok(match found.map_err(Stop::failed)? {
-        PredictionCheck::Near { first, .. } if means.has_same_sets => {
+        PredictionCheck::Near { first, .. } if settings.has_same_sets => {
             PredictionCheck::Differs(first)
         }
         found => found,

@@ -12,7 +12,7 @@ use crate::form;
 use crate::layout::{MANIFEST, MOST_BYTES, MOST_MANIFEST, MOST_TABLE};
 use crate::level::Level;
 use crate::manifest::{Manifest, SealedManifest, StudyFiles};
-use crate::recomputation::{self, Means, Recomputation};
+use crate::recomputation::{self, Recomputation, RecomputationSettings};
 use crate::source::Source;
 use crate::study_check::{NO_SUCH_NUMBER, StudyCheck};
 use crate::verification::{BundleFacts, ClaimCheck, OtherCheck, Verdict, Verification};
@@ -158,7 +158,7 @@ pub(crate) fn check(
 ) -> Checked {
     let most = request.deepest();
     let is_of_model = most >= Level::Model;
-    let means = Means {
+    let settings = RecomputationSettings {
         reads_tables: most >= Level::Predictions,
         datasets: is_of_model.then_some(request.datasets.as_slice()),
         fits: most >= Level::Fit,
@@ -190,7 +190,7 @@ pub(crate) fn check(
         };
         let again = match most < Level::Scores {
             true => Recomputation::none(),
-            false => Recomputation::of(source, files, report, &states, means),
+            false => Recomputation::of(source, files, report, &states, settings),
         };
         drop(states);
         let named = |reason: &str| format!("study {study}: {reason}");
