@@ -127,10 +127,9 @@ pub(crate) fn dataset_of(
     for path in datasets {
         let dataset = Dataset::open(path)?;
         let view = provenance.view.as_deref();
-        let dataset = match view.filter(|_| !dataset.views().is_empty()) {
-            Some(view) => dataset.seen(view)?,
-            None => dataset,
-        };
+        // A recording of another study may lack the view.
+        let seen = view.and_then(|view| dataset.seen(view).ok());
+        let dataset = seen.unwrap_or(dataset);
         let digest = dataset.digest().to_string();
         if digest == stated {
             return Ok(dataset);
