@@ -26,7 +26,7 @@ use clap::{Args, CommandFactory as _, Parser, Subcommand};
 pub(crate) use self::bench::{Bench, BenchKernels, BenchModels, BenchSubject};
 pub(crate) use self::budget::Budget;
 pub(crate) use self::bundle::{
-    Bundle, BundleDiff, BundleMake, BundleSubject, BundleVerify, WithoutPart,
+    Bundle, BundleDiff, BundleMake, BundleSubject, BundleVerify, LevelArg, WithPart, WithoutPart,
 };
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
 pub(crate) use self::curve::Curve;

@@ -54,6 +54,12 @@ pub(crate) struct BundleMake {
     /// A text to add: scene.toml, rig.toml, map.toml, limits.toml or tasks.toml; the scene of a run is found; may be repeated
     #[arg(long = "text", value_name = "FILE")]
     pub(crate) texts: Vec<PathBuf>,
+    /// A model file behind the result, as fit writes it; implies --with model; may be repeated
+    #[arg(long = "model", value_name = "FILE")]
+    pub(crate) models: Vec<PathBuf>,
+    /// Add files that are left out by default; the models of a run are found
+    #[arg(long, value_enum, value_name = "PART")]
+    pub(crate) with: Option<WithPart>,
     /// Leave files out, and state their digests: the bundle is then verified as deep as the rest allows
     #[arg(long, value_enum, value_name = "PART")]
     pub(crate) without: Option<WithoutPart>,
@@ -83,6 +89,13 @@ pub(crate) struct BundleMake {
     pub(crate) force: bool,
 }
 
+/// Files that are added on request.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum WithPart {
+    /// Model files, from which predictions are made again
+    Model,
+}
+
 /// Files that can be left out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum WithoutPart {
@@ -97,6 +110,9 @@ pub(crate) struct BundleVerify {
     /// The level to reach; the exit code is 1 if a claim does not reach it [default: the deepest that the files allow]
     #[arg(long, value_enum, value_name = "LEVEL")]
     pub(crate) level: Option<LevelArg>,
+    /// A recording of the results, on which their model predicts again; the deepest level is then that of the model; may be repeated
+    #[arg(long = "dataset", value_name = "DATASET")]
+    pub(crate) datasets: Vec<PathBuf>,
     /// The greatest difference of numbers that count as within, in the unit of each
     #[arg(long, value_name = "NUMBER", default_value_t = 0.0, value_parser = tolerance)]
     pub(crate) tolerance: f64,
@@ -128,6 +144,10 @@ pub(crate) enum LevelArg {
     Scores,
     /// Tables give the states and the scores
     Predictions,
+    /// The model gives the predictions again, on the recording that --dataset names
+    Model,
+    /// A fit by the card of the model gives it again, or scores within their intervals; takes as long as the fit did
+    Fit,
 }
 
 impl From<LevelArg> for Level {
@@ -137,6 +157,8 @@ impl From<LevelArg> for Level {
             LevelArg::Form => Level::Form,
             LevelArg::Scores => Level::Scores,
             LevelArg::Predictions => Level::Predictions,
+            LevelArg::Model => Level::Model,
+            LevelArg::Fit => Level::Fit,
         }
     }
 }

@@ -1,10 +1,14 @@
 //! `taceva bundle`.
 
-use taceva_bundle::{BundleRequest, Outcome, ScoredTables, VerifyRequest, compare, make, verify};
-use taceva_core::{counted, shown};
+use taceva_bundle::{
+    BundleRequest, Outcome, ScoredTables, VerifyRequest, compare, make, verify_with,
+};
+use taceva_core::{Progress as _, counted, shown};
 
 use super::{Context, Usage};
-use crate::args::{Bundle, BundleDiff, BundleMake, BundleSubject, BundleVerify, WithoutPart};
+use crate::args::{
+    Bundle, BundleDiff, BundleMake, BundleSubject, BundleVerify, LevelArg, WithPart, WithoutPart,
+};
 use crate::{date, exit, output, report};
 
 pub(crate) fn run(args: &Bundle, context: &Context) -> anyhow::Result<u8> {
@@ -37,6 +41,8 @@ fn made(args: &BundleMake, context: &Context) -> anyhow::Result<u8> {
     }
     request.datasets.clone_from(&args.datasets);
     request.texts.clone_from(&args.texts);
+    request.models.clone_from(&args.models);
+    request.adds_models = args.with == Some(WithPart::Model);
     request.withholds_predictions = args.without == Some(WithoutPart::Predictions);
     request.redactions.clone_from(&args.redact);
     request.jobs = context.jobs;
@@ -67,8 +73,17 @@ fn verified(args: &BundleVerify, context: &Context) -> anyhow::Result<u8> {
     request.level = args.level.map(Into::into);
     request.tolerance = args.tolerance;
     request.most = args.most;
+    request.datasets.clone_from(&args.datasets);
     request.jobs = context.jobs;
-    let found = verify(&request)?;
+    if args.level == Some(LevelArg::Fit) {
+        context.say(format_args!(
+            "each model is fitted again, which takes as long as its first fit"
+        ));
+    }
+    let found = verify_with(&request, &context.progress)?;
+    if context.progress.is_cancelled() {
+        anyhow::bail!("stopped before the verification ended");
+    }
     output::write_as(to.format, to.path.as_deref(), |out| {
         report::bundle::verification(&found, to.format, out)
     })?;

@@ -3,6 +3,7 @@
 mod forgery;
 mod hidden;
 mod inputs;
+mod model;
 
 use std::fs;
 
@@ -354,7 +355,7 @@ fn another_schema_and_deep_nesting_are_refused_with_their_reason() {
         bench.ok(&format!("{BUNDLE} b --force"));
         bench.write(&format!("b/{name}"), &"[".repeat(100_000));
         if name != "bundle.json" {
-            relist(&bench, "b", |_| {});
+            relist(&bench, "b", of_another_version);
         }
         let found = verified(&bench, "b", 3);
         assert_eq!(found["damage"][0]["path"], name);

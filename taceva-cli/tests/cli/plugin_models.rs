@@ -117,6 +117,24 @@ fn without_its_plugin_a_model_is_refused_by_name() {
 }
 
 #[test]
+fn the_model_of_a_bundle_never_loads_its_plugin() {
+    let bench = with_estimator();
+    let with = "--plugin-dir nearest -q";
+    bench.ok(&format!(
+        "fit set --model {MODEL} --set size=8x8 --out near.model {with}"
+    ));
+    bench.ok(&format!(
+        "evaluate set --with near.model --metrics mae --format json --out r.json --state-out r.state --samples-out r.samples.csv {with}"
+    ));
+    bench.ok("bundle r.json --state r.state --model near.model --draft --out b -q");
+    let words = format!("bundle verify b --level model --dataset set {with}");
+    let ran = bench.run(&words);
+    assert_eq!(ran.code, 1, "{}{}", ran.out, ran.err);
+    let reason = "level    model: not reached: study 0: the model was fitted by `org.example.nearest/nearest` of the plugin `org.example.nearest`, and no plugin is loaded";
+    assert!(ran.out.contains(reason), "{}", ran.out);
+}
+
+#[test]
 fn another_build_is_told_of_and_refused_where_the_manifest_demands_one() {
     let bench = with_estimator();
     let with = "--plugin-dir nearest";

@@ -34,15 +34,28 @@ impl Environment {
         let mut plugins: Vec<String> = plugins.cloned().collect();
         plugins.sort();
         plugins.dedup();
-        let sets = Isa::available();
         Environment {
             schema: ENVIRONMENT_SCHEMA.to_owned(),
             taceva: env!("CARGO_PKG_VERSION").to_owned(),
             os: std::env::consts::OS.to_owned(),
             arch: std::env::consts::ARCH.to_owned(),
-            instruction_sets: sets.iter().map(|set| set.name().to_owned()).collect(),
+            instruction_sets: instruction_sets(),
             threads: jobs.get(),
             plugins,
         }
     }
+
+    /// True if this machine has the same instruction sets, and the program uses the fastest.
+    pub(crate) fn has_same_sets(&self) -> bool {
+        let sets = instruction_sets();
+        let used = Isa::detect();
+        let is_fastest = sets.first().is_some_and(|set| set == used.name());
+        is_fastest && self.arch == std::env::consts::ARCH && self.instruction_sets == sets
+    }
+}
+
+/// Instruction sets that the program can use here, the fastest first.
+fn instruction_sets() -> Vec<String> {
+    let sets = Isa::available();
+    sets.iter().map(|set| set.name().to_owned()).collect()
 }

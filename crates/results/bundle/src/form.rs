@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 
-use taceva_evaluate::StateFile;
 use taceva_results::EvaluationReport;
 
 use crate::author::{MOST_NAME, is_licence};
@@ -16,12 +15,16 @@ use crate::layout::{
     ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_AUTHORS, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES,
     is_header,
 };
-use crate::manifest::{Manifest, badge_of, source_of};
+use crate::manifest::{Manifest, badge_of, model_digest, source_of};
 use crate::name;
 use crate::sample_digest::{SAMPLES_SCHEMA, SampleDigest, StudySamples};
 use crate::source::Source;
 use crate::texts;
 
+/// Rule of tables of samples.
+const TABLE_RULE: &str = "the table of samples is that of the results";
+/// Rule of model files.
+const MODEL_RULE: &str = "the model is that of the results";
 /// Most findings of damage that are listed.
 const MOST_DAMAGE: usize = 50;
 
@@ -89,7 +92,7 @@ pub(crate) fn results(source: &Source) -> Result<Vec<EvaluationReport>, Damage> 
     })
 }
 
-/// Faults of the form of a bundle whose files are those of its manifest.
+/// Faults of the form, except of states, of a bundle whose files are those of its manifest.
 ///
 /// # Errors
 /// [`BundleError::File`] for a file that cannot be read.
@@ -173,29 +176,19 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
             damage.push(Damage::new(name, rule, "it is missing"));
             continue;
         }
-        for name in &files.states {
-            let rule = "states have their schema and seal";
-            match source.size(name, MOST_TEXT) {
-                Err(own) => damage.push(own),
-                Ok(_) => {
-                    if let Err(error) = StateFile::read(&source.path(name)) {
-                        damage.push(Damage::new(name, rule, error.to_string()));
-                    }
-                }
+        let table = report.provenance.samples_table.as_deref();
+        let model = model_digest(report);
+        for (name, stated, rule, key) in [
+            (&files.samples, table, TABLE_RULE, "samples_table"),
+            (&files.model, model, MODEL_RULE, "model.digest"),
+        ] {
+            if let Some(name) = name
+                && manifest.digest(name) != stated
+            {
+                let stated = stated.unwrap_or("none");
+                let problem = format!("another digest than `{key}` of results.json: {stated}");
+                damage.push(Damage::new(name, rule, problem));
             }
-        }
-        let digest = report.provenance.samples_table.as_ref();
-        let listed = |name: &&String| {
-            let mut listed = manifest.files.iter();
-            listed.any(|file| file.path == **name && Some(&file.sha256) != digest)
-        };
-        if let Some(name) = files.samples.as_ref().filter(listed) {
-            let rule = "the table of samples is that of the results";
-            let problem = format!(
-                "another digest than `samples_table` of results.json: {}",
-                digest.map_or("none", String::as_str)
-            );
-            damage.push(Damage::new(name, rule, problem));
         }
     }
     if manifest
@@ -269,14 +262,17 @@ fn dataset_header(source: &Source, name: &str, known: &[&str]) -> Result<(), Dam
     }
 }
 
-/// Rejects an `environment.json` of another schema.
-fn environment(source: &Source) -> Result<(), Damage> {
+/// The machine that made the bundle.
+///
+/// # Errors
+/// The damage of an `environment.json` of another schema.
+pub(crate) fn environment(source: &Source) -> Result<Environment, Damage> {
     let rule = "environment.json has its schema";
     let text = source.text(ENVIRONMENT, MOST_TEXT)?;
     let found: Environment = serde_json::from_str(&text)
         .map_err(|error| Damage::new(ENVIRONMENT, rule, error.to_string()))?;
     match found.schema == ENVIRONMENT_SCHEMA {
-        true => Ok(()),
+        true => Ok(found),
         false => {
             let problem = format!("schema `{}`, expected `{ENVIRONMENT_SCHEMA}`", found.schema);
             Err(Damage::new(ENVIRONMENT, rule, problem))
@@ -312,7 +308,7 @@ fn samples(
     }
     for ((files, report), stated) in manifest.studies.iter().zip(reports).zip(&found.studies) {
         let Some(table) = files.sample_table() else {
-            let is_withheld = stated.by == "samples" && !manifest.withheld.is_empty();
+            let is_withheld = stated.by == "samples" && manifest.withholds_tables();
             if !is_withheld && *stated != StudySamples::of_provenance(report) {
                 return refused("without a table it names the provenance".to_owned());
             }

@@ -5,13 +5,14 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use taceva_evaluate::{RECORDINGS, STATES};
+use taceva_evaluate::{MODELS, RECORDINGS, STATES};
 use taceva_files::parent_of;
 use taceva_results::EvaluationReport;
 
 use crate::error::BundleError;
 use crate::header;
-use crate::layout::{HEADER, MOST_TABLE, MOST_TEXT, RESULTS, TEXTS};
+use crate::layout::{HEADER, MODEL_ROLE, MOST_TABLE, MOST_TEXT, RESULTS, TEXTS};
+use crate::manifest::{Withheld, model_digest};
 use crate::request::{BundleRequest, ScoredTables};
 use crate::source::digest_of;
 
@@ -39,6 +40,23 @@ pub(crate) struct StudyInputs {
     pub(crate) states: Vec<PathBuf>,
     pub(crate) tables: Option<ScoredTables>,
     pub(crate) samples: Option<PathBuf>,
+    /// Digest of the model file, if the results name one.
+    pub(crate) model_digest: Option<String>,
+    pub(crate) model: Option<PathBuf>,
+}
+
+impl StudyInputs {
+    /// The model file that the results name, if it is not added.
+    pub(crate) fn withheld_model(&self) -> Option<Withheld> {
+        let digest = self.model_digest.as_ref();
+        digest
+            .filter(|_| self.model.is_none())
+            .map(|digest| Withheld {
+                role: MODEL_ROLE.to_owned(),
+                reason: "not added by --with model".to_owned(),
+                digest: digest.clone(),
+            })
+    }
 }
 
 impl Inputs {
@@ -107,6 +125,7 @@ fn studies(
         false => tables_in(&folder, &wanted)?,
     };
     let of_run = entries_of_run(run, STATES)?;
+    let models = models(request, run, path, reports)?;
     let mut studies = Vec::new();
     for (report, number) in reports.iter().zip(1_usize..) {
         let is_own = |path: &&PathBuf| {
@@ -120,6 +139,8 @@ fn studies(
             states: states.collect(),
             tables: request.tables.clone(),
             samples: digest.and_then(|digest| known.get(digest).cloned()),
+            model_digest: model_digest(report).map(str::to_owned),
+            model: model_digest(report).and_then(|digest| models.get(digest).cloned()),
         });
     }
     let is_bare = |study: &StudyInputs| {
@@ -131,6 +152,53 @@ fn studies(
         return Err(BundleError::input(path, problem));
     }
     Ok(studies)
+}
+
+/// Model files of `reports`, by digest: those given, and those of a run.
+fn models(
+    request: &BundleRequest,
+    run: Option<&Path>,
+    path: &Path,
+    reports: &[EvaluationReport],
+) -> Result<BTreeMap<String, PathBuf>, BundleError> {
+    let mut models = BTreeMap::new();
+    if !request.adds_models && request.models.is_empty() {
+        return Ok(models);
+    }
+    let wanted: Vec<&str> = reports.iter().filter_map(model_digest).collect();
+    let of_run = entries_of_run(run, MODELS)?;
+    let of_run = of_run.iter().map(|model| (model, false));
+    for (model, is_given) in request
+        .models
+        .iter()
+        .map(|model| (model, true))
+        .chain(of_run)
+    {
+        match (model.is_file(), is_given) {
+            (true, _) => {}
+            (false, false) => continue,
+            (false, true) => return Err(BundleError::input(model, "expected a model file")),
+        }
+        let digest = digest_of(model)?;
+        if wanted.contains(&digest.as_str()) {
+            models.entry(digest).or_insert_with(|| model.clone());
+        } else if is_given {
+            let problem = format!(
+                "its digest is {digest}, and the results name {}; give the file that `taceva evaluate --with` read, or evaluate with this one",
+                match wanted.is_empty() {
+                    true => "no model file".to_owned(),
+                    false => wanted.join(", "),
+                }
+            );
+            return Err(BundleError::input(model, problem));
+        }
+    }
+    if models.is_empty() {
+        let problem = "no model file of these results: give it by --model FILE; `taceva fit` writes one, and `run` keeps its own if the \
+                       scene has `keep = [\"models\"]` under [report]";
+        return Err(BundleError::input(path, problem));
+    }
+    Ok(models)
 }
 
 /// Tables in `folder` with the digests `wanted`, by digest.

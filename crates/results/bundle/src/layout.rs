@@ -26,6 +26,8 @@ pub(crate) const GENERATED: [&str; 6] = [CARD, CITATION, LICENCE, EVAL_RESULTS, 
 pub(crate) const HEADER: &str = "dataset.toml";
 /// Role of the header of a dataset.
 pub(crate) const HEADER_ROLE: &str = "dataset";
+/// Role of a model file.
+pub(crate) const MODEL_ROLE: &str = "model";
 /// Texts that a bundle may hold.
 pub(crate) const TEXTS: [&str; 5] = [
     "scene.toml",
@@ -43,8 +45,12 @@ pub const MOST_BYTES: u64 = 2 << 30;
 pub(crate) const MOST_MANIFEST: u64 = 8 << 20;
 /// Most bytes of a text: JSON, TOML or Markdown.
 pub(crate) const MOST_TEXT: u64 = 24 << 20;
+/// Most bytes of all states of one study.
+pub(crate) const MOST_STATES: u64 = 64 << 20;
 /// Most bytes of a table.
 pub(crate) const MOST_TABLE: u64 = 256 << 20;
+/// Most bytes of a model file, as its reader has it.
+pub(crate) const MOST_MODEL: u64 = 256 << 20;
 /// Most claims, and most scores of the results.
 pub(crate) const MOST_CLAIMS: usize = 10_000;
 /// Most authors.
@@ -63,7 +69,7 @@ pub(crate) const GROWTH_BYTES: u64 = 64 << 20;
 /// True for a name that a bundle gives to its files.
 pub(crate) fn is_own(name: &str) -> bool {
     let fixed = [MANIFEST, RESULTS, SAMPLES, ENVIRONMENT];
-    let is_inner = ["states/", "tables/"]
+    let is_inner = ["states/", "tables/", "model/"]
         .iter()
         .any(|own| name.starts_with(own));
     let is_fixed = fixed.contains(&name) || GENERATED.contains(&name);

@@ -17,6 +17,10 @@ pub enum Level {
     Scores,
     /// Tables give the states and the scores.
     Predictions,
+    /// The model gives the predictions of the tables again, on its recording.
+    Model,
+    /// A fit by the card of the model gives the model again, or scores within their intervals.
+    Fit,
 }
 
 impl Level {
@@ -27,7 +31,14 @@ impl Level {
     /// assert!(Level::ALL.is_sorted());
     /// assert_eq!(Level::Predictions.to_string(), "predictions");
     /// ```
-    pub const ALL: [Level; 4] = [Level::Files, Level::Form, Level::Scores, Level::Predictions];
+    pub const ALL: [Level; 6] = [
+        Level::Files,
+        Level::Form,
+        Level::Scores,
+        Level::Predictions,
+        Level::Model,
+        Level::Fit,
+    ];
 }
 
 impl fmt::Display for Level {
@@ -37,6 +48,8 @@ impl fmt::Display for Level {
             Level::Form => "form",
             Level::Scores => "scores",
             Level::Predictions => "predictions",
+            Level::Model => "model",
+            Level::Fit => "fit",
         })
     }
 }

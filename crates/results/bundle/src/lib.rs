@@ -52,4 +52,4 @@ pub use verification::{
     BundleFacts, ClaimCheck, LevelCheck, OtherCheck, Outcome, Summary, VERIFICATION_SCHEMA,
     Verdict, Verification,
 };
-pub use verify::{VerifyRequest, verify};
+pub use verify::{VerifyRequest, verify, verify_with};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use taceva_core::counted;
+use taceva_core::{SilentProgress, counted};
 use taceva_files::{Staged, TemporaryFolder, parent_of, replace};
 
 use crate::archive;
@@ -188,7 +188,11 @@ fn set_levels(
     let source = Source::open(root, u64::MAX)?;
     let mut asked = VerifyRequest::new(root);
     asked.jobs = request.jobs;
-    let checked = check(&source, manifest, &inputs.reports, &asked);
+    let checked = check(&source, manifest, &inputs.reports, &asked, &SilentProgress);
+    if let Some(damage) = checked.damage.first() {
+        let problem = format!("{damage}; {REMEDY}");
+        return Err(BundleError::input(&inputs.path, problem));
+    }
     let is_wrong = |claim: &&ClaimCheck| match claim.verdict {
         Verdict::Differs => true,
         Verdict::NotRecomputable => !claim.is_absent,

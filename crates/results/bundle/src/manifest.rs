@@ -9,7 +9,7 @@ use taceva_results::{EvaluationReport, not_measured};
 use crate::author::Author;
 use crate::claim::Claim;
 use crate::error::{BundleError, Damage};
-use crate::layout::{GENERATED, MANIFEST};
+use crate::layout::{GENERATED, MANIFEST, MODEL_ROLE};
 use crate::organization::Organization;
 
 /// Schema of the manifest.
@@ -90,6 +90,7 @@ impl BundledFile {
             Some("csv") => "text/csv",
             Some("parquet") => "application/x-parquet",
             Some("toml") => "application/toml",
+            Some("taceva") => "application/octet-stream",
             _ => "text/plain",
         }
     }
@@ -108,12 +109,16 @@ pub struct StudyFiles {
     /// The table of samples that an evaluation wrote.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub samples: Option<String>,
+    /// The model file that made the predictions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model: Option<String>,
 }
 
 impl StudyFiles {
     /// Names of all files.
     pub(crate) fn names(&self) -> impl Iterator<Item = &String> {
-        self.states.iter().chain(self.table_names())
+        let inputs = self.states.iter().chain(self.table_names());
+        inputs.chain(&self.model)
     }
 
     /// Names of the tables.
@@ -229,6 +234,18 @@ impl Manifest {
         })
     }
 
+    /// True if tables were left out.
+    pub(crate) fn withholds_tables(&self) -> bool {
+        let mut withheld = self.withheld.iter();
+        withheld.any(|own| own.role != MODEL_ROLE)
+    }
+
+    /// Digest that the manifest states of the file `name`.
+    pub(crate) fn digest(&self, name: &str) -> Option<&str> {
+        let file = self.files.iter().find(|file| file.path == name)?;
+        Some(&file.sha256)
+    }
+
     /// The sealed text.
     ///
     /// # Errors
@@ -240,6 +257,14 @@ impl Manifest {
         })?;
         Ok(format!("{sealed}\n"))
     }
+}
+
+/// Digest of the model file behind `report`; `None` for a model that the caller holds, the models of a cross-validation, or none.
+pub(crate) fn model_digest(report: &EvaluationReport) -> Option<&str> {
+    let own = &report.provenance;
+    let is_file = |digest: &&str| digest.starts_with("sha256:") && own.cross_validation().is_none();
+    let digest = own.model.as_ref().map(|model| model.digest.as_str());
+    digest.filter(is_file)
 }
 
 /// True if the whole seal is that of its content. A seal shows which key was changed, and its digest does not cover its own words.
@@ -264,4 +289,22 @@ pub(crate) fn source_of(reports: &[EvaluationReport]) -> String {
 /// Sentence on samples of `reports` that nobody measured.
 pub(crate) fn badge_of(reports: &[EvaluationReport]) -> Option<String> {
     not_measured(reports.iter().map(|report| report.subject.source.as_str()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::model_digest;
+
+    #[test]
+    fn the_models_of_a_cross_validation_are_no_file() {
+        let result = r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "drawn"},
+            "provenance": {"part": "test", "split": "random",
+                "model": {"name": "ridge", "settings": {}, "digest": "sha256:0", "fitted_on": "sha256:1"}},
+            "metrics": {"mae": {"Fz": {"value": 0.1, "unit": "N"}}}}"#;
+        let sealed = taceva_files::seal::json::seal(result).expect("JSON");
+        let mut report = taceva_results::read(&sealed).expect("results").remove(0);
+        assert_eq!(model_digest(&report), Some("sha256:0"));
+        report.provenance.split = Some("cv:5 by-point".to_owned());
+        assert_eq!(model_digest(&report), None);
+    }
 }

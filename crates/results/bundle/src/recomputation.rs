@@ -3,10 +3,15 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use taceva_evaluate::{Recount, RowKey, merge, recount_samples, recount_tables, side_by_side};
+use taceva_core::shown;
+use taceva_evaluate::{
+    PredictionCheck, ReadState, Recount, Refit, RowKey, Work, check_predictions, merge_read,
+    recount_samples, recount_tables, refit, side_by_side,
+};
 use taceva_results::{EvaluationReport, Samples, Score, Skip, read, sealed};
 
-use crate::layout::{MOST_TABLE, MOST_TEXT};
+use crate::error::Damage;
+use crate::layout::{MOST_MODEL, MOST_STATES, MOST_TABLE, MOST_TEXT};
 use crate::manifest::StudyFiles;
 use crate::source::Source;
 
@@ -33,6 +38,32 @@ pub(crate) struct Recomputation {
     /// Scores, subject and provenance by the states.
     pub(crate) states: Result<EvaluationReport, Stop>,
     pub(crate) tables: Result<TableScores, Stop>,
+    /// Table of samples, compared with the model on its recording.
+    pub(crate) model: Result<PredictionCheck, Stop>,
+    pub(crate) fit: Result<FitScores, Stop>,
+}
+
+/// Outcome of a repeated fit.
+#[derive(Clone, Debug)]
+pub(crate) enum FitScores {
+    /// The same model.
+    Equal,
+    /// Scores of another model.
+    Other(Vec<Score>),
+}
+
+/// Depth, inputs and threads of a recomputation.
+#[derive(Clone, Copy)]
+pub(crate) struct RecomputationSettings<'a> {
+    /// True if tables are scored again.
+    pub(crate) reads_tables: bool,
+    /// Recordings on which models predict again; `None` if they do not.
+    pub(crate) datasets: Option<&'a [PathBuf]>,
+    /// True if models are fitted again.
+    pub(crate) fits: bool,
+    /// True if this machine has the instruction sets of the one that made the bundle.
+    pub(crate) has_same_sets: bool,
+    pub(crate) work: Work<'a>,
 }
 
 impl Recomputation {
@@ -41,16 +72,18 @@ impl Recomputation {
         Recomputation {
             states: Err(Stop::absent("not asked for")),
             tables: Err(Stop::absent("not asked for")),
+            model: Err(Stop::absent("not asked for")),
+            fit: Err(Stop::absent("not asked for")),
         }
     }
 
-    /// Scores of the study with these files and this report, with those of tables if `with_tables`.
+    /// Scores of the study with these files and this report.
     pub(crate) fn of(
         source: &Source,
         files: &StudyFiles,
         report: &EvaluationReport,
-        with_tables: bool,
-        jobs: NonZeroUsize,
+        states: &[ReadState],
+        settings: RecomputationSettings<'_>,
     ) -> Recomputation {
         let own = &report.provenance;
         let unscored = match (own.tables.is_empty(), own.part.is_some()) {
@@ -61,13 +94,21 @@ impl Recomputation {
             (false, _) => Some("name the tables that were scored by --truth and --pred"),
         };
         Recomputation {
-            states: of_states(source, files),
-            tables: match with_tables {
+            states: of_states(states),
+            tables: match settings.reads_tables {
                 false => Err(Stop::absent("not asked for")),
                 true => match unscored {
                     Some(reason) => Err(Stop::absent(reason)),
-                    None => of_tables(source, files, jobs),
+                    None => of_tables(source, files, states, settings.work.jobs),
                 },
+            },
+            model: match settings.datasets {
+                None => Err(Stop::absent("not asked for")),
+                Some(datasets) => of_model(source, files, report, datasets, settings),
+            },
+            fit: match settings.datasets.filter(|_| settings.fits) {
+                None => Err(Stop::absent("not asked for")),
+                Some(datasets) => of_fit(source, files, report, states, datasets, settings.work),
             },
         }
     }
@@ -89,29 +130,54 @@ impl Stop {
     }
 }
 
-/// Scores of the states in `files`; several are merged, or stand side by side if their plans differ.
-fn of_states(source: &Source, files: &StudyFiles) -> Result<EvaluationReport, Stop> {
-    if files.states.is_empty() {
+/// States in `files`, each of which is read once.
+///
+/// # Errors
+/// The damage that keeps one from being read.
+pub(crate) fn states(source: &Source, files: &StudyFiles) -> Result<Vec<ReadState>, Damage> {
+    let mut total = 0_u64;
+    for name in &files.states {
+        total = total.saturating_add(source.size(name, MOST_TEXT)?);
+        if total > MOST_STATES {
+            let rule = "files are not too long to read";
+            let problem = format!(
+                "the states of its study have more than {MOST_STATES} bytes together; merge them by `taceva merge --state-out`"
+            );
+            return Err(Damage::new(name, rule, problem));
+        }
+    }
+    let rule = "states have their schema and seal";
+    let read = |name: &String| {
+        let read = ReadState::read(&source.path(name));
+        read.map_err(|error| Damage::new(name, rule, error.to_string()))
+    };
+    files.states.iter().map(read).collect()
+}
+
+/// Scores of `states`; several are merged, or stand side by side if their plans differ.
+fn of_states(states: &[ReadState]) -> Result<EvaluationReport, Stop> {
+    if states.is_empty() {
         let reason = "no state: evaluate or score again with --state-out, and give the state to `taceva bundle --state`";
         return Err(Stop::absent(reason));
     }
-    for name in &files.states {
-        source.size(name, MOST_TEXT).map_err(Stop::failed)?;
-    }
-    let paths: Vec<PathBuf> = files.states.iter().map(|name| source.path(name)).collect();
     // Shards merge; the states of the phases of a run have plans of their own.
-    let report = match merge(&paths) {
+    let report = match merge_read(states) {
         Ok((report, _)) => report,
-        Err(error) if paths.len() == 1 => return Err(Stop::failed(error)),
-        Err(error) => side_by_side(&paths).map_err(|_| Stop::failed(error))?,
+        Err(error) if states.len() == 1 => return Err(Stop::failed(error)),
+        Err(error) => side_by_side(states).map_err(|_| Stop::failed(error))?,
     };
     as_read(&report)
 }
 
-/// Scores of the tables in `files`, by the plan of their only state.
-fn of_tables(source: &Source, files: &StudyFiles, jobs: NonZeroUsize) -> Result<TableScores, Stop> {
-    let [state] = files.states.as_slice() else {
-        return Err(Stop::absent(match files.states.len() {
+/// Scores of the tables in `files`, by the plan of the only state.
+fn of_tables(
+    source: &Source,
+    files: &StudyFiles,
+    states: &[ReadState],
+    jobs: NonZeroUsize,
+) -> Result<TableScores, Stop> {
+    let [state] = states else {
+        return Err(Stop::absent(match states.len() {
             0 => "no state, which says how tables are scored",
             _ => "several states, and tables are compared with one",
         }));
@@ -123,7 +189,7 @@ fn of_tables(source: &Source, files: &StudyFiles, jobs: NonZeroUsize) -> Result<
             }
             let key = tables.key.as_deref().map(RowKey::from);
             recount_tables(
-                &source.path(state),
+                state,
                 &source.path(&tables.truth),
                 &source.path(&tables.prediction),
                 key.as_ref(),
@@ -134,7 +200,7 @@ fn of_tables(source: &Source, files: &StudyFiles, jobs: NonZeroUsize) -> Result<
         (None, Some(name)) => {
             let text = source.text(name, MOST_TABLE).map_err(Stop::failed)?;
             let samples = Samples::read(&text).map_err(Stop::failed)?;
-            recount_samples(&source.path(state), &samples, jobs).map_err(Stop::failed)?
+            recount_samples(state, &samples, jobs).map_err(Stop::failed)?
         }
         (None, None) => return Err(Stop::absent("no tables")),
     };
@@ -146,9 +212,103 @@ fn of_tables(source: &Source, files: &StudyFiles, jobs: NonZeroUsize) -> Result<
     })
 }
 
+/// Table of samples in `files`, compared with the predictions of the model on one of `datasets`.
+fn of_model(
+    source: &Source,
+    files: &StudyFiles,
+    report: &EvaluationReport,
+    datasets: &[PathBuf],
+    settings: RecomputationSettings<'_>,
+) -> Result<PredictionCheck, Stop> {
+    let model = model_file(source, files)?;
+    let Some(table) = &files.samples else {
+        let reason = "no table of samples, which holds the predictions of the model";
+        return Err(Stop::absent(reason));
+    };
+    let own = &report.provenance;
+    check_named(datasets, report)?;
+    let text = source.text(table, MOST_TABLE).map_err(Stop::failed)?;
+    let samples = Samples::read(&text).map_err(Stop::failed)?;
+    drop(text);
+    let found = check_predictions(&model, datasets, own, &samples, settings.work);
+    Ok(match found.map_err(Stop::failed)? {
+        PredictionCheck::Near { first, .. } if settings.has_same_sets => {
+            PredictionCheck::Differs(first)
+        }
+        found => found,
+    })
+}
+
+/// Model in `files` fitted again on one of `datasets`, with the scores of another one by the plan of the only state.
+fn of_fit(
+    source: &Source,
+    files: &StudyFiles,
+    report: &EvaluationReport,
+    states: &[ReadState],
+    datasets: &[PathBuf],
+    work: Work<'_>,
+) -> Result<FitScores, Stop> {
+    let model = model_file(source, files)?;
+    let ([state], Some(_)) = (states, &report.provenance.part) else {
+        let reason = "a fit is repeated for an evaluation with one state";
+        return Err(Stop::absent(reason));
+    };
+    check_named(datasets, report)?;
+    let fitted = refit(&model, datasets, &report.provenance, work);
+    let samples = match fitted.map_err(Stop::failed)? {
+        Refit::Equal => return Ok(FitScores::Equal),
+        Refit::Other(samples) => samples,
+        _ => return Err(Stop::absent("not compared")),
+    };
+    let recount = recount_samples(state, &samples, work.jobs).map_err(Stop::failed)?;
+    Ok(FitScores::Other(recount.report.scores))
+}
+
+/// Path of the model in `files`.
+fn model_file(source: &Source, files: &StudyFiles) -> Result<PathBuf, Stop> {
+    let Some(model) = &files.model else {
+        let reason = "no model: make the bundle again with --model FILE";
+        return Err(Stop::absent(reason));
+    };
+    source.size(model, MOST_MODEL).map_err(Stop::failed)?;
+    Ok(source.path(model))
+}
+
+/// Rejects an empty list of recordings.
+fn check_named(datasets: &[PathBuf], report: &EvaluationReport) -> Result<(), Stop> {
+    if !datasets.is_empty() {
+        return Ok(());
+    }
+    let stated = report.provenance.dataset.as_deref();
+    let stated = shown(stated.unwrap_or("of the results"));
+    let reason = format!("no recording: name {stated} by --dataset");
+    Err(Stop::absent(&reason))
+}
+
 /// `report` as it is read from its JSON, so that both sides of a comparison have one form.
 fn as_read(report: &EvaluationReport) -> Result<EvaluationReport, Stop> {
     let text = sealed(report).map_err(Stop::failed)?;
     let mut reports = read(&text).map_err(Stop::failed)?;
     reports.pop().ok_or_else(|| Stop::failed("no scores"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn states_that_are_too_long_together_are_refused_before_one_is_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut files = StudyFiles::default();
+        for number in 0..3 {
+            let name = format!("{number}.json");
+            let file = std::fs::File::create(folder.path().join(&name)).expect("room");
+            file.set_len(MOST_TEXT).expect("a hole");
+            files.states.push(name);
+        }
+        let source = Source::open(folder.path(), u64::MAX).expect("a folder");
+        let damage = states(&source, &files).expect_err("72 MiB");
+        assert_eq!(damage.path, "2.json");
+        assert!(damage.problem.contains("merge them"), "{damage}");
+    }
 }

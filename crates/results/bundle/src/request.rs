@@ -31,6 +31,10 @@ pub struct BundleRequest {
     pub datasets: Vec<PathBuf>,
     /// Texts that are added by their names: `scene.toml`, `rig.toml`, `map.toml`, `limits.toml`, `tasks.toml`.
     pub texts: Vec<PathBuf>,
+    /// Model files of the results.
+    pub models: Vec<PathBuf>,
+    /// True if model files are added; those of a run are found. Else only their digests are stated.
+    pub adds_models: bool,
     /// True if tables are left out, and only their digests are stated.
     pub withholds_predictions: bool,
     /// Words that are redacted in texts.
@@ -76,6 +80,8 @@ impl BundleRequest {
             tables: None,
             datasets: Vec::new(),
             texts: Vec::new(),
+            models: Vec::new(),
+            adds_models: false,
             withholds_predictions: false,
             redactions: Vec::new(),
             jobs: NonZeroUsize::MIN,

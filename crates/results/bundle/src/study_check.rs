@@ -1,11 +1,12 @@
 //! Claims and other numbers of one study, compared with what was computed again.
 
+use taceva_evaluate::PredictionCheck;
 use taceva_results::{EvaluationReport, Score};
 
 use crate::claim::{Claim, Number, words};
 use crate::level::Level;
 use crate::origin;
-use crate::recomputation::{Recomputation, Stop, TableScores};
+use crate::recomputation::{FitScores, Recomputation, Stop, TableScores};
 use crate::verification::{ClaimCheck, OtherCheck, Verdict};
 
 /// Reason of a claim that the results lack.
@@ -81,17 +82,67 @@ impl StudyCheck<'_> {
         if self.most < Level::Predictions || is_done {
             return check;
         }
-        match &self.again.tables {
+        let check = match &self.again.tables {
             Ok(tables) => self.by_tables(check, claim, tables),
-            Err(stop) => ClaimCheck {
-                is_absent: stop.is_absent,
-                reason: Some(format!("not compared with tables: {}", stop.reason)),
-                verdict: match stop.is_absent {
-                    true => check.verdict,
-                    false => Verdict::NotRecomputable,
-                },
-                ..check
-            },
+            Err(stop) => check.not_compared("tables", stop),
+        };
+        let is_compared = check.level == Level::Predictions
+            && matches!(check.verdict, Verdict::Equal | Verdict::Within);
+        let check = match self.most >= Level::Model && is_compared {
+            true => self.by_model(check),
+            false => check,
+        };
+        let is_compared = check.level == Level::Model
+            && matches!(check.verdict, Verdict::Equal | Verdict::Within);
+        match self.most >= Level::Fit && is_compared {
+            true => self.by_fit(check, claim),
+            false => check,
+        }
+    }
+
+    /// The verdict on a claim of the model after a repeated fit.
+    fn by_fit(&self, mut check: ClaimCheck, claim: &Claim) -> ClaimCheck {
+        let scores = match &self.again.fit {
+            Ok(FitScores::Other(scores)) => scores,
+            Ok(FitScores::Equal) => {
+                check.level = Level::Fit;
+                return check;
+            }
+            Err(stop) => return check.not_compared("a repeated fit", stop),
+        };
+        let score = claim.score_in(scores);
+        let again = score.and_then(|score| Number::of(score, claim.variant.as_deref()));
+        let (Some(again), Some([low, high])) = (again, claim.ci95) else {
+            let reason = "the repeated fit gives another model, and the claim has no interval";
+            return check.ended(Verdict::NotRecomputable, reason.to_owned());
+        };
+        check.level = Level::Fit;
+        let (verdict, place) = match (low..=high).contains(&again.value) {
+            true => (Verdict::Within, "within"),
+            false => (Verdict::Differs, "outside"),
+        };
+        let reason = format!(
+            "the repeated fit gives another model, whose {} is {place} the interval",
+            again.value
+        );
+        check.ended(verdict, reason)
+    }
+
+    /// The verdict on a claim of the tables after their comparison with the model.
+    fn by_model(&self, mut check: ClaimCheck) -> ClaimCheck {
+        let found = match &self.again.model {
+            Ok(found) => found,
+            Err(stop) => return check.not_compared("the model", stop),
+        };
+        check.level = Level::Model;
+        match found {
+            PredictionCheck::Equal { .. } => check,
+            PredictionCheck::Near { first, .. } => {
+                let reason = format!("predictions differ on other instruction sets: {first}");
+                check.ended(Verdict::Within, reason)
+            }
+            PredictionCheck::Differs(reason) => check.ended(Verdict::Differs, reason.clone()),
+            _ => check.ended(Verdict::NotRecomputable, "not compared".to_owned()),
         }
     }
 
@@ -214,6 +265,10 @@ impl StudyCheck<'_> {
             let reason = "the sums of the tables are not those of the state";
             found.push(other("state".to_owned(), Verdict::Differs, reason));
         }
+        if let Ok(PredictionCheck::Differs(reason)) = &self.again.model {
+            let reason = format!("the model does not give them: {reason}");
+            found.push(other("predictions".to_owned(), Verdict::Differs, &reason));
+        }
         let report = self.report;
         for (part, is_there) in [
             ("by_recording", !report.by_recording.is_empty()),
@@ -239,6 +294,19 @@ impl ClaimCheck {
         self
     }
 
+    /// The same claim, which was not compared with `what`.
+    fn not_compared(self, what: &str, stop: &Stop) -> ClaimCheck {
+        ClaimCheck {
+            is_absent: stop.is_absent,
+            reason: Some(format!("not compared with {what}: {}", stop.reason)),
+            verdict: match stop.is_absent {
+                true => self.verdict,
+                false => Verdict::NotRecomputable,
+            },
+            ..self
+        }
+    }
+
     fn stopped(mut self, stop: &Stop) -> ClaimCheck {
         self.is_absent = stop.is_absent;
         self.ended(Verdict::NotRecomputable, stop.reason.clone())
@@ -256,3 +324,6 @@ fn definition(score: &Score) -> String {
         false => format!("{} with {}", score.definition, constants.join(", ")),
     }
 }
+
+#[cfg(test)]
+mod tests;

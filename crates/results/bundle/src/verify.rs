@@ -1,9 +1,10 @@
-//! Verification of a bundle: files, form, scores and predictions, as deep as its files allow.
+//! Verification of a bundle: files, form, scores, predictions and models, as deep as its files allow.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use taceva_core::counted;
+use taceva_core::{Progress, SilentProgress, counted};
+use taceva_evaluate::{PredictionCheck, Work};
 use taceva_results::EvaluationReport;
 
 use crate::error::{BundleError, Damage};
@@ -11,7 +12,7 @@ use crate::form;
 use crate::layout::{MANIFEST, MOST_BYTES, MOST_MANIFEST, MOST_TABLE};
 use crate::level::Level;
 use crate::manifest::{Manifest, SealedManifest, StudyFiles};
-use crate::recomputation::Recomputation;
+use crate::recomputation::{self, Recomputation, RecomputationSettings};
 use crate::source::Source;
 use crate::study_check::{NO_SUCH_NUMBER, StudyCheck};
 use crate::verification::{BundleFacts, ClaimCheck, OtherCheck, Verdict, Verification};
@@ -28,6 +29,8 @@ pub struct VerifyRequest {
     pub tolerance: f64,
     /// Most bytes of all files together.
     pub most: u64,
+    /// Recordings on which models predict again; the deepest level is then that of the model.
+    pub datasets: Vec<PathBuf>,
     /// Number of threads.
     pub jobs: NonZeroUsize,
 }
@@ -40,8 +43,18 @@ impl VerifyRequest {
             level: None,
             tolerance: 0.0,
             most: MOST_BYTES,
+            datasets: Vec::new(),
             jobs: NonZeroUsize::MIN,
         }
+    }
+
+    /// Level to reach.
+    fn deepest(&self) -> Level {
+        let default = match self.datasets.is_empty() {
+            true => Level::Predictions,
+            false => Level::Model,
+        };
+        self.level.unwrap_or(default)
     }
 }
 
@@ -50,8 +63,19 @@ impl VerifyRequest {
 /// # Errors
 /// [`BundleError::File`] if it cannot be read. A damaged bundle is no error: its damage is listed.
 pub fn verify(request: &VerifyRequest) -> Result<Verification, BundleError> {
+    verify_with(request, &SilentProgress)
+}
+
+/// Verifies a bundle as [`verify`], and shows the progress of predictions.
+///
+/// # Errors
+/// As [`verify`].
+pub fn verify_with(
+    request: &VerifyRequest,
+    progress: &dyn Progress,
+) -> Result<Verification, BundleError> {
     let mut found = Verification::new(request.level);
-    let most = request.level.unwrap_or(Level::Predictions);
+    let most = request.deepest();
     let source = match Source::open(&request.path, request.most) {
         Ok(source) => source,
         Err(BundleError::Damaged(damage)) => {
@@ -95,8 +119,12 @@ pub fn verify(request: &VerifyRequest) -> Result<Verification, BundleError> {
     if !damage.is_empty() {
         return Ok(found.damaged_at(Level::Form, damage));
     }
-    let checked = check(&source, manifest, &reports, request);
+    let checked = check(&source, manifest, &reports, request, progress);
+    if !checked.damage.is_empty() {
+        return Ok(found.damaged_at(Level::Form, checked.damage));
+    }
     add_levels(&mut found, &checked, most);
+    found.remarks.extend(checked.remarks);
     found.claims = checked.claims;
     found.others = checked.others;
     Ok(found.summed())
@@ -106,10 +134,18 @@ pub fn verify(request: &VerifyRequest) -> Result<Verification, BundleError> {
 pub(crate) struct Checked {
     pub(crate) claims: Vec<ClaimCheck>,
     pub(crate) others: Vec<OtherCheck>,
+    /// States that cannot be read.
+    pub(crate) damage: Vec<Damage>,
     /// Reasons why a study has no scores of states.
     states: Vec<String>,
     /// Reasons why a study has no scores of tables.
     tables: Vec<String>,
+    /// Reasons why a study was not compared with its model.
+    models: Vec<String>,
+    /// Reasons why the model of a study was not fitted again.
+    fits: Vec<String>,
+    /// Remarks on models that were compared.
+    remarks: Vec<String>,
 }
 
 /// Compares the claims of `manifest` and all of `reports` with what the files in `source` give.
@@ -118,29 +154,64 @@ pub(crate) fn check(
     manifest: &Manifest,
     reports: &[EvaluationReport],
     request: &VerifyRequest,
+    progress: &dyn Progress,
 ) -> Checked {
-    let most = request.level.unwrap_or(Level::Predictions);
+    let most = request.deepest();
+    let is_of_model = most >= Level::Model;
+    let settings = RecomputationSettings {
+        reads_tables: most >= Level::Predictions,
+        datasets: is_of_model.then_some(request.datasets.as_slice()),
+        fits: most >= Level::Fit,
+        has_same_sets: is_of_model
+            && form::environment(source).is_ok_and(|own| own.has_same_sets()),
+        work: Work {
+            jobs: request.jobs,
+            progress,
+            cache: None,
+        },
+    };
     let mut checked = Checked {
         claims: Vec::new(),
         others: Vec::new(),
+        damage: Vec::new(),
         states: Vec::new(),
         tables: Vec::new(),
+        models: Vec::new(),
+        fits: Vec::new(),
+        remarks: Vec::new(),
     };
     for (study, (report, files)) in reports.iter().zip(&manifest.studies).enumerate() {
-        let again = match most < Level::Scores {
-            true => Recomputation::none(),
-            false => {
-                let with_tables = most >= Level::Predictions;
-                Recomputation::of(source, files, report, with_tables, request.jobs)
+        let states = match recomputation::states(source, files) {
+            Ok(states) => states,
+            Err(damage) => {
+                checked.damage.push(damage);
+                continue;
             }
         };
+        let again = match most < Level::Scores {
+            true => Recomputation::none(),
+            false => Recomputation::of(source, files, report, &states, settings),
+        };
+        drop(states);
         let named = |reason: &str| format!("study {study}: {reason}");
-        checked
-            .states
-            .extend(again.states.as_ref().err().map(|stop| named(&stop.reason)));
-        checked
-            .tables
-            .extend(again.tables.as_ref().err().map(|stop| named(&stop.reason)));
+        let stop = again.states.as_ref().err();
+        checked.states.extend(stop.map(|stop| named(&stop.reason)));
+        let stop = again.tables.as_ref().err();
+        checked.tables.extend(stop.map(|stop| named(&stop.reason)));
+        let stop = again.model.as_ref().err();
+        checked.models.extend(stop.map(|stop| named(&stop.reason)));
+        let stop = again.fit.as_ref().err();
+        checked.fits.extend(stop.map(|stop| named(&stop.reason)));
+        checked.remarks.extend(match &again.model {
+            Ok(PredictionCheck::Equal { samples }) => Some(format!(
+                "Study {study}: the model gives the predictions of {} again, bit for bit.",
+                counted(*samples, "sample")
+            )),
+            Ok(PredictionCheck::Near { share, .. }) => Some(format!(
+                "Study {study}: the model gives the predictions again to within {share:.1e} of the range of the labels, on other instruction sets."
+            )),
+            _ => None,
+        });
         let own = StudyCheck {
             study,
             report,
@@ -165,6 +236,8 @@ fn add_levels(found: &mut Verification, checked: &Checked, most: Level) {
     for (level, stops) in [
         (Level::Scores, &checked.states),
         (Level::Predictions, &checked.tables),
+        (Level::Model, &checked.models),
+        (Level::Fit, &checked.fits),
     ] {
         if level > most {
             return;
@@ -204,7 +277,7 @@ fn unchecked(manifest: &Manifest) -> Vec<String> {
         ));
     }
     let mut studies = manifest.studies.iter();
-    if !manifest.withheld.is_empty() && studies.any(|files| files.sample_table().is_none()) {
+    if manifest.withholds_tables() && studies.any(|files| files.sample_table().is_none()) {
         remarks.push(
             "The digest of the samples was not computed again: their tables are withheld."
                 .to_owned(),

@@ -9,7 +9,7 @@ use taceva_files::{parent_of, sync_folder};
 
 use crate::error::BundleError;
 use crate::inputs::StudyInputs;
-use crate::layout::{MOST_TABLE, MOST_TEXT};
+use crate::layout::{MODEL_ROLE, MOST_MODEL, MOST_TABLE, MOST_TEXT};
 use crate::manifest::{BundledFile, StudyFiles, TableFiles, Withheld};
 use crate::source::digest_of;
 
@@ -72,6 +72,7 @@ impl<'a> Writer<'a> {
         if !about.is_file() || about.len() > most {
             let remedy = match role {
                 "state" => "score fewer metrics by --metrics",
+                MODEL_ROLE => "leave the model out",
                 _ => "leave tables out by --without predictions",
             };
             let problem = format!(
@@ -101,6 +102,12 @@ impl<'a> Writer<'a> {
             self.copy(&name, "state", from, MOST_TEXT)?;
             files.states.push(name);
         }
+        if let Some(from) = &study.model {
+            let name = format!("model/{number}.taceva");
+            self.copy(&name, MODEL_ROLE, from, MOST_MODEL)?;
+            files.model = Some(name);
+        }
+        withheld.extend(study.withheld_model());
         if is_without_tables {
             let tables = study.tables.iter();
             let tables = tables
@@ -137,7 +144,7 @@ impl<'a> Writer<'a> {
 
     /// Syncs the names of all files to disk.
     pub(crate) fn sync(&self) -> Result<(), BundleError> {
-        for name in ["states", "tables", ".eval_results", ""] {
+        for name in ["states", "tables", "model", ".eval_results", ""] {
             let folder = self.root.join(name);
             if folder.is_dir() {
                 sync_folder(&folder).map_err(BundleError::file(&folder))?;

@@ -116,7 +116,8 @@ impl Provenance {
             self.tables.insert(name, digest.clone());
         }
         for (part, count) in &other.samples {
-            *self.samples.entry(part.clone()).or_default() += count;
+            let own = self.samples.entry(part.clone()).or_default();
+            *own = own.saturating_add(*count);
         }
         // A recording counts once, however often it took part.
         let presses = other.presses.iter();
@@ -126,7 +127,7 @@ impl Provenance {
         self.recorded_on = self.recorded_on.max(other.recorded_on);
         // No table of samples is written for several states.
         self.samples_table = None;
-        self.frames_decoded += other.frames_decoded;
+        self.frames_decoded = self.frames_decoded.saturating_add(other.frames_decoded);
         for note in &other.notes {
             if !self.notes.contains(note) {
                 self.notes.push(note.clone());

@@ -20,9 +20,11 @@ mod note;
 mod over_seeds;
 mod plan;
 mod predict;
+mod prediction_check;
 mod provenance;
 mod recordings;
 mod recount;
+mod refit;
 mod report;
 mod rotation;
 mod row_ledger;
@@ -53,7 +55,7 @@ pub use evaluate::{
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
-pub use merge::{merge, side_by_side};
+pub use merge::{merge, merge_read, side_by_side};
 pub use neighbours::Resemblance;
 pub use note::{
     Coverage, Detection, Division, FewClusters, Independence, Learning, Neighbours, Note, PairedBy,
@@ -65,20 +67,22 @@ pub use predict::{
     AtBound, Predicted, Predictor, Target, model_extractor, predict, predict_target,
     predicted_numbers, predicted_table, truth,
 };
+pub use prediction_check::{PredictionCheck, check_predictions};
 pub use provenance::{choices, model as model_provenance, of as provenance_of};
 pub use recordings::{depth_zeros, reduced};
 pub use recount::{Recount, recount_samples};
+pub use refit::{Refit, refit};
 pub use report::skipped;
 pub use row_ledger::Taken;
 pub use rows::{DataPart, Divided, Need, require_samples, usable};
-pub use run_layout::{PLANS, RECORDINGS, STATES};
+pub use run_layout::{MODELS, PLANS, RECORDINGS, STATES};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
     Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, read_table,
     recount_tables, score_in_one_pass,
 };
 pub use skill::{skill, with_skill};
-pub use state_file::{STATE_SCHEMA, StateFile};
+pub use state_file::{ReadState, STATE_SCHEMA, StateFile};
 pub use subject::of as subject_of;
 pub use validation::fit_validated;
 pub use work::Work;

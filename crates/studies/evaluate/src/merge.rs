@@ -1,5 +1,6 @@
 //! Merges the states of several shards.
 
+use std::borrow::Borrow;
 use std::path::{Path, PathBuf};
 
 use taceva_core::shown;
@@ -16,10 +17,10 @@ use taceva_results::EvaluationReport;
 ///
 /// # Errors
 /// [`EvaluateError::State`] for a file that is no state of its plan; [`EvaluateError::Request`] without a file.
-pub fn side_by_side(paths: &[PathBuf]) -> Result<EvaluationReport, EvaluateError> {
-    let (mut parts, mut first) = (Vec::new(), None);
-    for path in paths {
-        let file = StateFile::read(path)?;
+pub fn side_by_side(states: &[ReadState]) -> Result<EvaluationReport, EvaluateError> {
+    let first = &states.first().ok_or_else(no_state)?.file;
+    let mut parts = Vec::new();
+    for ReadState { path, file, .. } in states {
         let mut evaluator = Evaluator::new(&file.plan.to_plan(path)?);
         let merged = evaluator.merge_states(&file.states);
         merged.map_err(|error| EvaluateError::State {
@@ -27,14 +28,12 @@ pub fn side_by_side(paths: &[PathBuf]) -> Result<EvaluationReport, EvaluateError
             problem: error.to_string(),
         })?;
         parts.push(file.finish(evaluator)?);
-        first.get_or_insert(file);
     }
-    let first = first.ok_or_else(no_state)?;
     let evaluation = Evaluation::joined(parts, Vec::new());
     Ok(EvaluationReport::new(
-        first.subject,
+        first.subject.clone(),
         &evaluation,
-        first.provenance,
+        first.provenance.clone(),
     ))
 }
 
@@ -47,12 +46,29 @@ fn no_state() -> EvaluateError {
 /// # Errors
 /// [`EvaluateError::State`] with the first file that does not match the first state; [`EvaluateError::Request`] without a file.
 pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), EvaluateError> {
-    let (first_path, rest) = paths.split_first().ok_or_else(no_state)?;
-    let mut all_taken = AllTaken::default();
+    merged(paths.iter().map(|path| ReadState::read(path)))
+}
+
+/// Scores of several states together, and the merged state, as [`merge`] of their files.
+///
+/// # Errors
+/// Errors of [`merge`].
+pub fn merge_read(states: &[ReadState]) -> Result<(EvaluationReport, StateFile), EvaluateError> {
+    merged(states.iter().map(Ok))
+}
+
+/// Merges states one by one, so that at most two are in memory if `states` reads them.
+fn merged<S: Borrow<ReadState>>(
+    mut states: impl Iterator<Item = Result<S, EvaluateError>>,
+) -> Result<(EvaluationReport, StateFile), EvaluateError> {
+    let first = states.next().ok_or_else(no_state)??;
     let ReadState {
+        path: first_path,
         file: first,
         digest,
-    } = StateFile::read_whole(first_path)?;
+    } = Borrow::<ReadState>::borrow(&first);
+    let mut count = 1;
+    let mut all_taken = AllTaken::default();
     let mut take_rows = |path: &Path, digest: &str, taken: &[Taken]| {
         all_taken
             .add(path, digest, taken)
@@ -61,7 +77,7 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), Evaluat
                 problem,
             })
     };
-    take_rows(first_path, &digest, &first.taken)?;
+    take_rows(first_path, digest, &first.taken)?;
     let plan = first.plan.to_plan(first_path)?;
     let mut constants = first.plan.constants.clone();
     let mut evaluator = Evaluator::new(&plan);
@@ -86,11 +102,13 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), Evaluat
         let states = evaluator.merge_states(&file.states);
         states.map_err(|error| wrong(error.to_string()))
     };
-    take(first_path, &first)?;
-    for path in rest {
-        let ReadState { file, digest } = StateFile::read_whole(path)?;
-        take_rows(path, &digest, &file.taken)?;
-        take(path, &file)?;
+    take(first_path, first)?;
+    for state in states {
+        let state = state?;
+        let ReadState { path, file, digest } = Borrow::<ReadState>::borrow(&state);
+        count += 1;
+        take_rows(path, digest, &file.taken)?;
+        take(path, file)?;
         // Models fitted on different samples have different constants, so skill is measured against the mean of the truth.
         constants.retain(|channel, constant| {
             let other = file.plan.constants.get(channel);
@@ -109,10 +127,10 @@ pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), Evaluat
     // Neither all shards of one input nor a single state needs a note.
     let (mut notes, mut of_report) = (Vec::new(), Vec::new());
     match (
-        is_of_shards || rest.is_empty(),
+        is_of_shards || count == 1,
         taken.first().and_then(Taken::share),
     ) {
-        (false, _) => notes.push(Note::States(paths.len())),
+        (false, _) => notes.push(Note::States(count)),
         (true, Some(share)) => of_report.push(Note::Shards(share)),
         (true, None) => {}
     }

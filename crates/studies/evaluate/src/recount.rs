@@ -2,7 +2,6 @@
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
-use std::path::Path;
 
 use taceva_core::{Batch, Column, Field, FieldSet, GratingKind, Labels, Nanometre, Phase, shown};
 use taceva_metrics::{ClusteredBy, Evaluator, Metric, MetricPlan};
@@ -10,7 +9,7 @@ use taceva_results::{EvaluationReport, Provenance, Samples, Skip};
 
 use crate::accumulate::{Rows, accumulate, reads_no_prediction, restricted};
 use crate::error::EvaluateError;
-use crate::state_file::StateFile;
+use crate::state_file::{ReadState, StateFile};
 
 /// Fields that the table of samples holds without loss.
 const EXACT: [Field; 10] = [
@@ -58,18 +57,18 @@ impl Recount {
     }
 }
 
-/// Scores of `samples` by the plan of the state at `state`, as far as they hold what its metrics read.
+/// Scores of `samples` by the plan of `state`, as far as they hold what its metrics read.
 ///
 /// # Errors
-/// [`EvaluateError::State`] for a state that cannot be read, or samples that do not fit it; [`EvaluateError::Scores`] for numbers that
+/// [`EvaluateError::State`] for samples that do not fit the state; [`EvaluateError::Scores`] for numbers that
 /// the metrics reject.
 pub fn recount_samples(
-    state: &Path,
+    state: &ReadState,
     samples: &Samples,
     jobs: NonZeroUsize,
 ) -> Result<Recount, EvaluateError> {
-    let file = StateFile::read(state)?;
-    let plan = file.plan.to_plan(state)?;
+    let ReadState { path, file, .. } = state;
+    let plan = file.plan.to_plan(path)?;
     let rows = |is_unbounded: bool| SampleRows {
         samples,
         provenance: &file.provenance,
@@ -78,7 +77,7 @@ pub fn recount_samples(
     rows(false)
         .check(&plan)
         .map_err(|problem| EvaluateError::State {
-            path: state.to_owned(),
+            path: path.clone(),
             problem,
         })?;
     let (metrics, left_out) = covered(&plan);
@@ -91,7 +90,7 @@ pub fn recount_samples(
         let plan = restricted(&plan, &own)?;
         total.merge(accumulate(&rows(is_unbounded), &plan, jobs)?)?;
     }
-    Recount::of(&file, total, left_out)
+    Recount::of(file, total, left_out)
 }
 
 /// Metrics of `plan` that the table of samples can give, and the others.

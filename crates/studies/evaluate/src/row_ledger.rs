@@ -107,13 +107,13 @@ impl Taken {
             return None;
         }
         let (mut own, mut their) = (self.rows.iter().peekable(), other.rows.iter().peekable());
-        let (mut first, mut count) = (None, 0);
+        let (mut first, mut count) = (None, 0_usize);
         while let (Some([begin, end]), Some([other_begin, other_end])) = (own.peek(), their.peek())
         {
             let (from, to) = ((*begin).max(*other_begin), (*end).min(*other_end));
             if from < to {
                 first.get_or_insert(from);
-                count += to - from;
+                count = count.saturating_add(to - from);
             }
             match end < other_end {
                 true => own.next(),

@@ -6,3 +6,5 @@ pub const PLANS: &str = "plans.json";
 pub const RECORDINGS: &str = "recordings";
 /// Folder of the states behind the scores, whose names begin with the number of the study.
 pub const STATES: &str = "states";
+/// Folder of the models that the scene keeps, whose names begin with the number of the study.
+pub const MODELS: &str = "models";

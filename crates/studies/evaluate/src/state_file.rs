@@ -4,7 +4,7 @@ mod plan;
 
 use std::fs::File;
 use std::io::{self, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use taceva_core::shown;
@@ -50,8 +50,10 @@ pub struct StateFile {
     seal: Option<serde_json::Value>,
 }
 
-/// A parsed state and the digest of its content.
-pub(crate) struct ReadState {
+/// A state with the path from which it was read, and the digest of its content.
+#[derive(Clone, Debug)]
+pub struct ReadState {
+    pub(crate) path: PathBuf,
     pub(crate) file: StateFile,
     pub(crate) digest: String,
 }
@@ -131,10 +133,29 @@ impl StateFile {
     /// # Errors
     /// [`EvaluateError::State`] for a file that is not a state file, has a newer schema, or was edited after it was sealed.
     pub fn read(path: &Path) -> Result<StateFile, EvaluateError> {
-        StateFile::read_whole(path).map(|read| read.file)
+        ReadState::read(path).map(|read| read.file)
     }
 
-    pub(crate) fn read_whole(path: &Path) -> Result<ReadState, EvaluateError> {
+    /// Writes the sealed content of the file as one line.
+    ///
+    /// # Errors
+    /// Errors of `out`.
+    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let text = serde_json::to_string(self)?;
+        writeln!(
+            out,
+            "{}",
+            taceva_files::seal::json::seal(&text).map_err(io::Error::other)?
+        )
+    }
+}
+
+impl ReadState {
+    /// Reads the state at `path`.
+    ///
+    /// # Errors
+    /// Errors of [`StateFile::read`].
+    pub fn read(path: &Path) -> Result<ReadState, EvaluateError> {
         let wrong = |problem: String| EvaluateError::State {
             path: path.to_owned(),
             problem,
@@ -160,22 +181,10 @@ impl StateFile {
         file.provenance.edits.extend(edits);
         file.seal = None;
         Ok(ReadState {
+            path: path.to_owned(),
             file,
             digest: opened.digest,
         })
-    }
-
-    /// Writes the sealed content of the file as one line.
-    ///
-    /// # Errors
-    /// Errors of `out`.
-    pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let text = serde_json::to_string(self)?;
-        writeln!(
-            out,
-            "{}",
-            taceva_files::seal::json::seal(&text).map_err(io::Error::other)?
-        )
     }
 }
 

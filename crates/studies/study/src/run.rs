@@ -54,12 +54,15 @@ pub fn run_scene(
     };
     let studies = scene.studies.iter().zip(&datasets);
     let assessed = studies.enumerate().map(|(number, (study, dataset))| {
+        let model = folder.model(number, &study.plan.name);
+        let keeps_models = scene.scene.report.keeps_models();
         let context = RunContext {
             work,
             cache: setup.cache_of(study, number),
             models: setup.models,
             checkpoint: &folder.checkpoint(number, &study.plan.name),
             states: &folder.states(number, &study.plan.name),
+            model: keeps_models.then_some(model.as_path()),
         };
         assess(scene, study, dataset, context)
     });

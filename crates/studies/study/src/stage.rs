@@ -46,6 +46,9 @@ pub(crate) fn assess(
     let phase_rows = PhaseRows::new(study, dataset);
     let first = scene.seeds.first().copied();
     let learnt = Learnt::new(scene, study, dataset, &phase_rows, context, first)?;
+    if let (Some(learnt), Some(path)) = (&learnt, context.model) {
+        save_model(&learnt.model, path)?;
+    }
     let predicted = learnt
         .as_ref()
         .map(|learnt| learnt.predict(study, dataset, &phase_rows, context))
@@ -179,6 +182,16 @@ fn write_state(state: &StateFile, path: &Path) -> Result<(), StudyError> {
         state.write(&mut std::fs::File::create(staged)?)
     })
     .map_err(failed)
+}
+
+/// Keeps the model of a study, for bundles of the run.
+fn save_model(model: &Model, path: &Path) -> Result<(), StudyError> {
+    let failed = |problem: String| StudyError::RunFolder {
+        path: path.to_owned(),
+        problem,
+    };
+    std::fs::create_dir_all(parent_of(path)).map_err(|error| failed(error.to_string()))?;
+    model.save(path).map_err(|error| failed(error.to_string()))
 }
 
 /// Model of a study, and the split of its fit.

@@ -9,7 +9,7 @@ use super::{BUNDLE, bench, of_verdict, score, verified};
 use crate::support::Bench;
 
 /// A run of two phases.
-const SCENE: &str = r#"scene_version = 1
+pub(super) const SCENE: &str = r#"scene_version = 1
 name = "small"
 seed = 7
 robot = { driver = "sim/robot" }

@@ -2,6 +2,8 @@
 
 mod forms;
 
+mod hostile;
+
 use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -17,6 +19,7 @@ use taceva_files::seal::{digest_of_bytes, json};
 /// Bundle of two scored tables, in a folder.
 struct Bench {
     folder: tempfile::TempDir,
+    request: BundleRequest,
 }
 
 impl Bench {
@@ -64,7 +67,7 @@ impl Bench {
         request.tables = Some(ScoredTables::new(&at("truth.csv"), &at("pred.csv"), None));
         change(&mut request);
         make(&request, &at("b")).expect("a bundle");
-        Bench { folder }
+        Bench { folder, request }
     }
 
     fn path(&self, name: &str) -> PathBuf {

@@ -13,23 +13,23 @@ use super::{ScorePlan, ScoreRequest, fields, tables};
 use crate::accumulate;
 use crate::error::EvaluateError;
 use crate::recount::Recount;
-use crate::state_file::StateFile;
+use crate::state_file::ReadState;
 
-/// Scores of the tables `truth` and `prediction` by the plan of the state at `state`. `key` is the one that the caller chose when they
+/// Scores of the tables `truth` and `prediction` by the plan of `state`. `key` is the one that the caller chose when they
 /// were scored, if any.
 ///
 /// # Errors
-/// [`EvaluateError::State`] for a state that cannot be read, or that was summed from other tables; else as
+/// [`EvaluateError::State`] for a state that was summed from other tables; else as
 /// [`Scoring::read`](super::Scoring::read).
 pub fn recount_tables(
-    state: &Path,
+    state: &ReadState,
     truth: &Path,
     prediction: &Path,
     key: Option<&RowKey>,
     jobs: NonZeroUsize,
 ) -> Result<Recount, EvaluateError> {
-    let file = StateFile::read(state)?;
-    let metrics = file.plan.to_plan(state)?;
+    let ReadState { path, file, .. } = state;
+    let metrics = file.plan.to_plan(path)?;
     // The plan states metrics, units, periods and facts; cells that are no numbers were counted or refused before.
     let request = ScoreRequest {
         truth: truth.to_owned(),
@@ -52,7 +52,7 @@ pub fn recount_tables(
     if found != file.provenance.tables {
         let [expected, found] = [&file.provenance.tables, &found].map(tables::input_of);
         return Err(EvaluateError::State {
-            path: state.to_owned(),
+            path: path.clone(),
             problem: format!("it was summed from other tables: {expected}, found {found}"),
         });
     }
@@ -68,5 +68,5 @@ pub fn recount_tables(
     let matching = Matching::of([&truth, &prediction], &plan.keys, key)?;
     let rows = PairedRows::new([&truth, &prediction], &pairing, &matching, &plan, true)?;
     let evaluator = accumulate::accumulate(&rows, &plan.metrics, jobs)?;
-    Recount::of(&file, evaluator, Vec::new())
+    Recount::of(file, evaluator, Vec::new())
 }

@@ -5,6 +5,7 @@ mod division;
 mod few_groups;
 mod networks;
 mod pairing;
+mod prediction_check;
 mod taxel_drawing;
 mod taxels;
 mod views;

@@ -178,7 +178,15 @@ impl Check<'_> {
             let what = "study to report like";
             return Err(self.text.unknown_name(like.at(), what, &like.value, known));
         }
-        Ok(())
+        let mut keep = report.keep.iter();
+        match keep.find(|keep| !ReportSpec::KEEP.contains(&keep.value.as_str())) {
+            None => Ok(()),
+            Some(keep) => {
+                let known = ReportSpec::KEEP.to_vec();
+                let what = "file to keep";
+                Err(self.text.unknown_name(keep.at(), what, &keep.value, known))
+            }
+        }
     }
 
     fn count(&self, key: &'static str, count: &Setting<u32>, least: u64, greatest: u64) -> Checked {

@@ -85,13 +85,15 @@ impl MetricSettings {
 #[serde(
     deny_unknown_fields,
     default,
-    expecting = "a table with `formats` and `like`"
+    expecting = "a table with `formats`, `like` and `keep`"
 )]
 pub struct ReportSpec {
     /// Any of [`FORMATS`](ReportSpec::FORMATS); text and JSON if empty.
     pub formats: Vec<Setting<String>>,
     /// One of [`LIKE`](ReportSpec::LIKE): published study whose table layout is also written. `None` writes no such tables.
     pub like: Option<Setting<String>>,
+    /// Any of [`KEEP`](ReportSpec::KEEP): further files that the folder of a run keeps.
+    pub keep: Vec<Setting<String>>,
 }
 
 impl ReportSpec {
@@ -100,4 +102,12 @@ impl ReportSpec {
 
     /// Studies whose table layout is supported.
     pub const LIKE: [&'static str; 1] = ["taceva"];
+
+    /// Files that a run keeps on request: fitted models.
+    pub const KEEP: [&'static str; 1] = ["models"];
+
+    /// True if the folder of a run keeps its fitted models.
+    pub fn keeps_models(&self) -> bool {
+        !self.keep.is_empty()
+    }
 }

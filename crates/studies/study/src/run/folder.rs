@@ -11,7 +11,7 @@ use taceva_files::{Staged, clear_leftovers, parent_of, sync_folder};
 use taceva_models::Checkpoints;
 
 use taceva_acquire::PlannedScene;
-use taceva_evaluate::{PLANS, RECORDINGS, STATES};
+use taceva_evaluate::{MODELS, PLANS, RECORDINGS, STATES};
 
 use super::layout::{FIGURES, REPORTS, SCENE, STAGES};
 use crate::error::StudyError;
@@ -66,7 +66,7 @@ impl RunFolder {
         let (is_run, is_there) = (path.join(PLANS).exists(), path.exists());
         match existing {
             Existing::Resume if folder.is_begun(scene)? => {
-                for written in ["", REPORTS, FIGURES, RECORDINGS, STATES] {
+                for written in ["", REPORTS, FIGURES, RECORDINGS, STATES, MODELS] {
                     clear_leftovers(&path.join(written));
                 }
                 return Ok(folder);
@@ -134,6 +134,12 @@ impl RunFolder {
     pub(crate) fn states(&self, number: usize, study: &str) -> PathBuf {
         let name = format!("{}-{}", number + 1, slug(study));
         self.path.join(STATES).join(name)
+    }
+
+    /// Model file of study `number`, counted from 0, for a scene that keeps its models.
+    pub(crate) fn model(&self, number: usize, study: &str) -> PathBuf {
+        let name = format!("{}-{}.taceva", number + 1, slug(study));
+        self.path.join(MODELS).join(name)
     }
 
     /// Removes the files that only a resumed run needs. Call it after the reports are written.

@@ -17,4 +17,6 @@ pub(crate) struct RunContext<'a> {
     pub(crate) checkpoint: &'a Path,
     /// Beginning of the names of its state files.
     pub(crate) states: &'a Path,
+    /// File for its model; `None` if the scene keeps no models.
+    pub(crate) model: Option<&'a Path>,
 }

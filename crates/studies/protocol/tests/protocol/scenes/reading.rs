@@ -247,6 +247,11 @@ fn an_unknown_report_format_is_answered_with_what_there_is() {
         error.contains("unknown study to report like, did you mean `taceva`?"),
         "{error}"
     );
+    let error = with("[report]\nkeep = [\"model\"]");
+    assert!(
+        error.contains("unknown file to keep, did you mean `models`?"),
+        "{error}"
+    );
 }
 
 #[test]
