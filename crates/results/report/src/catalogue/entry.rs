@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use super::facts::{Limits, Size};
+use super::measured::{Measured, Origin};
 use super::offer::{Availability, Price, Way};
 use super::published::{Missing, Published, Source};
 
@@ -12,7 +13,7 @@ use super::published::{Missing, Published, Source};
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sensor {
-    /// Version of the file; always 1.
+    /// Version of the file: 2, or 1 without numbers of bundles.
     pub(super) catalogue_version: u32,
     /// Name of the sensor.
     pub name: String,
@@ -46,8 +47,17 @@ pub struct Sensor {
     #[serde(default, rename = "source")]
     pub sources: Vec<Source>,
     /// Published numbers.
-    #[serde(default, rename = "result")]
+    #[serde(default, rename = "result", alias = "published")]
     pub results: Vec<Published>,
+    /// Numbers of bundles whose samples were recorded, or have an unknown origin.
+    #[serde(default)]
+    pub measured: Vec<Measured>,
+    /// Numbers of bundles whose samples nobody measured.
+    #[serde(default)]
+    pub simulated: Vec<Measured>,
+    /// Digest of the samples behind the results of a measured candidate; `None` for published numbers.
+    #[serde(skip)]
+    pub samples: Option<String>,
     /// Numbers that are not published, with the reason.
     #[serde(default)]
     pub missing: Vec<Missing>,
@@ -100,6 +110,14 @@ impl Sensor {
         let ready = self.prices.iter().filter(|price| price.is_comparable());
         let ready = ready.filter(|price| price.currency == currency);
         ready.min_by(|left, right| left.amount.total_cmp(&right.amount))
+    }
+
+    /// Numbers of bundles in the table of `origin`.
+    pub fn rows(&self, origin: Origin) -> &[Measured] {
+        match origin {
+            Origin::Measured => &self.measured,
+            Origin::Simulated => &self.simulated,
+        }
     }
 
     /// Source with the id `id`.

@@ -5,6 +5,7 @@ use taceva_metrics::Standing;
 
 use super::definition;
 use super::entry::Sensor;
+use super::measured::{Origin, line_of};
 use super::offer::{self, DAY};
 
 /// Error while reading a catalogue file.
@@ -25,6 +26,20 @@ pub enum CatalogueError {
         /// Name of the file.
         file: String,
         /// Name of the value.
+        what: &'static str,
+        /// Value found.
+        found: String,
+        /// Accepted values.
+        expected: &'static str,
+    },
+    /// A value of a number of a bundle is invalid.
+    #[error("{file}:{line}: {what} `{found}`: expected {expected}")]
+    Row {
+        /// Name of the file.
+        file: String,
+        /// Line at which the row begins.
+        line: usize,
+        /// Key of the value.
         what: &'static str,
         /// Value found.
         found: String,
@@ -60,10 +75,16 @@ impl Sensor {
             found: shown(found).to_string(),
             expected,
         };
-        if sensor.catalogue_version != 1 {
-            let found = sensor.catalogue_version.to_string();
-            return Err(refuse("catalogue_version", &found, "1"));
+        let version = sensor.catalogue_version.to_string();
+        match sensor.catalogue_version {
+            1 if sensor.has_bundles() => {
+                let expected = "2, which has [[measured]] and [[simulated]]";
+                return Err(refuse("catalogue_version", &version, expected));
+            }
+            1 | 2 => {}
+            _ => return Err(refuse("catalogue_version", &version, "1 or 2")),
         }
+        check_rows(&sensor, file, text)?;
         if let Some(word) = sensor
             .mechanism
             .iter()
@@ -137,4 +158,22 @@ impl Sensor {
         }
         Ok(sensor)
     }
+}
+
+/// Rejects a row of a bundle with an invalid value, by its line.
+fn check_rows(sensor: &Sensor, file: &str, text: &str) -> Result<(), CatalogueError> {
+    for origin in Origin::ALL {
+        for (at, row) in sensor.rows(origin).iter().enumerate() {
+            if let Some(fault) = row.fault(origin) {
+                return Err(CatalogueError::Row {
+                    file: file.to_owned(),
+                    line: line_of(text, origin, at).unwrap_or(1),
+                    what: fault.what,
+                    found: shown(&fault.found).to_string(),
+                    expected: fault.expected,
+                });
+            }
+        }
+    }
+    Ok(())
 }
