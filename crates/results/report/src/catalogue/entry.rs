@@ -125,9 +125,14 @@ impl Sensor {
         self.sources.iter().find(|source| source.id == id)
     }
 
-    /// Name for files and links: lower-case ASCII letters and digits; `-` for any other character.
+    /// Name for files and links, as of [`slug_of`](Sensor::slug_of).
     pub fn slug(&self) -> String {
-        let letters = self.name.chars().map(|letter| {
+        Sensor::slug_of(&self.name)
+    }
+
+    /// Name for files and links of a sensor called `name`: lower-case ASCII letters and digits; `-` for any other character.
+    pub fn slug_of(name: &str) -> String {
+        let letters = name.chars().map(|letter| {
             if letter.is_ascii_alphanumeric() {
                 letter.to_ascii_lowercase()
             } else {

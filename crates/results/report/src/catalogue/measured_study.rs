@@ -13,6 +13,15 @@ use crate::results::{Made, Study, by_published_r2};
 const AS_STATED: &str = "as the bundle states it";
 
 impl Sensor {
+    /// Published numbers, if there are any or no bundle has one, then the numbers of each bundle, as results.
+    pub fn studies(&self) -> Vec<Study> {
+        let is_published = self.has_published() || !self.has_bundles();
+        let published = is_published.then(|| self.as_study());
+        let of_bundles = Origin::ALL.into_iter();
+        let of_bundles = of_bundles.flat_map(|origin| self.measured_studies(origin));
+        published.into_iter().chain(of_bundles).collect()
+    }
+
     /// Numbers of each bundle as results, one for each of its studies. The name states origin, depth of the verification and bundle.
     pub fn measured_studies(&self, origin: Origin) -> Vec<Study> {
         let mut bundles: BTreeMap<(&str, usize), Vec<&Measured>> = BTreeMap::new();
