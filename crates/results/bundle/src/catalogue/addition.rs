@@ -35,6 +35,20 @@ pub struct Addition {
 
 /// Adds a bundle to a catalogue. An entry is replaced as a whole, and its text stays as it is above the new rows.
 ///
+/// ```no_run
+/// use std::path::Path;
+/// use taceva_bundle::{AddRequest, add_to_catalogue, check_catalogue, write_index};
+///
+/// let root = Path::new("tactile-results");
+/// let added = add_to_catalogue(&AddRequest::new(Path::new("result.tar.gz"), root))?;
+/// println!("{} measured numbers, verified to the level {}", added.measured, added.level);
+/// let check = check_catalogue(root)?;
+/// if check.findings.is_empty() {
+///     write_index(root, &check)?;
+/// }
+/// # Ok::<(), taceva_bundle::CatalogueFolderError>(())
+/// ```
+///
 /// # Errors
 /// [`CatalogueFolderError`] if the bundle is not verified, is a draft or is in the catalogue already, if an entry is invalid, or if a file cannot be
 /// written. The catalogue is then as it was, unless only some of several entries could be written; the same command completes it.
