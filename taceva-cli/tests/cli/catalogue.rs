@@ -1,7 +1,7 @@
 //! Catalogues of bundles in a folder: added to, checked, compared, chosen from, shown.
 
-mod checked;
-mod shown;
+mod findings;
+mod pages;
 
 use std::fs;
 

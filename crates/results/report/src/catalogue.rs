@@ -2,32 +2,32 @@
 
 mod alike;
 mod builtin;
+mod bundle_row;
+mod bundle_study;
 mod definition;
 mod entry;
 mod facts;
-mod joined;
 mod list;
 mod lookup;
-mod measured;
-mod measured_study;
 mod offer;
 mod published;
 mod question;
 mod read;
 mod study;
+mod union;
 
+pub(crate) use bundle_row::short;
+pub use bundle_row::{DEPTHS, Measured, Origin, rows_text};
 pub use entry::{Kind, Sensor};
 pub use facts::{Limits, Size};
-pub use joined::{joined, named_among};
 pub(crate) use list::{MECHANISMS, prices};
 pub use list::{details, list, listed_as};
 pub use lookup::{NameError, named};
-pub(crate) use measured::short;
-pub use measured::{DEPTHS, Measured, Origin, rows_text};
 pub use offer::{Availability, Goods, Price, Way};
 pub use published::{Missing, Published, Roughly, Source};
 pub use question::Question;
 pub use read::CatalogueError;
+pub use union::{joined, named_among};
 
 /// Built-in sensors and studies, by name.
 ///

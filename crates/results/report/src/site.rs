@@ -1,6 +1,6 @@
 //! Catalogue as a static site: a sortable, filterable list, and one page for each sensor with a stable file name.
 
-mod measured;
+mod bundle_rows;
 
 use maud::{Markup, html};
 
@@ -31,7 +31,7 @@ pub fn site(sensors: &[Sensor], ours: &[Study]) -> Vec<SitePage> {
         file: "index.html".to_owned(),
         text: index(sensors, ours),
     }];
-    pages.extend(measured::page(sensors));
+    pages.extend(bundle_rows::page(sensors));
     pages.extend(sensors.iter().map(|sensor| SitePage {
         file: format!("{}.html", sensor.slug()),
         text: page(sensor),
@@ -45,7 +45,7 @@ fn index(sensors: &[Sensor], ours: &[Study]) -> String {
     let lead = html! {
         p.lead {
             (lead)
-            @if has_measured { " " a href=(measured::FILE) { "Numbers that others measured" } }
+            @if has_measured { " " a href=(bundle_rows::FILE) { "Numbers that others measured" } }
         }
     };
     let mut document = Document::new(TITLE, lead);
@@ -178,7 +178,7 @@ fn page(sensor: &Sensor) -> String {
     if !sensor.results.is_empty() {
         document.section("results", "Published results", results(sensor));
     }
-    measured::add_sections(&mut document, sensor);
+    bundle_rows::add_sections(&mut document, sensor);
     let named = sensor.results.iter().map(|result| result.metric.as_str());
     let is_known = |id: &str| taceva_metrics::Better::of(id).is_some();
     if named.clone().any(is_known) {

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use super::bundle_row::{Measured, Origin};
 use super::facts::{Limits, Size};
-use super::measured::{Measured, Origin};
 use super::offer::{Availability, Price, Way};
 use super::published::{Missing, Published, Source};
 

@@ -3,9 +3,9 @@
 use taceva_core::{Unit, shown};
 use taceva_metrics::Standing;
 
+use super::bundle_row::{Origin, line_of};
 use super::definition;
 use super::entry::Sensor;
-use super::measured::{Origin, line_of};
 use super::offer::{self, DAY};
 
 /// Error while reading a catalogue file.

@@ -27,8 +27,8 @@ fn findings(bench: &Bench) -> Vec<String> {
 
 /// Fails unless one finding has all of `words`.
 fn has(found: &[String], words: &[&str]) {
-    let is_it = |finding: &&String| words.iter().all(|word| finding.contains(word));
-    assert!(found.iter().any(|own| is_it(&own)), "{words:?}: {found:#?}");
+    let is_it = |finding: &String| words.iter().all(|word| finding.contains(word));
+    assert!(found.iter().any(is_it), "{words:?}: {found:#?}");
 }
 
 /// A catalogue with one bundle of the sensor Foo.

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use taceva_core::Unit;
 use taceva_results::{Interval, Score, Value, Variant};
 
+use super::bundle_row::{Measured, Origin, short};
 use super::entry::Sensor;
-use super::measured::{Measured, Origin, short};
 use crate::results::{Made, Study, by_published_r2};
 
 /// Method of an interval whose row states none.
