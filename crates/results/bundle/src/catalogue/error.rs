@@ -21,7 +21,7 @@ pub enum CatalogueFolderError {
         source: io::Error,
     },
     /// A file or a bundle breaks a rule of the catalogue.
-    #[error("{}: {problem}", shown(path))]
+    #[error("{}: {}", shown(path), shown(problem))]
     Refused {
         /// Path of the file or of the bundle.
         path: PathBuf,

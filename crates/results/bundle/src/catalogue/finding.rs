@@ -23,35 +23,20 @@ impl CatalogueFinding {
         }
     }
 
-    /// Fault of the entry `text` at `path`.
-    pub(super) fn of_entry(path: &str, text: &str, error: &CatalogueError) -> CatalogueFinding {
+    /// Fault of the entry at `path`.
+    pub(super) fn of_entry(path: &str, error: &CatalogueError) -> CatalogueFinding {
+        let message = error.to_string();
         let (line, problem) = match error {
-            CatalogueError::Toml { source, .. } => {
-                let start = source.span().map(|span| span.start);
-                let before = start.and_then(|start| text.get(..start));
-                let line = before.map(|before| before.matches('\n').count() + 1);
-                (line, source.message().to_owned())
-            }
-            CatalogueError::Row {
-                line,
-                what,
-                found,
-                expected,
-                ..
-            } => (
+            CatalogueError::Toml { line, .. } | CatalogueError::Row { line, .. } => (
                 Some(*line),
-                format!("{what} `{found}`: expected {expected}"),
+                message.strip_prefix(&format!("{path}:{line}: ")),
             ),
-            other => {
-                let text = other.to_string();
-                let problem = text.strip_prefix(&format!("{path}: ")).unwrap_or(&text);
-                (None, problem.to_owned())
-            }
+            _ => (None, message.strip_prefix(&format!("{path}: "))),
         };
         CatalogueFinding {
             path: path.to_owned(),
             line,
-            problem,
+            problem: problem.unwrap_or(&message).to_owned(),
         }
     }
 }

@@ -59,13 +59,13 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
         let sensor = match Sensor::read(&file.path, &text) {
             Ok(sensor) => sensor,
             Err(error) => {
-                findings.push(CatalogueFinding::of_entry(&file.path, &text, &error));
+                findings.push(CatalogueFinding::of_entry(&file.path, &error));
                 continue;
             }
         };
         index.add_entry(&file.path, &sensor);
         findings.extend(name_faults(&file.path, &sensor));
-        findings.extend(row_faults(&file.path, &sensor, &manifests));
+        findings.extend(row_faults(&file.path, &text, &sensor, &manifests));
         for row in sensor.measured.iter().chain(&sensor.simulated) {
             numbers += 1;
             used.insert(manifest_path(&row.bundle));
@@ -175,13 +175,14 @@ fn name_faults(path: &str, sensor: &Sensor) -> Vec<CatalogueFinding> {
 /// Rows whose manifest is missing or does not hold their number, and rows that stand twice.
 fn row_faults(
     path: &str,
+    text: &str,
     sensor: &Sensor,
     manifests: &BTreeMap<String, Manifest>,
 ) -> Vec<CatalogueFinding> {
     let mut faults = Vec::new();
     let mut known = BTreeSet::new();
     for origin in Origin::ALL {
-        for row in sensor.rows(origin) {
+        for (at, row) in sensor.rows(origin).iter().enumerate() {
             let manifest = manifest_path(&row.bundle);
             let is_new = known.insert((&row.bundle, row.study, row.words()));
             let fault = match manifests.get(&manifest) {
@@ -196,7 +197,10 @@ fn row_faults(
                 )),
                 Some(manifest) => row_check::fault(row, origin, manifest),
             };
-            faults.extend(fault.map(|problem| CatalogueFinding::new(path, problem)));
+            faults.extend(fault.map(|problem| CatalogueFinding {
+                line: catalogue::row_line(text, origin, at),
+                ..CatalogueFinding::new(path, problem)
+            }));
         }
     }
     faults

@@ -253,7 +253,14 @@ pub fn rows_text(
 }
 
 /// Line of the row at position `at` of the table `origin` in the text of an entry; `None` if the table is written in another form.
-pub(super) fn line_of(text: &str, origin: Origin, at: usize) -> Option<usize> {
+///
+/// ```
+/// use taceva_report::catalogue::{Origin, row_line};
+/// let entry = "name = \"X\"\n[[measured]]\nn = 1\n[[measured]]\nn = 2\n";
+/// assert_eq!(row_line(entry, Origin::Measured, 1), Some(4));
+/// assert_eq!(row_line(entry, Origin::Simulated, 0), None);
+/// ```
+pub fn row_line(text: &str, origin: Origin, at: usize) -> Option<usize> {
     let head = format!("[[{}]]", origin.table());
     let lines = text.lines().zip(1..);
     let mut heads = lines.filter(|(line, _)| line.trim().starts_with(&head));

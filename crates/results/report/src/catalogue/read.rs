@@ -3,7 +3,7 @@
 use taceva_core::{Unit, shown};
 use taceva_metrics::Standing;
 
-use super::bundle_row::{Origin, line_of};
+use super::bundle_row::{Origin, row_line};
 use super::definition;
 use super::entry::Sensor;
 use super::offer::{self, DAY};
@@ -13,12 +13,14 @@ use super::offer::{self, DAY};
 #[non_exhaustive]
 pub enum CatalogueError {
     /// The file is not TOML, or has unknown keys.
-    #[error("{file}: {source}")]
+    #[error("{file}:{line}: {}", shown(problem))]
     Toml {
         /// Name of the file.
         file: String,
-        /// TOML error with its line.
-        source: Box<toml::de::Error>,
+        /// Line of the fault.
+        line: usize,
+        /// Fault, with what is expected.
+        problem: String,
     },
     /// A value is invalid.
     #[error("{file}: {what} `{found}`: expected {expected}")]
@@ -65,9 +67,14 @@ impl Sensor {
     /// # Errors
     /// [`CatalogueError`] with file and line.
     pub fn read(file: &str, text: &str) -> Result<Sensor, CatalogueError> {
-        let mut sensor: Sensor = toml::from_str(text).map_err(|source| CatalogueError::Toml {
-            file: file.to_owned(),
-            source: Box::new(source),
+        let mut sensor: Sensor = toml::from_str(text).map_err(|error| {
+            let start = error.span().map_or(0, |span| span.start);
+            let before = text.get(..start).unwrap_or_default();
+            CatalogueError::Toml {
+                file: file.to_owned(),
+                line: before.matches('\n').count() + 1,
+                problem: error.message().to_owned(),
+            }
         })?;
         let refuse = |what, found: &str, expected| CatalogueError::Value {
             file: file.to_owned(),
@@ -167,7 +174,7 @@ fn check_rows(sensor: &Sensor, file: &str, text: &str) -> Result<(), CatalogueEr
             if let Some(fault) = row.fault(origin) {
                 return Err(CatalogueError::Row {
                     file: file.to_owned(),
-                    line: line_of(text, origin, at).unwrap_or(1),
+                    line: row_line(text, origin, at).unwrap_or(1),
                     what: fault.what,
                     found: shown(&fault.found).to_string(),
                     expected: fault.expected,
