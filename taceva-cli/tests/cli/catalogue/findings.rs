@@ -87,6 +87,7 @@ fn a_number_that_its_manifest_does_not_hold_is_found() {
         ("n = ", "n = 7", "`n`"),
         ("definition = ", "definition = \"mae/9\"", "`definition`"),
         ("by = ", "by = [\"Grace\"]", "`by`"),
+        ("source = ", "source = \"unknown\"", "`source`"),
         ("verified = ", "verified = \"fit\"", "`verified`"),
         ("metric = ", "metric = \"drift\"", "is not in the manifest"),
     ] {

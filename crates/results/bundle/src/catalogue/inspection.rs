@@ -10,7 +10,8 @@ use super::entry_place::is_page_name;
 use super::error::CatalogueFolderError;
 use super::finding::CatalogueFinding;
 use super::folder::{
-    check_catalogue_folder, entry_path, entry_texts, manifest_path, manifest_texts, write,
+    EntryFile, check_catalogue_folder, entry_path, entry_texts, manifest_path, manifest_texts,
+    write,
 };
 use super::index::Index;
 use super::row_check;
@@ -42,10 +43,11 @@ pub struct CatalogueCheck {
 /// [`CatalogueFolderError`] if the folder cannot be read or is no catalogue. A fault of a file is no error: it is listed.
 pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderError> {
     check_catalogue_folder(root)?;
+    let built_in = catalogue::all();
     let mut findings = Vec::new();
     let mut index = Index::default();
     let manifests = manifests(root, &mut findings, &mut index)?;
-    let mut sensors: Vec<(String, Sensor)> = Vec::new();
+    let mut entries: Vec<EntryFile> = Vec::new();
     let mut used: BTreeSet<String> = BTreeSet::new();
     let mut numbers = 0;
     for file in entry_texts(root)? {
@@ -64,15 +66,19 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
             }
         };
         index.add_entry(&file.path, &sensor);
-        findings.extend(name_faults(&file.path, &sensor));
+        findings.extend(name_faults(&file.path, &sensor, &built_in));
         findings.extend(row_faults(&file.path, &text, &sensor, &manifests));
         for row in sensor.measured.iter().chain(&sensor.simulated) {
             numbers += 1;
             used.insert(manifest_path(&row.bundle));
         }
-        sensors.push((file.path, sensor));
+        entries.push(EntryFile {
+            path: file.path,
+            text,
+            sensor,
+        });
     }
-    findings.extend(alike(&sensors));
+    findings.extend(alike(&entries, &built_in));
     let unused = manifests.keys().filter(|path| !used.contains(*path));
     findings.extend(unused.map(|path| {
         let problem = "no entry has its numbers; add the bundle again, or remove the file";
@@ -81,7 +87,7 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
     findings.sort_by(|one, other| (&one.path, one.line).cmp(&(&other.path, other.line)));
     Ok(CatalogueCheck {
         findings,
-        entries: sensors.len() as u64,
+        entries: entries.len() as u64,
         bundles: manifests.len() as u64,
         numbers,
         index: index.text(),
@@ -143,7 +149,7 @@ fn manifests(
 }
 
 /// Faults of the name of an entry, and of its published numbers.
-fn name_faults(path: &str, sensor: &Sensor) -> Vec<CatalogueFinding> {
+fn name_faults(path: &str, sensor: &Sensor, built_in: &[Sensor]) -> Vec<CatalogueFinding> {
     let mut faults = Vec::new();
     let slug = sensor.slug();
     if !is_page_name(&slug) {
@@ -160,7 +166,6 @@ fn name_faults(path: &str, sensor: &Sensor) -> Vec<CatalogueFinding> {
         );
         faults.push(CatalogueFinding::new(path, problem));
     }
-    let built_in = catalogue::all();
     let is_built_in = built_in.iter().any(|known| known.name == sensor.name);
     if is_built_in && sensor.has_published() {
         let problem = format!(
@@ -195,7 +200,7 @@ fn row_faults(
                     "{} is of {manifest}, which is missing or damaged: expected the manifest of its bundle",
                     row.words()
                 )),
-                Some(manifest) => row_check::fault(row, origin, manifest),
+                Some(manifest) => row_check::fault(row, manifest),
             };
             faults.extend(fault.map(|problem| CatalogueFinding {
                 line: catalogue::row_line(text, origin, at),
@@ -207,11 +212,10 @@ fn row_faults(
 }
 
 /// Entries whose names or aliases are alike those of another entry or of a built-in sensor.
-fn alike(sensors: &[(String, Sensor)]) -> Vec<CatalogueFinding> {
-    let built_in = catalogue::all();
+fn alike(entries: &[EntryFile], built_in: &[Sensor]) -> Vec<CatalogueFinding> {
     let mut findings = Vec::new();
-    for (at, (path, sensor)) in sensors.iter().enumerate() {
-        let before = sensors[..at].iter().map(|(_, other)| other);
+    for (at, EntryFile { path, sensor, .. }) in entries.iter().enumerate() {
+        let before = entries[..at].iter().map(|other| &other.sensor);
         let of_program = built_in.iter().filter(|known| known.name != sensor.name);
         let names: Vec<&String> = std::iter::once(&sensor.name)
             .chain(&sensor.aliases)

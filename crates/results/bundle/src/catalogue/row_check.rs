@@ -1,13 +1,17 @@
 //! Rows of an entry, compared with the claims of the manifest that they name.
 
-use taceva_report::catalogue::{DEPTHS, Measured, Origin};
+use taceva_report::catalogue::{DEPTHS, Measured};
 
+use super::submission::protocol;
 use crate::author::Author;
 use crate::claim::Claim;
 use crate::manifest::Manifest;
 
+/// Origin of results whose studies have different ones.
+const SEVERAL: &str = "several";
+
 /// Fault of a row of the bundle with `manifest`; `None` if the manifest holds the number.
-pub(super) fn fault(row: &Measured, origin: Origin, manifest: &Manifest) -> Option<String> {
+pub(super) fn fault(row: &Measured, manifest: &Manifest) -> Option<String> {
     let is_named = |claim: &&Claim| {
         claim.study == row.study
             && claim.metric == row.metric
@@ -23,6 +27,7 @@ pub(super) fn fault(row: &Measured, origin: Origin, manifest: &Manifest) -> Opti
     };
     let bits = |ends: [f64; 2]| ends.map(f64::to_bits);
     let by: Vec<String> = manifest.authors.iter().map(Author::to_string).collect();
+    let protocol = protocol(manifest);
     let depth = claim.level.to_string();
     let deepest = DEPTHS.iter().position(|word| *word == depth);
     let differing = [
@@ -64,28 +69,26 @@ pub(super) fn fault(row: &Measured, origin: Origin, manifest: &Manifest) -> Opti
             manifest.licence.clone().unwrap_or_default(),
         ),
         (
+            "protocol",
+            row.protocol != protocol,
+            protocol.clone().unwrap_or_else(|| "none".to_owned()),
+        ),
+        (
+            "source",
+            // Results of several origins have one for each study, which the manifest does not state.
+            manifest.source != SEVERAL && row.source != manifest.source,
+            manifest.source.clone(),
+        ),
+        (
             "verified",
             deepest.is_some_and(|deepest| row.depth() > deepest),
             format!("at most {depth}"),
         ),
     ];
     let mut differing = differing.into_iter();
-    if let Some((key, _, expected)) = differing.find(|(_, differs, _)| *differs) {
-        return Some(format!(
-            "`{key}` of {} is not that of the manifest: expected {expected}",
-            row.words()
-        ));
-    }
-    is_hidden(origin, manifest).then(|| {
-        format!(
-            "{} stands in [[{origin}]], and the samples are {}: expected the other table",
-            row.words(),
-            manifest.source
-        )
-    })
-}
-
-/// True if the table is not that of the samples. Results of several origins have one for each study, which the manifest does not state.
-fn is_hidden(origin: Origin, manifest: &Manifest) -> bool {
-    Origin::of_source(&manifest.source).is_some_and(|stated| stated != origin)
+    let (key, _, expected) = differing.find(|(_, differs, _)| *differs)?;
+    Some(format!(
+        "`{key}` of {} is not that of the manifest: expected {expected}",
+        row.words()
+    ))
 }

@@ -101,9 +101,7 @@ impl Submission {
                 manifest.created
             ))
         })?;
-        let mut files = manifest.files.iter();
-        let scene = files.find(|file| file.path == SCENE);
-        let protocol = scene.map(|file| format!("scene {}", file.sha256));
+        let protocol = protocol(manifest);
         let mut levels: BTreeMap<(usize, &str, &str, Option<&str>), Level> = BTreeMap::new();
         for check in &found.claims {
             let (metric, channel) = (check.metric.as_str(), check.channel.as_str());
@@ -170,6 +168,13 @@ impl Submission {
             false => Ok(()),
         }
     }
+}
+
+/// Protocol of the presses: the scene that `manifest` lists.
+pub(super) fn protocol(manifest: &Manifest) -> Option<String> {
+    let mut files = manifest.files.iter();
+    let scene = files.find(|file| file.path == SCENE)?;
+    Some(format!("scene {}", scene.sha256))
 }
 
 /// Digest of the results that `manifest` lists.
