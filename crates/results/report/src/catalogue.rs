@@ -240,6 +240,15 @@ mod tests {
     }
 
     #[test]
+    fn an_entry_of_version_2_may_call_its_published_numbers_so() {
+        let text = "catalogue_version = 2\nname = \"x\"\nkind = \"sensor\"\nmechanism = []\n[[published]]\nmetric = \"force_error\"\nchannel = \"F\"\n\
+                    value = 0.1\nunit = \"N\"\nsource = \"s\"\nread_from = \"text\"\nconditions = \"c\"\ndefinition = \"d\"\n";
+        let sensor = Sensor::read("x.toml", text).expect("an entry");
+        assert_eq!(sensor.results.len(), 1);
+        assert!(sensor.has_published() && !sensor.has_bundles());
+    }
+
+    #[test]
     fn what_is_only_about_a_number_is_shown_and_not_compared() {
         let thin = find("ThinTact").expect("there");
         assert_eq!(thin.result("intrinsic", "field_of_view"), None);
