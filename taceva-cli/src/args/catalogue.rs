@@ -53,8 +53,9 @@ pub(crate) struct CatalogueSite {
 }
 
 /// The catalogue is a folder with `entries/`, one file for each sensor, and `bundles/`, the manifests. Numbers of recorded samples go into
-/// `[[measured]]`, numbers of simulated or synthetic ones into `[[simulated]]`; published numbers stay as they are. A draft and a bundle whose
-/// results are there already are refused.
+/// `[[measured]]`, of simulated or synthetic ones into `[[simulated]]`, and of samples without a stated origin into `[[unknown]]`. Published
+/// numbers stay as they are. A draft and a bundle whose results are there already are refused. The exit code is 1 for a bundle that is not
+/// verified, and 3 for one that is damaged or refused.
 #[derive(Debug, Args)]
 pub(crate) struct CatalogueAdd {
     /// The bundle: a folder, or a .tar.gz

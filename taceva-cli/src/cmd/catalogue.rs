@@ -103,8 +103,8 @@ fn add(args: &CatalogueAdd, context: &Context) -> anyhow::Result<u8> {
         }
         writeln!(
             out,
-            "rows     {} measured, {} simulated",
-            added.measured, added.simulated
+            "rows     {} measured, {} of unknown origin, {} simulated",
+            added.measured, added.unknown, added.simulated
         )?;
         writeln!(out, "verified to the level {} or deeper", added.level)?;
         match &added.badge {

@@ -152,9 +152,37 @@ fn simulated_and_synthetic_numbers_never_stand_among_measured_ones() {
     bench.ok("catalogue check c");
     let path = bench.path("c/entries/foo.toml");
     edit(&path, |text| text.replace("[[simulated]]", "[[measured]]"));
-    let ran = bench.run("catalogue check c");
+    let checked = || bench.run("catalogue check c --format csv");
+    let ran = checked();
     assert_eq!(ran.code, 1, "{}", ran.out);
     assert!(ran.out.contains("others belong into"), "{}", ran.out);
+    edit(&path, |text| {
+        let text = text.replace("source = \"simulated\"", "source = \"recorded\"");
+        text.replace("source = \"synthetic\"", "source = \"recorded\"")
+    });
+    let ran = checked();
+    assert_eq!(ran.code, 1, "{}", ran.out);
+    assert!(ran.out.contains("expected simulated"), "{}", ran.out);
+}
+
+#[test]
+fn numbers_whose_origin_nobody_states_do_not_pass_as_measured() {
+    let bench = Bench::new();
+    score(&bench, "one", "Foo", 0.01);
+    bench.ok(&packed("one", "--author Ada --licence CC-BY-4.0"));
+    let said = bench.ok("catalogue add one --to c");
+    assert!(said.contains(" 0 measured, "), "{said}");
+    let entry = text(&bench, "entries/foo.toml");
+    assert!(
+        entry.contains("[[unknown]]") && !entry.contains("[[measured]]"),
+        "{entry}"
+    );
+    bench.ok("catalogue check c");
+    let chosen = bench.ok("choose --catalogue c --need depth --format json");
+    assert!(!chosen.contains("Foo"), "{chosen}");
+    bench.ok("catalogue site c --out pages -q");
+    let page = fs::read_to_string(bench.path("pages/foo.html")).expect("written");
+    assert!(page.contains("id=\"unknown\"") && !page.contains("id=\"measured\""));
 }
 
 #[test]
@@ -181,7 +209,7 @@ fn a_draft_a_damaged_bundle_and_an_edited_claim_are_refused() {
     crate::bundle::forgery::relist(&bench, "one", |manifest| {
         manifest["claims"][0]["value"] = 123.5.into();
     });
-    bench.refused("catalogue add one --to c", 3, "not verified");
+    bench.refused("catalogue add one --to c", 1, "not verified");
     bench.ok(&packed("one", "--author Ada --licence CC-BY-4.0 --force"));
     edit(&bench.path("one/results.json"), |text| text + " ");
     bench.refused("catalogue add one --to c", 3, "damaged: results.json");

@@ -30,6 +30,13 @@ pub struct Author {
     pub orcid: Option<String>,
 }
 
+impl Author {
+    /// True if name and identifier are those that a request may state.
+    pub(crate) fn is_valid(&self) -> bool {
+        is_name(&self.name) && self.orcid.as_deref().is_none_or(is_orcid)
+    }
+}
+
 impl FromStr for Author {
     type Err = String;
 
@@ -49,7 +56,7 @@ impl FromStr for Author {
             }
         };
         let name = name.trim();
-        if name.is_empty() || name.len() > MOST_NAME || name.chars().any(taceva_core::is_obeyed) {
+        if !is_name(name) {
             return Err(format!(
                 "`{}`: expected a name of 1 to {MOST_NAME} bytes",
                 shown(text)
@@ -69,6 +76,10 @@ impl fmt::Display for Author {
             None => f.write_str(&self.name),
         }
     }
+}
+
+fn is_name(name: &str) -> bool {
+    !name.is_empty() && name.len() <= MOST_NAME && !name.chars().any(taceva_core::is_obeyed)
 }
 
 /// True for four groups of four digits whose last digit is the check digit of ISO 7064, mod 11-2.

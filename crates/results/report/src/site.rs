@@ -41,11 +41,11 @@ pub fn site(sensors: &[Sensor], ours: &[Study]) -> Vec<SitePage> {
 
 fn index(sensors: &[Sensor], ours: &[Study]) -> String {
     let lead = "Published facts and results of each sensor, every number with its source.";
-    let has_measured = sensors.iter().any(Sensor::has_bundles);
+    let has_bundles = sensors.iter().any(Sensor::has_bundles);
     let lead = html! {
         p.lead {
             (lead)
-            @if has_measured { " " a href=(bundle_rows::FILE) { "Numbers that others measured" } }
+            @if has_bundles { " " a href=(bundle_rows::FILE) { "Numbers of bundles" } }
         }
     };
     let mut document = Document::new(TITLE, lead);
@@ -178,7 +178,7 @@ fn page(sensor: &Sensor) -> String {
     if !sensor.results.is_empty() {
         document.section("results", "Published results", results(sensor));
     }
-    bundle_rows::add_sections(&mut document, sensor);
+    bundle_rows::add_sections(&mut document, std::slice::from_ref(sensor));
     let named = sensor.results.iter().map(|result| result.metric.as_str());
     let is_known = |id: &str| taceva_metrics::Better::of(id).is_some();
     if named.clone().any(is_known) {

@@ -87,7 +87,7 @@ fn a_number_that_its_manifest_does_not_hold_is_found() {
         ("n = ", "n = 7", "`n`"),
         ("definition = ", "definition = \"mae/9\"", "`definition`"),
         ("by = ", "by = [\"Grace\"]", "`by`"),
-        ("source = ", "source = \"unknown\"", "`source`"),
+        ("source = ", "source = \"unknown\"", "expected recorded"),
         ("verified = ", "verified = \"fit\"", "`verified`"),
         ("metric = ", "metric = \"drift\"", "is not in the manifest"),
     ] {
@@ -153,9 +153,10 @@ fn names_alike_are_refused_and_found() {
         bundle(&bench, name, model, error);
     }
     bundle(&bench, "three", "GelSightMini", 0.03);
+    bench.refused("catalogue add three --to c", 3, "is alike `GelSight`");
+    assert!(!bench.path("c").exists(), "a refusal leaves no folder");
     bench.ok("catalogue add one --to c");
     bench.refused("catalogue add two --to c", 3, "is alike `Foo Mini`");
-    bench.refused("catalogue add three --to c", 3, "is alike `GelSight`");
     // An entry of another name, as by hand.
     let entry = text(&bench, "entries/foo-mini.toml");
     let (head, _) = entry.split_once("[[measured]]").expect("rows");

@@ -1,18 +1,18 @@
 //! Addition of a bundle to a catalogue: verified first, then its manifest and the rows of its numbers are written.
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::Path;
 
 use taceva_files::Staged;
-use taceva_report::catalogue::{Sensor, rows_text};
+use taceva_report::catalogue::{Measured, Origin, Sensor, rows_text};
 
 use super::entry_place::EntryPlace;
 use super::error::CatalogueFolderError;
-use super::folder::{
-    BUNDLES, EntryFile, entry_files, make_folders, manifest_path, manifest_texts, write,
-};
+use super::folder::{BUNDLES, EntryFile, entry_files, manifest_path, manifest_texts, write};
 use super::request::AddRequest;
-use super::submission::{Submission, SubmittedRows, results_digest};
+use super::submission::{Submission, results_digest};
+use crate::layout::MOST_TEXT;
 use crate::manifest::Manifest;
 
 /// Bundle that was added.
@@ -25,6 +25,8 @@ pub struct Addition {
     pub bundle: String,
     /// Number of rows in `[[measured]]`.
     pub measured: u64,
+    /// Number of rows in `[[unknown]]`.
+    pub unknown: u64,
     /// Number of rows in `[[simulated]]`.
     pub simulated: u64,
     /// Least level of the rows.
@@ -55,7 +57,11 @@ pub struct Addition {
 pub fn add(request: &AddRequest) -> Result<Addition, CatalogueFolderError> {
     let submission = Submission::read(request)?;
     let root = request.catalogue.as_path();
-    make_folders(root)?;
+    if !root.exists() {
+        // A refusal leaves no folder.
+        changed(root, &submission, request)?;
+        fs::create_dir_all(root).map_err(CatalogueFolderError::file(root))?;
+    }
     let place = root.join(BUNDLES);
     // Two additions at once would each lose the rows of the other.
     let turn = Staged::alone(&place).map_err(CatalogueFolderError::file(&place))?;
@@ -63,8 +69,22 @@ pub fn add(request: &AddRequest) -> Result<Addition, CatalogueFolderError> {
         let problem = "another process adds a bundle; run the command again after it";
         return Err(CatalogueFolderError::refused(root, problem));
     };
+    let texts = changed(root, &submission, request)?;
+    write(root, &manifest_path(&submission.digest), &submission.text)?;
+    for (path, text) in &texts {
+        write(root, path, text)?;
+    }
+    Ok(added(&submission, texts.into_keys().collect()))
+}
+
+/// Texts of the entries with the rows of the bundle, by path.
+fn changed(
+    root: &Path,
+    submission: &Submission,
+    request: &AddRequest,
+) -> Result<BTreeMap<String, String>, CatalogueFolderError> {
     let entries = entry_files(root)?;
-    check_new(root, &submission, request)?;
+    check_new(root, submission, request)?;
     let mut texts: BTreeMap<String, String> = BTreeMap::new();
     for (name, rows) in &submission.sensors {
         let mut place = EntryPlace::of(name, &entries, &request.bundle)?;
@@ -81,11 +101,7 @@ pub fn add(request: &AddRequest) -> Result<Addition, CatalogueFolderError> {
         let problem = "this bundle is in the catalogue already; expected a new one";
         return Err(CatalogueFolderError::refused(&request.bundle, problem));
     }
-    write(root, &manifest_path(&submission.digest), &submission.text)?;
-    for (path, text) in &texts {
-        write(root, path, text)?;
-    }
-    Ok(added(&submission, texts.into_keys().collect()))
+    Ok(texts)
 }
 
 /// Rejects a bundle with the results of another one in the catalogue.
@@ -120,8 +136,7 @@ fn check_new(
 fn has_rows(entries: &[EntryFile], path: &str, bundle: &str) -> bool {
     let of_path = entries.iter().find(|entry| entry.path == path);
     of_path.is_some_and(|entry| {
-        let sensor = &entry.sensor;
-        let mut rows = sensor.measured.iter().chain(&sensor.simulated);
+        let mut rows = entry.sensor.all_rows();
         rows.any(|row| row.bundle == bundle)
     })
 }
@@ -129,25 +144,37 @@ fn has_rows(entries: &[EntryFile], path: &str, bundle: &str) -> bool {
 /// Text of the entry with the rows at its end.
 fn appended(
     place: &EntryPlace,
-    rows: &SubmittedRows,
+    rows: &[Measured],
     request: &AddRequest,
 ) -> Result<String, CatalogueFolderError> {
-    let rows = rows_text(&rows.measured, &rows.simulated)
+    let rows = rows_text(rows)
         .map_err(|error| CatalogueFolderError::refused(&request.bundle, error.to_string()))?;
     let text = format!("{}\n\n{}\n", place.text.trim_end(), rows.trim_end());
+    if text.len() as u64 > MOST_TEXT {
+        let problem = format!(
+            "{} would have {} bytes: expected at most {MOST_TEXT}; keep the bundle in another catalogue",
+            place.path,
+            text.len()
+        );
+        return Err(CatalogueFolderError::refused(&request.bundle, problem));
+    }
     Sensor::read(&place.path, &text)?;
     Ok(text)
 }
 
 fn added(submission: &Submission, entries: Vec<String>) -> Addition {
-    let rows = || submission.sensors.values();
-    let all = rows().flat_map(|rows| rows.measured.iter().chain(&rows.simulated));
-    let least = all.min_by_key(|row| row.depth());
+    let rows = || submission.sensors.values().flatten();
+    let count = |origin: Origin| {
+        let of_origin = rows().filter(|row| Origin::of_source(&row.source) == Some(origin));
+        of_origin.count() as u64
+    };
+    let least = rows().min_by_key(|row| row.depth());
     Addition {
         entries,
         bundle: submission.digest.clone(),
-        measured: rows().map(|rows| rows.measured.len() as u64).sum(),
-        simulated: rows().map(|rows| rows.simulated.len() as u64).sum(),
+        measured: count(Origin::Measured),
+        unknown: count(Origin::Unknown),
+        simulated: count(Origin::Simulated),
         level: least.map_or_else(String::new, |row| row.verified.clone()),
         badge: submission.manifest.badge.clone(),
     }

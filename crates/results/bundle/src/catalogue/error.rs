@@ -28,6 +28,14 @@ pub enum CatalogueFolderError {
         /// The fault and the remedy.
         problem: String,
     },
+    /// A number of the bundle differs from what its files give, or cannot be computed again.
+    #[error("{}: not verified, {}", shown(path), shown(problem))]
+    Unverified {
+        /// Path of the bundle.
+        path: PathBuf,
+        /// The number, and the command that lists all.
+        problem: String,
+    },
     /// An entry is invalid.
     #[error(transparent)]
     Entry(#[from] CatalogueError),

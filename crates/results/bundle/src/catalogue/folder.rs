@@ -90,19 +90,12 @@ pub(super) fn check_catalogue_folder(root: &Path) -> Result<(), CatalogueFolderE
     Ok(())
 }
 
-/// Makes the folders of a catalogue at `root` where they are missing.
-pub(super) fn make_folders(root: &Path) -> Result<(), CatalogueFolderError> {
-    for folder in [root.to_owned(), root.join(ENTRIES), root.join(BUNDLES)] {
-        fs::create_dir_all(&folder).map_err(CatalogueFolderError::file(&folder))?;
-    }
-    check_no_link(root, ENTRIES)?;
-    check_no_link(root, BUNDLES)
-}
-
-/// Writes a file of a catalogue, as a whole or not at all.
+/// Writes a file of a catalogue, as a whole or not at all. Its folder is made if it is missing.
 pub(super) fn write(root: &Path, path: &str, text: &str) -> Result<(), CatalogueFolderError> {
     if let Some((folder, _)) = path.split_once('/') {
         check_no_link(root, folder)?;
+        let folder = root.join(folder);
+        fs::create_dir_all(&folder).map_err(CatalogueFolderError::file(&folder))?;
     }
     check_no_link(root, path)?;
     let target = root.join(path);

@@ -22,6 +22,7 @@ impl Index {
             "name": sensor.name,
             "published": sensor.results.len(),
             "measured": sensor.measured.len(),
+            "unknown": sensor.unknown.len(),
             "simulated": sensor.simulated.len(),
         }));
     }

@@ -68,7 +68,7 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
         index.add_entry(&file.path, &sensor);
         findings.extend(name_faults(&file.path, &sensor, &built_in));
         findings.extend(row_faults(&file.path, &text, &sensor, &manifests));
-        for row in sensor.measured.iter().chain(&sensor.simulated) {
+        for row in sensor.all_rows() {
             numbers += 1;
             used.insert(manifest_path(&row.bundle));
         }
@@ -169,7 +169,7 @@ fn name_faults(path: &str, sensor: &Sensor, built_in: &[Sensor]) -> Vec<Catalogu
     let is_built_in = built_in.iter().any(|known| known.name == sensor.name);
     if is_built_in && sensor.has_published() {
         let problem = format!(
-            "published facts of `{}`, which the built-in catalogue has: expected [[measured]] and [[simulated]] alone",
+            "published facts of `{}`, which the built-in catalogue has: expected [[measured]], [[unknown]] and [[simulated]] alone",
             sensor.name
         );
         faults.push(CatalogueFinding::new(path, problem));
@@ -187,6 +187,7 @@ fn row_faults(
     let mut faults = Vec::new();
     let mut known = BTreeSet::new();
     for origin in Origin::ALL {
+        let lines = catalogue::row_lines(text, origin);
         for (at, row) in sensor.rows(origin).iter().enumerate() {
             let manifest = manifest_path(&row.bundle);
             let is_new = known.insert((&row.bundle, row.study, row.words()));
@@ -203,7 +204,7 @@ fn row_faults(
                 Some(manifest) => row_check::fault(row, manifest),
             };
             faults.extend(fault.map(|problem| CatalogueFinding {
-                line: catalogue::row_line(text, origin, at),
+                line: lines.get(at).copied(),
                 ..CatalogueFinding::new(path, problem)
             }));
         }

@@ -39,7 +39,10 @@ pub(super) fn fault(row: &Measured, manifest: &Manifest) -> Option<String> {
         (
             "ci95",
             row.ci95.map(bits) != claim.ci95.map(bits),
-            format!("{:?}", claim.ci95),
+            match claim.ci95 {
+                Some([low, high]) => format!("{low}, {high}"),
+                None => "none".to_owned(),
+            },
         ),
         (
             "unit",

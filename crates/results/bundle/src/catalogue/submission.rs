@@ -23,6 +23,8 @@ use crate::verify::{VerifyRequest, verify};
 
 /// Text of a bundle that states the protocol.
 const SCENE: &str = "scene.toml";
+/// Most bytes of authors and certificates together.
+const MOST_REPEATED: usize = 4096;
 /// Name of a sensor that no result states.
 const UNKNOWN: &str = "unknown";
 
@@ -34,21 +36,15 @@ pub(super) struct Submission {
     /// Digest of that text, as `sha256:` and digits.
     pub(super) digest: String,
     /// Rows by the name of the sensor in the results.
-    pub(super) sensors: BTreeMap<String, SubmittedRows>,
-}
-
-/// Rows of one sensor.
-#[derive(Default)]
-pub(super) struct SubmittedRows {
-    pub(super) measured: Vec<Measured>,
-    pub(super) simulated: Vec<Measured>,
+    pub(super) sensors: BTreeMap<String, Vec<Measured>>,
 }
 
 impl Submission {
     /// Verifies the bundle of `request` and reads its numbers.
     ///
     /// # Errors
-    /// [`CatalogueFolderError::Refused`] for a bundle that is damaged, differs from its files, is a draft, or names no sensor.
+    /// [`CatalogueFolderError::Unverified`] for a bundle that differs from its files, and [`CatalogueFolderError::Refused`] for one that is damaged,
+    /// is a draft, or names no sensor.
     pub(super) fn read(request: &AddRequest) -> Result<Submission, CatalogueFolderError> {
         let path = request.bundle.as_path();
         let refused = |problem: String| CatalogueFolderError::refused(path, problem);
@@ -56,9 +52,7 @@ impl Submission {
         asked.most = request.most;
         asked.jobs = request.jobs;
         let found = verify(&asked)?;
-        if let Some(problem) = unverified(&found) {
-            return Err(refused(problem));
-        }
+        check_outcome(&found, path)?;
         let source = Source::open(path, request.most)?;
         let text = source.text(MANIFEST, MOST_MANIFEST);
         let text = text.map_err(BundleError::Damaged)?;
@@ -102,6 +96,16 @@ impl Submission {
             ))
         })?;
         let protocol = protocol(manifest);
+        let by: Vec<String> = manifest.authors.iter().map(Author::to_string).collect();
+        let certificates: Vec<Vec<String>> = reports.iter().map(certificates).collect();
+        for numbers in &certificates {
+            let repeated: usize = by.iter().chain(numbers).map(String::len).sum();
+            if repeated > MOST_REPEATED {
+                return Err(refused(format!(
+                    "names and certificates of {repeated} bytes: expected at most {MOST_REPEATED}, because every row repeats them"
+                )));
+            }
+        }
         let mut levels: BTreeMap<(usize, &str, &str, Option<&str>), Level> = BTreeMap::new();
         for check in &found.claims {
             let (metric, channel) = (check.metric.as_str(), check.channel.as_str());
@@ -109,7 +113,8 @@ impl Submission {
             levels.insert(key, check.level);
         }
         for claim in &manifest.claims {
-            let Some(report) = reports.get(claim.study) else {
+            let of_study = reports.get(claim.study).zip(certificates.get(claim.study));
+            let Some((report, certificates)) = of_study else {
                 return Err(refused(format!(
                     "study {} is not in {RESULTS}",
                     claim.study
@@ -121,12 +126,12 @@ impl Submission {
                     "{RESULTS} names no sensor: expected its model, which `--sensor SENSOR.toml` of `taceva score` states as `model`"
                 )));
             }
-            let Some(origin) = Origin::of_source(&subject.source) else {
+            if Origin::of_source(&subject.source).is_none() {
                 return Err(refused(format!(
                     "the samples of study {} have the origin `{}`: expected recorded, simulated, synthetic or unknown; evaluate samples of different origins apart",
                     claim.study, subject.source
                 )));
-            };
+            }
             let variant = claim.variant.as_deref();
             let (metric, channel) = (claim.metric.as_str(), claim.channel.as_str());
             let reached = levels.get(&(claim.study, metric, channel, variant));
@@ -153,15 +158,12 @@ impl Submission {
                 verified: level.to_string(),
                 source: subject.source.clone(),
                 date,
-                by: manifest.authors.iter().map(Author::to_string).collect(),
+                by: by.clone(),
                 licence: manifest.licence.clone(),
-                traceability: certificates(report),
+                traceability: certificates.clone(),
             };
-            let rows = self.sensors.entry(subject.sensor.clone()).or_default();
-            match origin {
-                Origin::Measured => rows.measured.push(row),
-                Origin::Simulated => rows.simulated.push(row),
-            }
+            let rows = self.sensors.entry(subject.sensor.clone());
+            rows.or_default().push(row);
         }
         match self.sensors.is_empty() {
             true => Err(refused("no number in it: expected one or more".to_owned())),
@@ -191,17 +193,22 @@ pub(super) fn unfinished(manifest: &Manifest) -> Option<String> {
         let problem = "a draft: expected a bundle with author and licence; make it again by `taceva bundle … --author \"NAME <ORCID>\" --licence SPDX`";
         return Some(problem.to_owned());
     }
+    if manifest.authors.iter().any(|author| !author.is_valid()) {
+        let problem = "an author whose name or ORCID is invalid: expected `NAME <ORCID>`, as `taceva bundle --author` takes it";
+        return Some(problem.to_owned());
+    }
     (!is_licence(licence))
         .then(|| format!("the licence `{licence}`: expected an SPDX identifier such as CC-BY-4.0"))
 }
 
-/// Reason why a bundle is not verified.
-fn unverified(found: &Verification) -> Option<String> {
+/// Rejects a bundle that is damaged or not verified.
+fn check_outcome(found: &Verification, path: &Path) -> Result<(), CatalogueFolderError> {
     match found.outcome() {
-        Outcome::Verified => return None,
+        Outcome::Verified => return Ok(()),
         Outcome::Damaged => {
             let damage = found.damage.first().map(ToString::to_string);
-            return Some(format!("damaged: {}", damage.unwrap_or_default()));
+            let problem = format!("damaged: {}", damage.unwrap_or_default());
+            return Err(CatalogueFolderError::refused(path, problem));
         }
         Outcome::Unverified => {}
     }
@@ -215,15 +222,14 @@ fn unverified(found: &Verification) -> Option<String> {
         let reason = claim.reason.as_deref().unwrap_or("it differs");
         format!("{named}: {} ({reason})", claim.verdict)
     });
-    let other = found
-        .others
-        .iter()
-        .find(|other| other.verdict == Verdict::Differs);
+    let mut others = found.others.iter();
+    let other = others.find(|other| other.verdict == Verdict::Differs);
     let other = other.map(|other| format!("{}: {}", other.part, other.reason));
     let problem = claim.or(other).unwrap_or_default();
-    Some(format!(
-        "not verified, {problem}; `taceva bundle verify` lists every claim"
-    ))
+    Err(CatalogueFolderError::Unverified {
+        path: path.to_owned(),
+        problem: format!("{problem}; `taceva bundle verify` lists every claim"),
+    })
 }
 
 /// Interval of the number of a claim in the results.

@@ -1,5 +1,6 @@
 //! Numbers that others measured with this program, each with the bundle that holds it.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
@@ -89,18 +90,20 @@ pub struct Measured {
     pub traceability: Vec<String>,
 }
 
-/// Table of an entry for numbers of bundles. It gets no further variant: a number was measured or was not.
+/// Table of an entry for numbers of bundles. It gets no further variant: a number was measured or was not, or nobody states it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// `[[measured]]`: samples that a real sensor recorded, or whose origin the bundle does not state.
+    /// `[[measured]]`: samples that a real sensor recorded.
     Measured,
+    /// `[[unknown]]`: samples whose origin the bundle does not state.
+    Unknown,
     /// `[[simulated]]`: simulated or synthetic samples.
     Simulated,
 }
 
 impl Origin {
-    /// Both tables.
-    pub const ALL: [Origin; 2] = [Origin::Measured, Origin::Simulated];
+    /// All tables.
+    pub const ALL: [Origin; 3] = [Origin::Measured, Origin::Unknown, Origin::Simulated];
 
     /// Table for samples of the origin `source`; `None` if samples of one study have several origins.
     ///
@@ -111,7 +114,8 @@ impl Origin {
     /// ```
     pub fn of_source(source: &str) -> Option<Origin> {
         match source {
-            "recorded" | "unknown" => Some(Origin::Measured),
+            "recorded" => Some(Origin::Measured),
+            "unknown" => Some(Origin::Unknown),
             "simulated" | "synthetic" => Some(Origin::Simulated),
             _ => None,
         }
@@ -121,6 +125,7 @@ impl Origin {
     pub const fn table(self) -> &'static str {
         match self {
             Origin::Measured => "measured",
+            Origin::Unknown => "unknown",
             Origin::Simulated => "simulated",
         }
     }
@@ -128,8 +133,11 @@ impl Origin {
     /// Origins of samples that belong into the table, for messages.
     const fn expected(self) -> &'static str {
         match self {
-            Origin::Measured => "recorded or unknown; others belong into [[simulated]]",
-            Origin::Simulated => "simulated or synthetic; others belong into [[measured]]",
+            Origin::Measured => "recorded; others belong into [[simulated]] or [[unknown]]",
+            Origin::Unknown => "unknown; others belong into [[measured]] or [[simulated]]",
+            Origin::Simulated => {
+                "simulated or synthetic; others belong into [[measured]] or [[unknown]]"
+            }
         }
     }
 }
@@ -231,38 +239,31 @@ fn is_digest(text: &str) -> bool {
         .is_some_and(|digits| digits.len() == 64 && digits.bytes().all(is_digit))
 }
 
-/// Rows as text of an entry, in their tables.
+/// Rows as text of an entry, each in the table of its origin.
 ///
 /// # Errors
 /// [`toml::ser::Error`] for a count above 2⁶³.
-pub fn rows_text(
-    measured: &[Measured],
-    simulated: &[Measured],
-) -> Result<String, toml::ser::Error> {
-    #[derive(Serialize)]
-    struct Rows<'a> {
-        #[serde(skip_serializing_if = "<[Measured]>::is_empty")]
-        measured: &'a [Measured],
-        #[serde(skip_serializing_if = "<[Measured]>::is_empty")]
-        simulated: &'a [Measured],
+pub fn rows_text(rows: &[Measured]) -> Result<String, toml::ser::Error> {
+    let mut tables: BTreeMap<&str, Vec<&Measured>> = BTreeMap::new();
+    for row in rows {
+        if let Some(origin) = Origin::of_source(&row.source) {
+            tables.entry(origin.table()).or_default().push(row);
+        }
     }
-    toml::to_string(&Rows {
-        measured,
-        simulated,
-    })
+    toml::to_string(&tables)
 }
 
-/// Line of the row at position `at` of the table `origin` in the text of an entry; `None` if the table is written in another form.
+/// Lines at which the rows of the table `origin` begin in the text of an entry; none if the table is written in another form.
 ///
 /// ```
-/// use taceva_report::catalogue::{Origin, row_line};
+/// use taceva_report::catalogue::{Origin, row_lines};
 /// let entry = "name = \"X\"\n[[measured]]\nn = 1\n[[measured]]\nn = 2\n";
-/// assert_eq!(row_line(entry, Origin::Measured, 1), Some(4));
-/// assert_eq!(row_line(entry, Origin::Simulated, 0), None);
+/// assert_eq!(row_lines(entry, Origin::Measured), [2, 4]);
+/// assert!(row_lines(entry, Origin::Simulated).is_empty());
 /// ```
-pub fn row_line(text: &str, origin: Origin, at: usize) -> Option<usize> {
+pub fn row_lines(text: &str, origin: Origin) -> Vec<usize> {
     let head = format!("[[{}]]", origin.table());
     let lines = text.lines().zip(1..);
-    let mut heads = lines.filter(|(line, _)| line.trim().starts_with(&head));
-    heads.nth(at).map(|(_, number)| number)
+    let heads = lines.filter(|(line, _)| line.trim().starts_with(&head));
+    heads.map(|(_, number)| number).collect()
 }

@@ -17,8 +17,8 @@ impl Sensor {
     pub fn studies(&self) -> Vec<Study> {
         let is_published = self.has_published() || !self.has_bundles();
         let published = is_published.then(|| self.as_study());
-        let of_bundles = Origin::ALL.into_iter();
-        let of_bundles = of_bundles.flat_map(|origin| self.measured_studies(origin));
+        let origins = Origin::ALL.into_iter();
+        let of_bundles = origins.flat_map(|origin| self.measured_studies(origin));
         published.into_iter().chain(of_bundles).collect()
     }
 
@@ -41,6 +41,7 @@ impl Sensor {
             samples: study.made.samples_digest,
             name: study.sensor,
             measured: Vec::new(),
+            unknown: Vec::new(),
             simulated: Vec::new(),
             ..self.clone()
         });

@@ -49,9 +49,12 @@ pub struct Sensor {
     /// Published numbers.
     #[serde(default, rename = "result", alias = "published")]
     pub results: Vec<Published>,
-    /// Numbers of bundles whose samples were recorded, or have an unknown origin.
+    /// Numbers of bundles whose samples were recorded.
     #[serde(default)]
     pub measured: Vec<Measured>,
+    /// Numbers of bundles whose samples have no stated origin.
+    #[serde(default)]
+    pub unknown: Vec<Measured>,
     /// Numbers of bundles whose samples nobody measured.
     #[serde(default)]
     pub simulated: Vec<Measured>,
@@ -116,8 +119,16 @@ impl Sensor {
     pub fn rows(&self, origin: Origin) -> &[Measured] {
         match origin {
             Origin::Measured => &self.measured,
+            Origin::Unknown => &self.unknown,
             Origin::Simulated => &self.simulated,
         }
+    }
+
+    /// Numbers of bundles in all tables.
+    pub fn all_rows(&self) -> impl Iterator<Item = &Measured> {
+        Origin::ALL
+            .into_iter()
+            .flat_map(move |origin| self.rows(origin))
     }
 
     /// Source with the id `id`.

@@ -3,7 +3,7 @@
 use taceva_core::{Unit, shown};
 use taceva_metrics::Standing;
 
-use super::bundle_row::{Origin, row_line};
+use super::bundle_row::{Origin, row_lines};
 use super::definition;
 use super::entry::Sensor;
 use super::offer::{self, DAY};
@@ -85,7 +85,7 @@ impl Sensor {
         let version = sensor.catalogue_version.to_string();
         match sensor.catalogue_version {
             1 if sensor.has_bundles() => {
-                let expected = "2, which has [[measured]] and [[simulated]]";
+                let expected = "2, which has [[measured]], [[unknown]] and [[simulated]]";
                 return Err(refuse("catalogue_version", &version, expected));
             }
             1 | 2 => {}
@@ -174,7 +174,7 @@ fn check_rows(sensor: &Sensor, file: &str, text: &str) -> Result<(), CatalogueEr
             if let Some(fault) = row.fault(origin) {
                 return Err(CatalogueError::Row {
                     file: file.to_owned(),
-                    line: row_line(text, origin, at).unwrap_or(1),
+                    line: row_lines(text, origin).get(at).copied().unwrap_or(1),
                     what: fault.what,
                     found: shown(&fault.found).to_string(),
                     expected: fault.expected,

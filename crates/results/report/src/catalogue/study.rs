@@ -57,6 +57,7 @@ impl Sensor {
             sources: Vec::new(),
             results: study.scores.iter().filter_map(result).collect(),
             measured: Vec::new(),
+            unknown: Vec::new(),
             simulated: Vec::new(),
             samples: study.made.samples_digest.clone(),
             missing: Vec::new(),

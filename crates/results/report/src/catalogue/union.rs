@@ -16,7 +16,7 @@ impl Sensor {
 
     /// True if the entry has numbers of bundles.
     pub fn has_bundles(&self) -> bool {
-        !self.measured.is_empty() || !self.simulated.is_empty()
+        self.all_rows().next().is_some()
     }
 
     /// True if `name` is the name or an alias of the entry, but for case and for characters other than letters and digits.
@@ -61,6 +61,7 @@ pub fn joined(entries: &[Sensor]) -> Vec<Sensor> {
         };
         let known = &mut sensors[at];
         known.measured.extend(entry.measured.iter().cloned());
+        known.unknown.extend(entry.unknown.iter().cloned());
         known.simulated.extend(entry.simulated.iter().cloned());
         for alias in &entry.aliases {
             if !known.is_called(alias) {

@@ -18,7 +18,6 @@ const NOTE: &str = "The level states how deep a number was verified when it was 
                     and none is ranked. A grey number has no interval. A seal is a digest and no signature.";
 
 /// Number of a bundle, with its sensor.
-#[derive(Clone, Copy)]
 struct Entry<'a> {
     sensor: &'a Sensor,
     row: &'a Measured,
@@ -26,39 +25,30 @@ struct Entry<'a> {
 
 /// Page with the numbers of all bundles and their filters; `None` if there are none.
 pub(super) fn page(sensors: &[Sensor]) -> Option<SitePage> {
-    let of = |origin: Origin| -> Vec<Entry<'_>> {
-        let rows = sensors.iter().flat_map(|sensor| {
-            let rows = sensor.rows(origin).iter();
-            rows.map(move |row| Entry { sensor, row })
-        });
-        rows.collect()
-    };
-    let all: Vec<Entry<'_>> = Origin::ALL.into_iter().flat_map(of).collect();
+    let all: Vec<&Sensor> = sensors.iter().filter(|own| own.has_bundles()).collect();
     if all.is_empty() {
         return None;
     }
     let lead = html! {
-        p.lead { "Numbers that others measured with TacEva, each with its bundle. " a href="index.html" { (TITLE) } }
+        p.lead { "Numbers that others measured or simulated, each with its bundle of TacEva. " a href="index.html" { (TITLE) } }
         (filters(&all))
     };
-    let mut document = Document::new("Measured numbers", lead);
-    for origin in Origin::ALL {
-        let entries = of(origin);
-        if !entries.is_empty() {
-            add_table(&mut document, origin, &entries);
-        }
-    }
+    let mut document = Document::new("Numbers of bundles", lead);
+    add_sections(&mut document, sensors);
     Some(SitePage {
         file: FILE.to_owned(),
         text: document.finish(),
     })
 }
 
-/// Adds the numbers of the bundles of `sensor` to its page.
-pub(super) fn add_sections(document: &mut Document, sensor: &Sensor) {
+/// Adds the numbers of the bundles of `sensors` to a page, a section for each origin.
+pub(super) fn add_sections(document: &mut Document, sensors: &[Sensor]) {
     for origin in Origin::ALL {
-        let rows = sensor.rows(origin).iter();
-        let entries: Vec<Entry<'_>> = rows.map(|row| Entry { sensor, row }).collect();
+        let mut entries = Vec::new();
+        for sensor in sensors {
+            let rows = sensor.rows(origin).iter();
+            entries.extend(rows.map(|row| Entry { sensor, row }));
+        }
         if !entries.is_empty() {
             add_table(document, origin, &entries);
         }
@@ -77,11 +67,15 @@ fn add_table(document: &mut Document, origin: Origin, entries: &[Entry<'_>]) {
                     (heads(["level", "origin", "samples", "measured by", "made on", "certificates", "definition", "protocol", "bundle"]))
                 }
             }
-            tbody { @for entry in entries { (line(*entry)) } }
+            tbody { @for entry in entries { (line(entry)) } }
         }
     };
     let (title, badge) = match origin {
         Origin::Measured => ("Measured", None),
+        Origin::Unknown => (
+            "Origin unknown",
+            Some("The bundles do not state that a sensor recorded these samples."),
+        ),
         Origin::Simulated => (
             "Simulated",
             Some("Nothing here was measured: the samples are simulated or synthetic."),
@@ -95,13 +89,13 @@ fn add_table(document: &mut Document, origin: Origin, entries: &[Entry<'_>]) {
     document.section(origin.table(), title, body);
 }
 
-fn filters(entries: &[Entry<'_>]) -> Markup {
-    let rows = || entries.iter().map(|entry| entry.row);
+fn filters(sensors: &[&Sensor]) -> Markup {
+    let rows = || sensors.iter().flat_map(|sensor| sensor.all_rows());
     let depths = DEPTHS.into_iter();
     let depths = depths.filter(|depth| rows().any(|row| row.verified == *depth));
-    let sensors = entries.iter().map(|entry| entry.sensor.name.as_str());
     let named = |kind: &str, word: &str| (tag(kind, word), word.to_owned());
-    let sensors: BTreeMap<String, String> = sensors.map(|name| named("sensor", name)).collect();
+    let names = sensors.iter().map(|sensor| named("sensor", &sensor.name));
+    let names: BTreeMap<String, String> = names.collect();
     let metrics: BTreeMap<String, String> =
         rows().map(|row| named("metric", &row.metric)).collect();
     html! {
@@ -109,7 +103,7 @@ fn filters(entries: &[Entry<'_>]) -> Markup {
             legend { "Show" }
             label { "containing " input type="search" data-filter="text"; }
             (filter("level", "any", depths.map(|depth| named("level", depth))))
-            (filter("sensor", "any", sensors))
+            (filter("sensor", "any", names))
             (filter("metric", "any", metrics))
             (filter("certificate", "any", [("certified", "with a certificate"), ("uncertified", "without a certificate")]))
         } "\n"
@@ -126,7 +120,7 @@ fn tag(kind: &str, word: &str) -> String {
     format!("{kind}-{}", letters.collect::<String>())
 }
 
-fn line(entry: Entry<'_>) -> Markup {
+fn line(entry: &Entry<'_>) -> Markup {
     let Entry { sensor, row } = entry;
     let certified = match row.traceability.is_empty() {
         true => "uncertified",
