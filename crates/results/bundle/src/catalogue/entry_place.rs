@@ -11,8 +11,10 @@ use super::folder::{EntryFile, entry_path};
 
 /// Names of pages that are no sensor's.
 const RESERVED: [&str; 2] = ["index", "measured"];
-/// Longest name of a sensor, in bytes.
-const MOST_NAME: usize = 100;
+/// Longest name of a sensor, in bytes. Tables cut names of 80 letters, and origin, level and bundle follow this one.
+const MOST_NAME: usize = 40;
+/// Names that [`is_name`] accepts, for messages.
+pub(super) const NAME_RULE: &str = "expected a name of at most 40 bytes with Latin letters or digits, without control characters, other than `index` and `measured`";
 
 /// File of an entry, with the text that rows are appended to.
 pub(super) struct EntryPlace {
@@ -67,20 +69,10 @@ impl EntryPlace {
                 entry_path(&alike.slug()),
             ));
         }
-        if name.len() > MOST_NAME || name.chars().any(is_obeyed) {
-            return refused(format!(
-                "the sensor `{}`: expected a name of at most {MOST_NAME} bytes without control characters",
-                shown(name)
-            ));
+        if !is_name(name) {
+            return refused(format!("the sensor `{}`: {NAME_RULE}", shown(name)));
         }
         let slug = Sensor::slug_of(name);
-        if !is_page_name(&slug) {
-            return refused(format!(
-                "the sensor `{}`: expected a name with Latin letters or digits, other than {}",
-                shown(name),
-                RESERVED.join(" and ")
-            ));
-        }
         if let Some(other) = entries.iter().find(|entry| entry.path == entry_path(&slug)) {
             return refused(format!(
                 "the sensor `{}`: its file {} holds `{}`; expected an entry of that name",
@@ -116,7 +108,10 @@ impl EntryPlace {
     }
 }
 
-/// True for the slug of a name that makes a page of its own.
-pub(super) fn is_page_name(slug: &str) -> bool {
-    slug.chars().any(|letter| letter.is_ascii_alphanumeric()) && !RESERVED.contains(&slug)
+/// True for a name that makes a page of its own and fits into tables.
+pub(super) fn is_name(name: &str) -> bool {
+    let slug = Sensor::slug_of(name);
+    let has_letter = slug.chars().any(|letter| letter.is_ascii_alphanumeric());
+    let is_page = has_letter && !RESERVED.contains(&slug.as_str());
+    is_page && name.len() <= MOST_NAME && !name.chars().any(is_obeyed)
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use taceva_files::seal::digest_of_bytes;
 use taceva_report::catalogue::{self, Origin, Sensor};
 
-use super::entry_place::is_page_name;
+use super::entry_place::{NAME_RULE, is_name};
 use super::error::CatalogueFolderError;
 use super::finding::CatalogueFinding;
 use super::folder::{
@@ -151,22 +151,15 @@ fn manifests(
 /// Faults of the name of an entry, and of its published numbers.
 fn name_faults(path: &str, sensor: &Sensor, built_in: &[Sensor]) -> Vec<CatalogueFinding> {
     let mut faults = Vec::new();
-    let slug = sensor.slug();
-    if !is_page_name(&slug) {
-        let problem = format!(
-            "the name `{}` makes no page: expected Latin letters or digits, and neither `index` nor `measured`",
-            sensor.name
-        );
+    let file = entry_path(&sensor.slug());
+    let is_built_in = built_in.iter().any(|known| known.name == sensor.name);
+    if !is_built_in && !is_name(&sensor.name) {
+        let problem = format!("the sensor `{}`: {NAME_RULE}", sensor.name);
         faults.push(CatalogueFinding::new(path, problem));
-    } else if path != entry_path(&slug) {
-        let problem = format!(
-            "the file of `{}`: expected the name {}",
-            sensor.name,
-            entry_path(&slug)
-        );
+    } else if path != file {
+        let problem = format!("the file of `{}`: expected the name {file}", sensor.name);
         faults.push(CatalogueFinding::new(path, problem));
     }
-    let is_built_in = built_in.iter().any(|known| known.name == sensor.name);
     if is_built_in && sensor.has_published() {
         let problem = format!(
             "published facts of `{}`, which the built-in catalogue has: expected [[measured]], [[unknown]] and [[simulated]] alone",
