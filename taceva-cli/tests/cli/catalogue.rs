@@ -178,7 +178,7 @@ fn numbers_whose_origin_nobody_states_do_not_pass_as_measured() {
         "{entry}"
     );
     bench.ok("catalogue check c");
-    let chosen = bench.ok("choose --catalogue c --need depth --format json");
+    let chosen = bench.ok("choose --catalogue c --need force --format json");
     assert!(!chosen.contains("Foo"), "{chosen}");
     bench.ok("catalogue site c --out pages -q");
     let page = fs::read_to_string(bench.path("pages/foo.html")).expect("written");
@@ -271,7 +271,7 @@ fn numbers_of_other_samples_or_definitions_stand_side_by_side_without_a_rank() {
     let said = bench.ok("compare Foo Bar --catalogue c --metrics mae");
     assert!(said.contains("Foo (measured, predictions, "), "{said}");
     // Published numbers and measured ones rest on different samples.
-    let chosen = bench.json("choose --catalogue c --need depth");
+    let chosen = bench.json("choose --catalogue c --need force");
     crate::schema::check("choice", &chosen);
     let listed = |list: &str| chosen[list].to_string();
     assert!(

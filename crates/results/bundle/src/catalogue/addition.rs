@@ -52,8 +52,8 @@ pub struct Addition {
 /// ```
 ///
 /// # Errors
-/// [`CatalogueFolderError`] if the bundle is not verified, is a draft or is in the catalogue already, if an entry is invalid, or if a file cannot be
-/// written. The catalogue is then as it was, unless only some of several entries could be written; the same command completes it.
+/// [`CatalogueFolderError`] if the bundle is not verified, is a draft or is in the catalogue already. An invalid entry is an error too, as is a file
+/// that cannot be written. The catalogue is then as it was, unless only some of several entries could be written; the same command completes it.
 pub fn add(request: &AddRequest) -> Result<Addition, CatalogueFolderError> {
     let submission = Submission::read(request)?;
     let root = request.catalogue.as_path();

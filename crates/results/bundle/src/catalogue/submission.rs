@@ -12,6 +12,7 @@ use super::error::CatalogueFolderError;
 use super::request::AddRequest;
 use crate::author::{Author, is_licence};
 use crate::claim::{Claim, words};
+use crate::claim_list;
 use crate::error::BundleError;
 use crate::form;
 use crate::layout::{MANIFEST, MOST_MANIFEST, RESULTS};
@@ -132,9 +133,7 @@ impl Submission {
                     claim.study, subject.source
                 )));
             }
-            let variant = claim.variant.as_deref();
-            let (metric, channel) = (claim.metric.as_str(), claim.channel.as_str());
-            let reached = levels.get(&(claim.study, metric, channel, variant));
+            let reached = levels.get(&claim_list::key(claim));
             let level = reached.copied().unwrap_or(Level::Form).min(claim.level);
             let interval = interval_of(claim, report);
             let row = Measured {

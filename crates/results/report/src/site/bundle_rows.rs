@@ -1,4 +1,4 @@
-//! Numbers of bundles on pages: who measured each, on which samples, and how deep it was verified.
+//! Numbers of bundles on pages, each with its authors, its samples, and the depth of its verification.
 
 use std::collections::BTreeMap;
 
@@ -13,8 +13,8 @@ use crate::number::numeral;
 /// Name of the page with the numbers of all sensors.
 pub(super) const FILE: &str = "measured.html";
 /// Meaning of the columns.
-const NOTE: &str = "The level states how deep a number was verified when it was added: `files` and `form` compare bytes and seals, `scores` computes it \
-                    again from sums, `predictions` from tables of truth and prediction. Numbers of different samples or definitions are not comparable, \
+const NOTE: &str = "The level states how deep a number was verified when it was added. `files` and `form` compare bytes and seals. `scores` computes it \
+                    again from sums, and `predictions` from tables of truth and prediction. Numbers of different samples or definitions are not comparable, \
                     and none is ranked. A grey number has no interval. A seal is a digest and no signature.";
 
 /// Number of a bundle, with its sensor.
@@ -44,7 +44,7 @@ pub(super) fn page(sensors: &[Sensor]) -> Option<SitePage> {
 /// Adds the numbers of the bundles of `sensors` to a page, a section for each origin.
 pub(super) fn add_sections(document: &mut Document, sensors: &[Sensor]) {
     for origin in Origin::ALL {
-        let mut entries = Vec::new();
+        let mut entries: Vec<Entry<'_>> = Vec::new();
         for sensor in sensors {
             let rows = sensor.rows(origin).iter();
             entries.extend(rows.map(|row| Entry { sensor, row }));
