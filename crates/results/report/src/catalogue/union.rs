@@ -19,16 +19,17 @@ impl Sensor {
         self.all_rows().next().is_some()
     }
 
-    /// True if `name` is the name or an alias of the entry, but for case and for characters other than letters and digits.
+    /// True if `name` is the name or an alias of the entry, but for case and for characters other than letters and digits, or has the same slug.
     ///
     /// ```
     /// let sensor = taceva_report::catalogue::find("GelSight").expect("there");
     /// assert!(sensor.is_called_like("gelsight-mini") && !sensor.is_called_like("GelSlim"));
+    /// assert!(sensor.is_called_like("GelSightMini"));
     /// ```
     pub fn is_called_like(&self, name: &str) -> bool {
-        let wanted = letters(name);
+        let (wanted, slug) = (letters(name), Sensor::slug_of(name));
         let mut names = std::iter::once(&self.name).chain(&self.aliases);
-        names.any(|own| letters(own) == wanted)
+        names.any(|own| letters(own) == wanted || Sensor::slug_of(own) == slug)
     }
 
     /// True if `name` is the name or an alias of the entry, but for case.
