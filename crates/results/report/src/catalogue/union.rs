@@ -19,7 +19,8 @@ impl Sensor {
         self.all_rows().next().is_some()
     }
 
-    /// True if `name` is the name or an alias of the entry, but for case and for characters other than letters and digits, or has the same slug.
+    /// True if `name` is the name or an alias of the entry, but for case and for characters other than letters and digits. Names with one slug are
+    /// alike too.
     ///
     /// ```
     /// let sensor = taceva_report::catalogue::find("GelSight").expect("there");
