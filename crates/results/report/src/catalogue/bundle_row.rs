@@ -1,7 +1,6 @@
 //! Numbers that others measured with this program, each with the bundle that holds it.
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use serde::{Deserialize, Serialize};
 use taceva_core::Unit;
@@ -139,12 +138,6 @@ impl Origin {
                 "simulated or synthetic; others belong into [[measured]] or [[unknown]]"
             }
         }
-    }
-}
-
-impl fmt::Display for Origin {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.table())
     }
 }
 
