@@ -4,6 +4,7 @@ mod bench;
 mod budget;
 mod bundle;
 mod cache;
+mod catalogue;
 mod curve;
 mod dataset;
 mod examples;
@@ -29,6 +30,9 @@ pub(crate) use self::bundle::{
     Bundle, BundleDiff, BundleMake, BundleSubject, BundleVerify, LevelArg, WithPart, WithoutPart,
 };
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
+pub(crate) use self::catalogue::{
+    CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueShow, CatalogueSite, CatalogueSubject,
+};
 pub(crate) use self::curve::Curve;
 pub(crate) use self::dataset::{Check, Export, Import, Reseal};
 pub(crate) use self::figure::FigureArgs;
@@ -41,10 +45,7 @@ pub(crate) use self::plugin::{
     PluginHeaders, PluginInfo, PluginInstall, PluginList, PluginManifest, PluginNew, PluginPack,
     PluginRelease, PluginUninstall,
 };
-pub(crate) use self::results::{
-    Accept, CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Choose, Compare,
-    Conditional, Like, ReportArgs,
-};
+pub(crate) use self::results::{Accept, Choose, Compare, Conditional, Like, ReportArgs};
 pub(crate) use self::rig::{RigCheckArgs, RigCommand, RigSubject, RigTapArgs, RigTeachArgs};
 pub(crate) use self::shared::{
     CacheArgs, ExplainArgs, Format, ListFormat, ModelArgs, OptionalModelArgs, Output, PageArgs,
@@ -147,7 +148,7 @@ pub(crate) enum Command {
     Curve(Curve),
     /// Combine uncertainties to that of a reading: sources, measured or stated, and effects that none of them covers
     Budget(Budget),
-    /// Published numbers of sensors, each with its source
+    /// Published numbers of sensors, each with its source, and numbers of bundles in a folder
     Catalogue(CatalogueArgs),
     /// List the results kept for later runs, or remove old ones
     Cache(CacheCommand),

@@ -29,6 +29,7 @@ use std::time::Duration;
 use anyhow::Error;
 use clap::FromArgMatches as _;
 use taceva_acquire::AcquireError;
+use taceva_bundle::CatalogueFolderError;
 use taceva_core::{ErrorKind, ModelError};
 use taceva_dataset::DatasetError;
 use taceva_evaluate::EvaluateError;
@@ -234,6 +235,10 @@ fn code_of(error: &Error) -> u8 {
             && sweep.is_usage()
         {
             return exit::USAGE;
+        }
+        let of_catalogue = cause.downcast_ref::<CatalogueFolderError>();
+        if let Some(CatalogueFolderError::Unverified { .. }) = of_catalogue {
+            return exit::CHECK_FAILED;
         }
         if let Some(code) = code_of_study(cause) {
             return code;

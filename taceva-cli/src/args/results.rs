@@ -1,8 +1,8 @@
-//! Arguments of the commands that read results and the catalogue.
+//! Arguments of the commands that read results.
 
 use std::path::PathBuf;
 
-use clap::{ArgGroup, Args, Subcommand, ValueEnum};
+use clap::{ArgGroup, Args, ValueEnum};
 
 use super::{FigureArgs, Format, Output, PageArgs, SeedArgs, TableArgs};
 
@@ -15,6 +15,9 @@ pub(crate) struct Compare {
     /// The results to compare
     #[arg(required = true, value_name = "RESULT", num_args = 1..)]
     pub(crate) results: Vec<PathBuf>,
+    /// The folder of a catalogue, whose sensors can be named too; numbers of its bundles state their level
+    #[arg(long, value_name = "DIR")]
+    pub(crate) catalogue: Option<PathBuf>,
     /// Metrics, separated by commas: ids, or the groups accuracy and all [default: all with a direction]
     #[arg(long, value_name = "METRICS", value_delimiter = ',')]
     pub(crate) metrics: Vec<String>,
@@ -87,6 +90,9 @@ pub(crate) struct Choose {
     /// Choose among these results instead of the catalogue; may be repeated
     #[arg(long, value_name = "RESULT")]
     pub(crate) results: Vec<PathBuf>,
+    /// The folder of a catalogue, whose measured numbers take part; each states its level, and those of different samples are not ranked
+    #[arg(long, value_name = "DIR", conflicts_with = "results")]
+    pub(crate) catalogue: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) page: PageArgs,
     #[command(flatten)]
@@ -165,42 +171,4 @@ pub(crate) struct Accept {
     pub(crate) date: Option<String>,
     #[command(flatten)]
     pub(crate) output: Output,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct CatalogueArgs {
-    #[command(subcommand)]
-    pub(crate) subject: CatalogueSubject,
-}
-
-/// Operation on the catalogue.
-#[derive(Debug, Subcommand)]
-pub(crate) enum CatalogueSubject {
-    /// List every sensor
-    List(Output),
-    /// Show the published numbers of one sensor, each with its source
-    Show(CatalogueShow),
-    /// Write the catalogue as pages: a list to filter and sort, and one page for each sensor
-    Site(CatalogueSite),
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct CatalogueShow {
-    /// The name of the sensor
-    pub(crate) name: String,
-    #[command(flatten)]
-    pub(crate) output: Output,
-}
-
-#[derive(Debug, Args)]
-pub(crate) struct CatalogueSite {
-    /// The folder to write the pages into
-    #[arg(long = "out", value_name = "FOLDER")]
-    pub(crate) folder: PathBuf,
-    /// Results of this program to show apart from published ones; may be repeated
-    #[arg(long, value_name = "RESULT")]
-    pub(crate) results: Vec<PathBuf>,
-    /// Replace pages that exist already
-    #[arg(long)]
-    pub(crate) force: bool,
 }

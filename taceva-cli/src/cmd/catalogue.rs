@@ -1,13 +1,22 @@
 //! `taceva catalogue`.
 
+use std::collections::BTreeSet;
 use std::fs;
-use taceva_core::shown;
+use std::path::Path;
 
-use anyhow::Context as _;
-use taceva_report::catalogue;
+use anyhow::{Context as _, bail};
+use taceva_bundle::{
+    AddRequest, add_to_catalogue, catalogue_entries, check_catalogue, write_index,
+};
+use taceva_core::{counted, shown};
+use taceva_report::catalogue::{self, Sensor};
+use taceva_report::{SitePage, Table};
 
 use super::{Context, Usage, results};
-use crate::args::{CatalogueArgs, CatalogueShow, CatalogueSite, CatalogueSubject, Output};
+use crate::args::{
+    CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueShow, CatalogueSite,
+    CatalogueSubject, Output,
+};
 use crate::{exit, output};
 
 pub(crate) fn run(args: &CatalogueArgs, context: &Context) -> anyhow::Result<u8> {
@@ -15,6 +24,8 @@ pub(crate) fn run(args: &CatalogueArgs, context: &Context) -> anyhow::Result<u8>
         CatalogueSubject::List(output) => list(output),
         CatalogueSubject::Show(args) => show(args),
         CatalogueSubject::Site(args) => site(args, context),
+        CatalogueSubject::Add(args) => add(args, context),
+        CatalogueSubject::Check(args) => check(args),
     }
 }
 
@@ -34,7 +45,7 @@ fn show(args: &CatalogueShow) -> anyhow::Result<u8> {
     write(&args.output, &table)
 }
 
-fn write(args: &Output, table: &taceva_report::Table) -> anyhow::Result<u8> {
+fn write(args: &Output, table: &Table) -> anyhow::Result<u8> {
     if let Some(path) = &args.path {
         output::check_free(path, args.force)?;
     }
@@ -44,7 +55,8 @@ fn write(args: &Output, table: &taceva_report::Table) -> anyhow::Result<u8> {
 
 fn site(args: &CatalogueSite, context: &Context) -> anyhow::Result<u8> {
     let ours = results::read_all(&args.results)?;
-    let pages = taceva_report::site(&catalogue::all(), &ours);
+    let pages = taceva_report::site(&sensors(args.catalogue.as_deref())?, &ours);
+    check_names(&pages)?;
     fs::create_dir_all(&args.folder)
         .with_context(|| format!("cannot make {}", shown(&args.folder)))?;
     for page in &pages {
@@ -56,5 +68,78 @@ fn site(args: &CatalogueSite, context: &Context) -> anyhow::Result<u8> {
     }
     let first = args.folder.join("index.html");
     context.say(format_args!("look at    {}", shown(&first)));
+    Ok(exit::DONE)
+}
+
+/// Rejects two pages with one name.
+fn check_names(pages: &[SitePage]) -> anyhow::Result<()> {
+    let mut known = BTreeSet::new();
+    match pages.iter().find(|page| !known.insert(&page.file)) {
+        Some(page) => bail!(
+            "two sensors have the page {}: expected distinct names; `taceva catalogue check DIR` lists them",
+            page.file
+        ),
+        None => Ok(()),
+    }
+}
+
+/// Sensors of the catalogue, with the entries of the catalogue in `folder`.
+pub(super) fn sensors(folder: Option<&Path>) -> anyhow::Result<Vec<Sensor>> {
+    Ok(match folder {
+        None => catalogue::all(),
+        Some(folder) => catalogue::joined(&catalogue_entries(folder)?),
+    })
+}
+
+fn add(args: &CatalogueAdd, context: &Context) -> anyhow::Result<u8> {
+    let mut request = AddRequest::new(&args.bundle, &args.catalogue);
+    request.url.clone_from(&args.url);
+    request.most = args.most;
+    request.jobs = context.jobs;
+    let added = add_to_catalogue(&request)?;
+    output::write(None, |out| {
+        for entry in &added.entries {
+            writeln!(out, "wrote    {}", shown(&args.catalogue.join(entry)))?;
+        }
+        writeln!(
+            out,
+            "rows     {} measured, {} of unknown origin, {} simulated",
+            added.measured, added.unknown, added.simulated
+        )?;
+        writeln!(out, "verified to the level {} or deeper", added.level)?;
+        match &added.badge {
+            Some(badge) => writeln!(out, "{badge}"),
+            None => Ok(()),
+        }
+    })?;
+    Ok(exit::DONE)
+}
+
+fn check(args: &CatalogueCheckArgs) -> anyhow::Result<u8> {
+    if let Some(path) = &args.output.path {
+        output::check_free(path, args.output.force)?;
+    }
+    let found = check_catalogue(&args.catalogue)?;
+    let caption = format!(
+        "{} in {}, {} and {}",
+        counted(found.findings.len() as u64, "finding"),
+        counted(found.entries, "entry"),
+        counted(found.bundles, "bundle"),
+        counted(found.numbers, "number"),
+    );
+    let mut table = Table::new(caption, ["file", "line", "finding"]);
+    for finding in &found.findings {
+        let line = finding
+            .line
+            .map_or_else(String::new, |line| line.to_string());
+        table.push([finding.path.clone(), line, finding.problem.clone()]);
+    }
+    results::write(&table, &args.output, || {
+        table.json("taceva.catalogue-check/1")
+    })?;
+    if !found.findings.is_empty() {
+        return Ok(exit::CHECK_FAILED);
+    }
+    write_index(&args.catalogue, &found)?;
     Ok(exit::DONE)
 }

@@ -1,12 +1,14 @@
 //! `taceva choose`.
 
 use std::fs;
+use std::path::Path;
 use taceva_core::shown;
 
 use anyhow::Context as _;
-use taceva_report::{Need, catalogue, choose, choose_results, escape_markdown};
+use taceva_report::catalogue::Sensor;
+use taceva_report::{Need, choose, choose_results, escape_markdown};
 
-use super::{Usage, results};
+use super::{Usage, catalogue, results};
 use crate::args::{Choose, Format};
 use crate::{exit, output};
 
@@ -27,7 +29,7 @@ pub(crate) fn run(args: &Choose) -> anyhow::Result<u8> {
         }
     };
     let choice = match args.results.is_empty() {
-        true => choose(&catalogue::all(), &needs),
+        true => choose(&candidates(args.catalogue.as_deref())?, &needs),
         false => choose_results(&results::read_all(&args.results)?, &needs),
     };
     let table = choice.table();
@@ -52,4 +54,17 @@ pub(crate) fn run(args: &Choose) -> anyhow::Result<u8> {
         output::write(Some(path), |out| out.write_all(page.as_bytes()))?;
     }
     Ok(exit::DONE)
+}
+
+/// Sensors of the catalogue, and those of the catalogue in `folder` by each of their measured bundles.
+fn candidates(folder: Option<&Path>) -> anyhow::Result<Vec<Sensor>> {
+    let mut sensors = catalogue::sensors(folder)?;
+    let measured: Vec<Sensor> = sensors
+        .iter()
+        .flat_map(Sensor::measured_candidates)
+        .collect();
+    // A sensor without published facts is there by its bundles alone.
+    sensors.retain(|sensor| sensor.has_published() || !sensor.has_bundles());
+    sensors.extend(measured);
+    Ok(sensors)
 }

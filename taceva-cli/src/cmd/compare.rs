@@ -16,7 +16,11 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
         output::check_free(path, args.output.force)?;
     }
     results::check_distinct(&args.results)?;
-    let results::Found { studies, missing } = results::find_all(&args.results)?;
+    let folder = args.catalogue.as_deref();
+    let sensors = folder.map(|folder| super::catalogue::sensors(Some(folder)));
+    let sensors = sensors.transpose()?;
+    let found = results::find_among(&args.results, sensors.as_deref())?;
+    let results::Found { studies, missing } = found;
     if studies.len() < 2 {
         return Err(Usage::error(
             "one result: expected at least two; `taceva catalogue list` names sensors to compare with",

@@ -9,6 +9,7 @@ use taceva_core::shown;
 use taceva_dataset::internal::quoted;
 
 use anyhow::Context as _;
+use taceva_report::catalogue::Sensor;
 use taceva_report::{Layout, Study, Table, catalogue, escape_markdown, escape_terminal};
 use taceva_results::{EvaluationReport, Score};
 
@@ -82,9 +83,14 @@ fn meant(path: &Path) -> PathBuf {
 
 /// The studies of all results: files, folders of runs, or names of the catalogue if there is no such file.
 pub(super) fn find_all(named: &[PathBuf]) -> anyhow::Result<Found> {
+    find_among(named, None)
+}
+
+/// The studies of all results, by names of `sensors` in place of the catalogue.
+pub(super) fn find_among(named: &[PathBuf], sensors: Option<&[Sensor]>) -> anyhow::Result<Found> {
     let mut all = Found::default();
     for path in named {
-        let found = find(path)?;
+        let found = find(path, sensors)?;
         all.studies.extend(found.studies);
         all.missing.extend(found.missing);
     }
@@ -98,7 +104,7 @@ pub(super) fn read_all(named: &[PathBuf]) -> anyhow::Result<Vec<Study>> {
 
 /// The studies of one result.
 pub(super) fn read(path: &Path) -> anyhow::Result<Vec<Study>> {
-    find(path).map(|found| found.studies)
+    find(path, None).map(|found| found.studies)
 }
 
 /// A line for each sensor of the catalogue that is named by an alias.
@@ -112,15 +118,19 @@ pub(super) fn aliases(named: &[PathBuf]) -> Vec<String> {
     lines.collect()
 }
 
-fn find(path: &Path) -> anyhow::Result<Found> {
+fn find(path: &Path, sensors: Option<&[Sensor]>) -> anyhow::Result<Found> {
     if !path.exists() {
         let name = path.to_string_lossy();
-        let sensor = catalogue::named(&name).map_err(|error| {
+        let sensor = match sensors {
+            None => catalogue::named(&name),
+            Some(sensors) => catalogue::named_among(sensors, &name),
+        };
+        let sensor = sensor.map_err(|error| {
             let name = escape_terminal(&name);
             Usage::error(format!("`{name}`: no such file, and {error}"))
         })?;
         return Ok(Found {
-            studies: vec![sensor.as_study()],
+            studies: sensor.studies(),
             missing: Vec::new(),
         });
     }

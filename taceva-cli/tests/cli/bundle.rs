@@ -1,6 +1,6 @@
 //! Bundles of results: made, verified, forged, compared.
 
-mod forgery;
+pub(crate) mod forgery;
 mod hidden;
 mod inputs;
 mod model;

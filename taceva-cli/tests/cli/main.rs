@@ -7,6 +7,7 @@ mod budget;
 mod bundle;
 mod cache;
 mod cache_list;
+mod catalogue;
 mod curve;
 mod directions;
 mod division;

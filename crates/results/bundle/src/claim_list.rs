@@ -41,7 +41,7 @@ pub(crate) fn fault(manifest: &Manifest, reports: &[EvaluationReport]) -> Option
 }
 
 /// Name of the number of a claim.
-fn key(claim: &Claim) -> (usize, &str, &str, Option<&str>) {
+pub(crate) fn key(claim: &Claim) -> (usize, &str, &str, Option<&str>) {
     let (metric, channel) = (claim.metric.as_str(), claim.channel.as_str());
     (claim.study, metric, channel, claim.variant.as_deref())
 }

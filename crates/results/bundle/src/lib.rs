@@ -3,6 +3,7 @@
 mod archive;
 mod author;
 mod card;
+mod catalogue;
 mod claim;
 mod claim_list;
 mod columns;
@@ -36,6 +37,10 @@ mod writer;
 mod yaml;
 
 pub use author::{Author, is_licence};
+pub use catalogue::{
+    AddRequest, Addition, CatalogueCheck, CatalogueFinding, CatalogueFolderError, INDEX_SCHEMA,
+    add as add_to_catalogue, check_catalogue, entries as catalogue_entries, write_index,
+};
 pub use claim::Claim;
 pub use comparison::{
     BundleComparison, COMPARISON_SCHEMA, ClaimDifference, DefinitionDifference, compare,

@@ -2,6 +2,8 @@
 
 mod alike;
 mod builtin;
+mod bundle_row;
+mod bundle_study;
 mod definition;
 mod entry;
 mod facts;
@@ -12,7 +14,10 @@ mod published;
 mod question;
 mod read;
 mod study;
+mod union;
 
+pub(crate) use bundle_row::short;
+pub use bundle_row::{DEPTHS, Measured, Origin, row_lines, rows_text};
 pub use entry::{Kind, Sensor};
 pub use facts::{Limits, Size};
 pub(crate) use list::{MECHANISMS, prices};
@@ -22,6 +27,7 @@ pub use offer::{Availability, Goods, Price, Way};
 pub use published::{Missing, Published, Roughly, Source};
 pub use question::Question;
 pub use read::CatalogueError;
+pub use union::{joined, named_among};
 
 /// Built-in sensors and studies, by name.
 ///
@@ -231,6 +237,15 @@ mod tests {
         assert!(error.to_string().contains("median error"), "{error}");
         assert!(entry("drift", "per day").is_err());
         assert!(entry("median_error", "median error").is_ok());
+    }
+
+    #[test]
+    fn an_entry_of_version_2_may_call_its_published_numbers_so() {
+        let text = "catalogue_version = 2\nname = \"x\"\nkind = \"sensor\"\nmechanism = []\n[[published]]\nmetric = \"force_error\"\nchannel = \"F\"\n\
+                    value = 0.1\nunit = \"N\"\nsource = \"s\"\nread_from = \"text\"\nconditions = \"c\"\ndefinition = \"d\"\n";
+        let sensor = Sensor::read("x.toml", text).expect("an entry");
+        assert_eq!(sensor.results.len(), 1);
+        assert!(sensor.has_published() && !sensor.has_bundles());
     }
 
     #[test]

@@ -6,6 +6,7 @@ mod other;
 mod place;
 mod property;
 mod render;
+mod samples;
 mod values;
 mod words;
 
@@ -32,6 +33,8 @@ pub struct Choice {
     pub barred: Vec<Dropped>,
     /// Sensors that meet the hard needs but have no rank, because a number for a ranking need is unknown.
     pub unplaced: Vec<Dropped>,
+    /// Sensors of a catalogue that meet the hard needs but have no rank, because others rest on other samples or definitions.
+    pub apart: Vec<Dropped>,
     /// Numbers of the sensors without a rank, in the order of the sensors.
     pub others: Vec<Candidate>,
     /// Sensors without any number that the needs use, but with one by another definition. The reason names it.
@@ -120,6 +123,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
         dropped: Vec::new(),
         barred: Vec::new(),
         unplaced: Vec::new(),
+        apart: Vec::new(),
         others: Vec::new(),
         other_definitions: Vec::new(),
         unknown: Vec::new(),
@@ -163,6 +167,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
             remaining.push(sensor);
         }
     }
+    choice.apart = samples::take_apart(&mut remaining, needs);
     choice.ranked = remaining
         .iter()
         .map(|sensor| candidate(sensor, &remaining, needs))

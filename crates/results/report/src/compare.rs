@@ -262,8 +262,9 @@ fn pairs<'a>(
                     b: &names[b],
                 };
                 let of_studies = Sides { a: study, b: other };
-                let barred = comparability::barred(scores, of_both);
-                let barred = barred.or_else(|| splits::barred(metric, of_studies, of_both));
+                let barred = comparability::of_other_samples(scores, of_studies)
+                    .or_else(|| comparability::barred(scores, of_both))
+                    .or_else(|| splits::barred(metric, of_studies, of_both));
                 let (difference, unpaired) = match barred {
                     Some(reason) => (Err(reason), None),
                     None => difference(scores, of_studies, of_both, request.seed),

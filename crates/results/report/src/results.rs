@@ -87,6 +87,8 @@ pub struct Made {
     pub folds: Option<String>,
     /// Groups that the split keeps together: the column `object`, or `block of time`; `None` for contact points.
     pub group: Option<String>,
+    /// Digest of the samples, for numbers of a bundle in a catalogue.
+    pub samples_digest: Option<String>,
 }
 
 impl From<EvaluationReport> for Study {

@@ -1,5 +1,7 @@
 //! Catalogue as a static site: a sortable, filterable list, and one page for each sensor with a stable file name.
 
+mod bundle_rows;
+
 use maud::{Markup, html};
 
 use crate::catalogue::{Kind, MECHANISMS, Published, Sensor, Size, prices};
@@ -29,6 +31,7 @@ pub fn site(sensors: &[Sensor], ours: &[Study]) -> Vec<SitePage> {
         file: "index.html".to_owned(),
         text: index(sensors, ours),
     }];
+    pages.extend(bundle_rows::page(sensors));
     pages.extend(sensors.iter().map(|sensor| SitePage {
         file: format!("{}.html", sensor.slug()),
         text: page(sensor),
@@ -38,7 +41,14 @@ pub fn site(sensors: &[Sensor], ours: &[Study]) -> Vec<SitePage> {
 
 fn index(sensors: &[Sensor], ours: &[Study]) -> String {
     let lead = "Published facts and results of each sensor, every number with its source.";
-    let mut document = Document::new(TITLE, html! { p.lead { (lead) } });
+    let has_bundles = sensors.iter().any(Sensor::has_bundles);
+    let lead = html! {
+        p.lead {
+            (lead)
+            @if has_bundles { " " a href=(bundle_rows::FILE) { "Numbers of bundles" } }
+        }
+    };
+    let mut document = Document::new(TITLE, lead);
     let of_kind = |kind| sensors.iter().filter(move |entry| entry.kind == kind);
     document.section("sensors", "Sensors", list(of_kind(Kind::Sensor)));
     if of_kind(Kind::Study).next().is_some() {
@@ -168,6 +178,7 @@ fn page(sensor: &Sensor) -> String {
     if !sensor.results.is_empty() {
         document.section("results", "Published results", results(sensor));
     }
+    bundle_rows::add_sections(&mut document, std::slice::from_ref(sensor));
     let named = sensor.results.iter().map(|result| result.metric.as_str());
     let is_known = |id: &str| taceva_metrics::Better::of(id).is_some();
     if named.clone().any(is_known) {

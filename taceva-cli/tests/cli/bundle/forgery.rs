@@ -9,7 +9,7 @@ use taceva_files::seal::{digest_of_bytes, json};
 use crate::support::Bench;
 
 /// Replaces the text of the file at `path`.
-pub(super) fn edit(path: &Path, change: impl FnOnce(String) -> String) {
+pub(crate) fn edit(path: &Path, change: impl FnOnce(String) -> String) {
     let text = fs::read_to_string(path).expect("a text");
     let changed = change(text.clone());
     assert_ne!(changed, text, "{} has nothing to change", path.display());
@@ -17,14 +17,14 @@ pub(super) fn edit(path: &Path, change: impl FnOnce(String) -> String) {
 }
 
 /// Seals the file at `path` as it is.
-pub(super) fn accept(path: &Path) {
+pub(crate) fn accept(path: &Path) {
     let text = fs::read_to_string(path).expect("a text");
     let sealed = json::reseal(&text, "2026-11-28", "forged").expect("JSON");
     fs::write(path, sealed).expect("room");
 }
 
 /// The manifest of the bundle in `folder`.
-pub(super) fn manifest(bench: &Bench, folder: &str) -> Value {
+pub(crate) fn manifest(bench: &Bench, folder: &str) -> Value {
     let text = fs::read_to_string(bench.path(folder).join("bundle.json")).expect("written");
     serde_json::from_str(&text).expect("JSON")
 }
@@ -35,7 +35,7 @@ pub(super) fn of_another_version(manifest: &mut Value) {
 }
 
 /// Changes the manifest in `folder`, and states size and digest of every file as it is now.
-pub(super) fn relist(bench: &Bench, folder: &str, change: impl FnOnce(&mut Value)) {
+pub(crate) fn relist(bench: &Bench, folder: &str, change: impl FnOnce(&mut Value)) {
     let mut manifest = manifest(bench, folder);
     let root = bench.path(folder);
     for file in manifest["files"].as_array_mut().expect("files") {

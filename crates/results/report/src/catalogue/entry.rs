@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use super::bundle_row::{Measured, Origin};
 use super::facts::{Limits, Size};
 use super::offer::{Availability, Price, Way};
 use super::published::{Missing, Published, Source};
@@ -12,7 +13,7 @@ use super::published::{Missing, Published, Source};
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sensor {
-    /// Version of the file; always 1.
+    /// Version of the file: 2, or 1 without numbers of bundles.
     pub(super) catalogue_version: u32,
     /// Name of the sensor.
     pub name: String,
@@ -46,8 +47,20 @@ pub struct Sensor {
     #[serde(default, rename = "source")]
     pub sources: Vec<Source>,
     /// Published numbers.
-    #[serde(default, rename = "result")]
+    #[serde(default, rename = "result", alias = "published")]
     pub results: Vec<Published>,
+    /// Numbers of bundles whose samples were recorded.
+    #[serde(default)]
+    pub measured: Vec<Measured>,
+    /// Numbers of bundles whose samples have no stated origin.
+    #[serde(default)]
+    pub unknown: Vec<Measured>,
+    /// Numbers of bundles whose samples nobody measured.
+    #[serde(default)]
+    pub simulated: Vec<Measured>,
+    /// Digest of the samples behind the results of a measured candidate; `None` for published numbers.
+    #[serde(skip)]
+    pub samples: Option<String>,
     /// Numbers that are not published, with the reason.
     #[serde(default)]
     pub missing: Vec<Missing>,
@@ -102,14 +115,35 @@ impl Sensor {
         ready.min_by(|left, right| left.amount.total_cmp(&right.amount))
     }
 
+    /// Numbers of bundles in the table of `origin`.
+    pub fn rows(&self, origin: Origin) -> &[Measured] {
+        match origin {
+            Origin::Measured => &self.measured,
+            Origin::Unknown => &self.unknown,
+            Origin::Simulated => &self.simulated,
+        }
+    }
+
+    /// Numbers of bundles in all tables.
+    pub fn all_rows(&self) -> impl Iterator<Item = &Measured> {
+        Origin::ALL
+            .into_iter()
+            .flat_map(move |origin| self.rows(origin))
+    }
+
     /// Source with the id `id`.
     pub fn source(&self, id: &str) -> Option<&Source> {
         self.sources.iter().find(|source| source.id == id)
     }
 
-    /// Name for files and links: lower-case ASCII letters and digits; `-` for any other character.
+    /// Name for files and links, as of [`slug_of`](Sensor::slug_of).
     pub fn slug(&self) -> String {
-        let letters = self.name.chars().map(|letter| {
+        Sensor::slug_of(&self.name)
+    }
+
+    /// Name for files and links of a sensor called `name`: lower-case ASCII letters and digits; `-` for any other character.
+    pub fn slug_of(name: &str) -> String {
+        let letters = name.chars().map(|letter| {
             if letter.is_ascii_alphanumeric() {
                 letter.to_ascii_lowercase()
             } else {

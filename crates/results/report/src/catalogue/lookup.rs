@@ -46,7 +46,7 @@ pub fn named(name: &str) -> Result<Sensor, NameError> {
     of(all(), name)
 }
 
-fn of(mut sensors: Vec<Sensor>, name: &str) -> Result<Sensor, NameError> {
+pub(super) fn of(mut sensors: Vec<Sensor>, name: &str) -> Result<Sensor, NameError> {
     let wanted = name.to_lowercase();
     let is_wanted = |own: &String| own.to_lowercase() == wanted;
     if let Some(at) = sensors.iter().position(|sensor| is_wanted(&sensor.name)) {

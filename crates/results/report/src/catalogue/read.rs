@@ -3,6 +3,7 @@
 use taceva_core::{Unit, shown};
 use taceva_metrics::Standing;
 
+use super::bundle_row::{Origin, row_lines};
 use super::definition;
 use super::entry::Sensor;
 use super::offer::{self, DAY};
@@ -12,12 +13,14 @@ use super::offer::{self, DAY};
 #[non_exhaustive]
 pub enum CatalogueError {
     /// The file is not TOML, or has unknown keys.
-    #[error("{file}: {source}")]
+    #[error("{file}:{line}: {}", shown(problem))]
     Toml {
         /// Name of the file.
         file: String,
-        /// TOML error with its line.
-        source: Box<toml::de::Error>,
+        /// Line of the fault.
+        line: usize,
+        /// Fault, with what is expected.
+        problem: String,
     },
     /// A value is invalid.
     #[error("{file}: {what} `{found}`: expected {expected}")]
@@ -25,6 +28,20 @@ pub enum CatalogueError {
         /// Name of the file.
         file: String,
         /// Name of the value.
+        what: &'static str,
+        /// Value found.
+        found: String,
+        /// Accepted values.
+        expected: &'static str,
+    },
+    /// A value of a number of a bundle is invalid.
+    #[error("{file}:{line}: {what} `{found}`: expected {expected}")]
+    Row {
+        /// Name of the file.
+        file: String,
+        /// Line at which the row begins.
+        line: usize,
+        /// Key of the value.
         what: &'static str,
         /// Value found.
         found: String,
@@ -50,9 +67,14 @@ impl Sensor {
     /// # Errors
     /// [`CatalogueError`] with file and line.
     pub fn read(file: &str, text: &str) -> Result<Sensor, CatalogueError> {
-        let mut sensor: Sensor = toml::from_str(text).map_err(|source| CatalogueError::Toml {
-            file: file.to_owned(),
-            source: Box::new(source),
+        let mut sensor: Sensor = toml::from_str(text).map_err(|error| {
+            let start = error.span().map_or(0, |span| span.start);
+            let before = text.get(..start).unwrap_or_default();
+            CatalogueError::Toml {
+                file: file.to_owned(),
+                line: before.matches('\n').count() + 1,
+                problem: error.message().to_owned(),
+            }
         })?;
         let refuse = |what, found: &str, expected| CatalogueError::Value {
             file: file.to_owned(),
@@ -60,10 +82,16 @@ impl Sensor {
             found: shown(found).to_string(),
             expected,
         };
-        if sensor.catalogue_version != 1 {
-            let found = sensor.catalogue_version.to_string();
-            return Err(refuse("catalogue_version", &found, "1"));
+        let version = sensor.catalogue_version.to_string();
+        match sensor.catalogue_version {
+            1 if sensor.has_bundles() => {
+                let expected = "2, which has [[measured]], [[unknown]] and [[simulated]]";
+                return Err(refuse("catalogue_version", &version, expected));
+            }
+            1 | 2 => {}
+            _ => return Err(refuse("catalogue_version", &version, "1 or 2")),
         }
+        check_rows(&sensor, file, text)?;
         if let Some(word) = sensor
             .mechanism
             .iter()
@@ -137,4 +165,22 @@ impl Sensor {
         }
         Ok(sensor)
     }
+}
+
+/// Rejects a row of a bundle with an invalid value, by its line.
+fn check_rows(sensor: &Sensor, file: &str, text: &str) -> Result<(), CatalogueError> {
+    for origin in Origin::ALL {
+        for (at, row) in sensor.rows(origin).iter().enumerate() {
+            if let Some(fault) = row.fault(origin) {
+                return Err(CatalogueError::Row {
+                    file: file.to_owned(),
+                    line: row_lines(text, origin).get(at).copied().unwrap_or(1),
+                    what: fault.what,
+                    found: shown(&fault.found).to_string(),
+                    expected: fault.expected,
+                });
+            }
+        }
+    }
+    Ok(())
 }

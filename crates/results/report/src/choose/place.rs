@@ -92,6 +92,7 @@ mod tests {
             dropped: Vec::new(),
             barred: Vec::new(),
             unplaced: Vec::new(),
+            apart: Vec::new(),
             others: Vec::new(),
             other_definitions: Vec::new(),
             unknown: Vec::new(),

@@ -15,8 +15,8 @@ use crate::table::{Column, Direction, Table};
 /// Schema of a choice as JSON. 1.1: `open` lists sensors with an unknown number for a hard need. 1.2: each step states the better direction. 1.3:
 /// place and tie of each ranked sensor. 1.4: intervals, and significant differences. 1.5: sensors with limits from the catalogue. 1.6: `unplaced`
 /// lists sensors without a number for a ranking need. 1.7: `other_definitions` lists sensors with numbers of another definition only, and each step
-/// names the part or the goods of its number.
-pub const CHOICE_SCHEMA: &str = "taceva.choice/1.7";
+/// names the part or the goods of its number. 1.8: `apart` lists sensors of a catalogue that were measured on other samples.
+pub const CHOICE_SCHEMA: &str = "taceva.choice/1.8";
 
 /// Greatest number of names in a sentence.
 const SHOWN: usize = 6;
@@ -102,7 +102,7 @@ impl Choice {
                 dropped.name, dropped.reason
             ));
         }
-        for barred in &self.barred {
+        for barred in self.barred.iter().chain(&self.apart) {
             table.note(format!(
                 "{}: not ranked, because {}.",
                 barred.name, barred.reason
@@ -183,10 +183,23 @@ impl Choice {
                     first(&names)
                 )
             }
+            [] if !self.apart.is_empty() => {
+                let names: Vec<String> = self.apart.iter().map(|of| of.name.clone()).collect();
+                format!(
+                    "No sensor is ranked: {} were measured on different samples or by different definitions",
+                    first(&names)
+                )
+            }
             [] => "No sensor meets every need, as far as is known".to_owned(),
             [best] if !self.unplaced.is_empty() => {
                 format!(
                     "{} alone is ranked; for others a number is unknown",
+                    best.name
+                )
+            }
+            [best] if !self.apart.is_empty() => {
+                format!(
+                    "{} alone is ranked; others rest on other samples",
                     best.name
                 )
             }
@@ -234,6 +247,7 @@ impl Choice {
         };
         let (dropped, barred) = (named(&self.dropped), named(&self.barred));
         let (unplaced, other) = (named(&self.unplaced), named(&self.other_definitions));
+        let apart = named(&self.apart);
         let open = self.open.iter();
         let open: Vec<_> = open
             .map(|open| json!({"name": open.name, "reason": open.reason}))
@@ -243,7 +257,7 @@ impl Choice {
             all.map(|of| json!({"better": of.better, "than": of.than, "looked_at": of.property.to_string(), "p_holm": of.p}))
                 .collect::<Vec<_>>()
         });
-        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unplaced": unplaced, "other_definitions": other, "unknown": self.unknown, "evidence": evidence, "simulated": self.simulated, "limits_of_catalogue": self.limits_of_catalogue});
+        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unplaced": unplaced, "apart": apart, "other_definitions": other, "unknown": self.unknown, "evidence": evidence, "simulated": self.simulated, "limits_of_catalogue": self.limits_of_catalogue});
         format!("{whole:#}\n")
     }
 

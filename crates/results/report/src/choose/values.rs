@@ -86,7 +86,7 @@ impl Choice {
     /// True for a sensor with known numbers but without a rank.
     pub(super) fn sets_aside(&self, sensor: &Sensor) -> bool {
         let dropped = self.dropped.iter().chain(&self.barred);
-        let dropped = dropped.chain(&self.unplaced);
+        let dropped = dropped.chain(&self.unplaced).chain(&self.apart);
         let names = dropped.map(|dropped| &dropped.name);
         let mut names = names.chain(self.open.iter().map(|open| &open.name));
         names.any(|name| *name == sensor.name)

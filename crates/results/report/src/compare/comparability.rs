@@ -22,6 +22,22 @@ pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String
     (!reasons.is_empty()).then(|| reasons.join("; "))
 }
 
+/// Reason why numbers of a catalogue give no verdict: a rank takes one set of samples and one definition.
+pub(super) fn of_other_samples(scores: Sides<&Score>, studies: Sides<&Study>) -> Option<String> {
+    let samples = [studies.a, studies.b].map(|study| study.made.samples_digest.as_deref());
+    let [of_a, of_b] = samples;
+    if samples == [None, None] {
+        return None;
+    }
+    if of_a != of_b {
+        let words =
+            "they are of other samples, so that they stand side by side and neither is ranked";
+        return Some(words.to_owned());
+    }
+    let [own, other] = [scores.a, scores.b].map(|score| score.definition.as_str());
+    (own != other).then(|| format!("the definitions `{own}` and `{other}` differ"))
+}
+
 /// Reason why a difference between units gives no verdict: a single pair of units cannot represent other units.
 fn of_one_pair(score: &Score) -> Option<&'static str> {
     let pairs = score.counts.iter().find(|(name, _)| name == "pairs_valid");

@@ -1,0 +1,20 @@
+//! Catalogue that a community keeps in a folder: entries of sensors, and the manifests of the bundles behind their numbers.
+
+mod addition;
+mod entry_place;
+mod error;
+mod finding;
+mod folder;
+mod index;
+mod inspection;
+mod request;
+mod row_check;
+mod submission;
+
+pub use addition::{Addition, add};
+pub use error::CatalogueFolderError;
+pub use finding::CatalogueFinding;
+pub use folder::entries;
+pub use index::INDEX_SCHEMA;
+pub use inspection::{CatalogueCheck, check_catalogue, write_index};
+pub use request::AddRequest;

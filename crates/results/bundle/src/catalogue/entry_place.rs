@@ -1,0 +1,117 @@
+//! Entry of a sensor: the file that its rows go into, by its name in the results.
+
+use std::path::Path;
+
+use serde::Serialize;
+use taceva_core::{is_obeyed, shown};
+use taceva_report::catalogue::{self, NameError, Sensor};
+
+use super::error::CatalogueFolderError;
+use super::folder::{EntryFile, entry_path};
+
+/// Names of pages that are no sensor's.
+const RESERVED: [&str; 2] = ["index", "measured"];
+/// Longest name of a sensor, in bytes. Tables cut names of 80 letters, and origin, level and bundle follow this one.
+const MOST_NAME: usize = 40;
+/// Names that [`is_name`] accepts, for messages.
+pub(super) const NAME_RULE: &str = "expected a name of at most 40 bytes with Latin letters or digits, without control characters, other than `index` and `measured`";
+
+/// File of an entry, with the text that rows are appended to.
+pub(super) struct EntryPlace {
+    /// Path in the catalogue: `entries/gelsight.toml`.
+    pub(super) path: String,
+    /// Text as it is, or the head of a new entry.
+    pub(super) text: String,
+}
+
+impl EntryPlace {
+    /// Entry of the sensor called `name`: an entry with that name or alias, that of a built-in sensor, or a new one.
+    ///
+    /// # Errors
+    /// [`CatalogueFolderError::Refused`] for a name that is alike another one, has two meanings, or makes no file name.
+    pub(super) fn of(
+        name: &str,
+        entries: &[EntryFile],
+        bundle: &Path,
+    ) -> Result<EntryPlace, CatalogueFolderError> {
+        let refused = |problem: String| Err(CatalogueFolderError::refused(bundle, problem));
+        if let Some(known) = entries.iter().find(|entry| entry.sensor.is_called(name)) {
+            return Ok(EntryPlace {
+                path: known.path.clone(),
+                text: known.text.clone(),
+            });
+        }
+        let built_in = match catalogue::named(name) {
+            Ok(sensor) => Some(sensor),
+            Err(error @ NameError::Ambiguous { .. }) => {
+                return refused(format!("the sensor `{}`: {error}", shown(name)));
+            }
+            Err(_) => None,
+        };
+        if let Some(sensor) = built_in {
+            let mut known = entries.iter();
+            return Ok(match known.find(|entry| entry.sensor.name == sensor.name) {
+                Some(known) => EntryPlace {
+                    path: known.path.clone(),
+                    text: known.text.clone(),
+                },
+                None => EntryPlace::new(&sensor.name, &sensor.slug(), bundle)?,
+            });
+        }
+        let built_in = catalogue::all();
+        let mut all = entries.iter().map(|entry| &entry.sensor).chain(&built_in);
+        if let Some(alike) = all.find(|sensor| sensor.is_called_like(name)) {
+            return refused(format!(
+                "the sensor `{}` is alike `{}`: expected one name for one sensor; if they are the same, write `aliases = [{}]` into {}",
+                shown(name),
+                shown(&alike.name),
+                serde_json::Value::from(name),
+                entry_path(&alike.slug()),
+            ));
+        }
+        if !is_name(name) {
+            return refused(format!("the sensor `{}`: {NAME_RULE}", shown(name)));
+        }
+        let slug = Sensor::slug_of(name);
+        if let Some(other) = entries.iter().find(|entry| entry.path == entry_path(&slug)) {
+            return refused(format!(
+                "the sensor `{}`: its file {} holds `{}`; expected an entry of that name",
+                shown(name),
+                other.path,
+                shown(&other.sensor.name)
+            ));
+        }
+        EntryPlace::new(name, &slug, bundle)
+    }
+
+    /// New entry of the sensor called `name`.
+    fn new(name: &str, slug: &str, bundle: &Path) -> Result<EntryPlace, CatalogueFolderError> {
+        #[derive(Serialize)]
+        struct Head<'a> {
+            catalogue_version: u32,
+            name: &'a str,
+            kind: &'a str,
+            mechanism: &'a [&'a str],
+        }
+        let head = Head {
+            catalogue_version: 2,
+            name,
+            kind: "sensor",
+            mechanism: &[],
+        };
+        let text = toml::to_string(&head)
+            .map_err(|error| CatalogueFolderError::refused(bundle, error.to_string()))?;
+        Ok(EntryPlace {
+            path: entry_path(slug),
+            text,
+        })
+    }
+}
+
+/// True for a name that makes a page of its own and fits into tables.
+pub(super) fn is_name(name: &str) -> bool {
+    let slug = Sensor::slug_of(name);
+    let has_letter = slug.chars().any(|letter| letter.is_ascii_alphanumeric());
+    let is_page = has_letter && !RESERVED.contains(&slug.as_str());
+    is_page && name.len() <= MOST_NAME && !name.chars().any(is_obeyed)
+}

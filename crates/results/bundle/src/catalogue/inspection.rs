@@ -1,0 +1,228 @@
+//! Check of a catalogue: entries, names, manifests, and each number against the manifest that holds it. It needs no network.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use taceva_files::seal::digest_of_bytes;
+use taceva_report::catalogue::{self, Origin, Sensor};
+
+use super::entry_place::{NAME_RULE, is_name};
+use super::error::CatalogueFolderError;
+use super::finding::CatalogueFinding;
+use super::folder::{
+    EntryFile, check_catalogue_folder, entry_path, entry_texts, manifest_path, manifest_texts,
+    write,
+};
+use super::index::Index;
+use super::row_check;
+use super::submission::{results_digest, unfinished};
+use crate::manifest::Manifest;
+
+/// File of the index.
+const INDEX: &str = "index.json";
+
+/// Outcome of a check.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct CatalogueCheck {
+    /// Faults, by file.
+    pub findings: Vec<CatalogueFinding>,
+    /// Number of entries.
+    pub entries: u64,
+    /// Number of bundles.
+    pub bundles: u64,
+    /// Number of rows of bundles.
+    pub numbers: u64,
+    /// Text of the index.
+    index: String,
+}
+
+/// Checks the catalogue at `root`.
+///
+/// # Errors
+/// [`CatalogueFolderError`] if the folder cannot be read or is no catalogue. A fault of a file is no error: it is listed.
+pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderError> {
+    check_catalogue_folder(root)?;
+    let built_in = catalogue::all();
+    let mut findings = Vec::new();
+    let mut index = Index::default();
+    let manifests = manifests(root, &mut findings, &mut index)?;
+    let mut entries: Vec<EntryFile> = Vec::new();
+    let mut used: BTreeSet<String> = BTreeSet::new();
+    let mut numbers = 0;
+    for file in entry_texts(root)? {
+        let text = match file.text {
+            Ok(text) => text,
+            Err(problem) => {
+                findings.push(CatalogueFinding::new(&file.path, problem));
+                continue;
+            }
+        };
+        let sensor = match Sensor::read(&file.path, &text) {
+            Ok(sensor) => sensor,
+            Err(error) => {
+                findings.push(CatalogueFinding::of_entry(&file.path, &error));
+                continue;
+            }
+        };
+        index.add_entry(&file.path, &sensor);
+        findings.extend(name_faults(&file.path, &sensor, &built_in));
+        findings.extend(row_faults(&file.path, &text, &sensor, &manifests));
+        for row in sensor.all_rows() {
+            numbers += 1;
+            used.insert(manifest_path(&row.bundle));
+        }
+        entries.push(EntryFile {
+            path: file.path,
+            text,
+            sensor,
+        });
+    }
+    findings.extend(alike(&entries, &built_in));
+    let unused = manifests.keys().filter(|path| !used.contains(*path));
+    findings.extend(unused.map(|path| {
+        let problem = "no entry has its numbers; add the bundle again, or remove the file";
+        CatalogueFinding::new(path, problem)
+    }));
+    findings.sort_by(|one, other| (&one.path, one.line).cmp(&(&other.path, other.line)));
+    Ok(CatalogueCheck {
+        findings,
+        entries: entries.len() as u64,
+        bundles: manifests.len() as u64,
+        numbers,
+        index: index.text(),
+    })
+}
+
+/// Writes the index of a catalogue without a finding.
+///
+/// # Errors
+/// [`CatalogueFolderError`] if it cannot be written.
+pub fn write_index(root: &Path, check: &CatalogueCheck) -> Result<(), CatalogueFolderError> {
+    write(root, INDEX, &check.index)
+}
+
+/// Manifests by path, with the findings in them.
+fn manifests(
+    root: &Path,
+    findings: &mut Vec<CatalogueFinding>,
+    index: &mut Index,
+) -> Result<BTreeMap<String, Manifest>, CatalogueFolderError> {
+    let mut known = BTreeMap::new();
+    let mut results: BTreeMap<String, String> = BTreeMap::new();
+    for file in manifest_texts(root)? {
+        let mut add = |problem: String| findings.push(CatalogueFinding::new(&file.path, problem));
+        let text = match file.text {
+            Ok(text) => text,
+            Err(problem) => {
+                add(problem);
+                continue;
+            }
+        };
+        let digest = digest_of_bytes(text.as_bytes());
+        if digest != format!("sha256:{}", file.stem) {
+            add(format!(
+                "its bytes have the digest {digest}: expected that of its name; restore the file"
+            ));
+            continue;
+        }
+        let manifest = match Manifest::parse(&text) {
+            Ok(sealed) => sealed.manifest,
+            Err(damage) => {
+                add(damage.problem);
+                continue;
+            }
+        };
+        if let Some(problem) = unfinished(&manifest) {
+            add(problem);
+        }
+        let own = results_digest(&manifest).unwrap_or_default().to_owned();
+        if let Some(other) = results.insert(own, file.path.clone()) {
+            add(format!(
+                "the same results as {other}: expected each bundle once; remove one with its rows"
+            ));
+        }
+        index.add_bundle(&file.path, &manifest);
+        known.insert(file.path, manifest);
+    }
+    Ok(known)
+}
+
+/// Faults of the name of an entry, and of its published numbers.
+fn name_faults(path: &str, sensor: &Sensor, built_in: &[Sensor]) -> Vec<CatalogueFinding> {
+    let mut faults = Vec::new();
+    let file = entry_path(&sensor.slug());
+    let is_built_in = built_in.iter().any(|known| known.name == sensor.name);
+    if !is_built_in && !is_name(&sensor.name) {
+        let problem = format!("the sensor `{}`: {NAME_RULE}", sensor.name);
+        faults.push(CatalogueFinding::new(path, problem));
+    } else if path != file {
+        let problem = format!("the file of `{}`: expected the name {file}", sensor.name);
+        faults.push(CatalogueFinding::new(path, problem));
+    }
+    if is_built_in && sensor.has_published() {
+        let problem = format!(
+            "published facts of `{}`, which the built-in catalogue has: expected [[measured]], [[unknown]] and [[simulated]] alone",
+            sensor.name
+        );
+        faults.push(CatalogueFinding::new(path, problem));
+    }
+    faults
+}
+
+/// Rows whose manifest is missing or does not hold their number, and rows that stand twice.
+fn row_faults(
+    path: &str,
+    text: &str,
+    sensor: &Sensor,
+    manifests: &BTreeMap<String, Manifest>,
+) -> Vec<CatalogueFinding> {
+    let mut faults = Vec::new();
+    let mut known = BTreeSet::new();
+    for origin in Origin::ALL {
+        let lines = catalogue::row_lines(text, origin);
+        for (at, row) in sensor.rows(origin).iter().enumerate() {
+            let manifest = manifest_path(&row.bundle);
+            let is_new = known.insert((&row.bundle, row.study, row.words()));
+            let fault = match manifests.get(&manifest) {
+                _ if !is_new => Some(format!(
+                    "{} of the bundle {} stands twice: expected once",
+                    row.words(),
+                    row.short_bundle()
+                )),
+                None => Some(format!(
+                    "{} is of {manifest}, which is missing or damaged: expected the manifest of its bundle",
+                    row.words()
+                )),
+                Some(manifest) => row_check::fault(row, manifest),
+            };
+            faults.extend(fault.map(|problem| CatalogueFinding {
+                line: lines.get(at).copied(),
+                ..CatalogueFinding::new(path, problem)
+            }));
+        }
+    }
+    faults
+}
+
+/// Entries whose names or aliases are alike those of another entry or of a built-in sensor.
+fn alike(entries: &[EntryFile], built_in: &[Sensor]) -> Vec<CatalogueFinding> {
+    let mut findings = Vec::new();
+    for (at, EntryFile { path, sensor, .. }) in entries.iter().enumerate() {
+        let before = entries[..at].iter().map(|other| &other.sensor);
+        let of_program = built_in.iter().filter(|known| known.name != sensor.name);
+        let names: Vec<&String> = std::iter::once(&sensor.name)
+            .chain(&sensor.aliases)
+            .collect();
+        for other in before.chain(of_program) {
+            if let Some(name) = names.iter().find(|name| other.is_called_like(name)) {
+                let problem = format!(
+                    "the name `{name}` is alike one of `{}`: expected one entry for one sensor, with its other names as `aliases`",
+                    other.name
+                );
+                findings.push(CatalogueFinding::new(path, problem));
+            }
+        }
+    }
+    findings
+}

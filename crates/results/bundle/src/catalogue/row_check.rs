@@ -1,0 +1,97 @@
+//! Rows of an entry, compared with the claims of the manifest that they name.
+
+use taceva_report::catalogue::{DEPTHS, Measured};
+
+use super::submission::protocol;
+use crate::author::Author;
+use crate::claim::Claim;
+use crate::manifest::Manifest;
+
+/// Origin of results whose studies have different ones.
+const SEVERAL: &str = "several";
+
+/// Fault of a row of the bundle with `manifest`; `None` if the manifest holds the number.
+pub(super) fn fault(row: &Measured, manifest: &Manifest) -> Option<String> {
+    let is_named = |claim: &&Claim| {
+        claim.study == row.study
+            && claim.metric == row.metric
+            && claim.channel == row.channel
+            && claim.variant == row.variant
+    };
+    let Some(claim) = manifest.claims.iter().find(is_named) else {
+        return Some(format!(
+            "{} of study {} is not in the manifest; remove the row, or add the bundle again",
+            row.words(),
+            row.study
+        ));
+    };
+    let bits = |ends: [f64; 2]| ends.map(f64::to_bits);
+    let by: Vec<String> = manifest.authors.iter().map(Author::to_string).collect();
+    let protocol = protocol(manifest);
+    let depth = claim.level.to_string();
+    let deepest = DEPTHS.iter().position(|word| *word == depth);
+    let differing = [
+        (
+            "value",
+            row.value.to_bits() != claim.value.to_bits(),
+            claim.value.to_string(),
+        ),
+        (
+            "ci95",
+            row.ci95.map(bits) != claim.ci95.map(bits),
+            match claim.ci95 {
+                Some([low, high]) => format!("{low}, {high}"),
+                None => "none".to_owned(),
+            },
+        ),
+        (
+            "unit",
+            row.unit != claim.unit.symbol(),
+            claim.unit.symbol().to_owned(),
+        ),
+        ("n", row.n != claim.n, claim.n.to_string()),
+        (
+            "definition",
+            row.definition != claim.definition,
+            claim.definition.clone(),
+        ),
+        (
+            "samples",
+            row.samples != manifest.samples_digest,
+            manifest.samples_digest.clone(),
+        ),
+        (
+            "date",
+            row.date.to_string() != manifest.created,
+            manifest.created.clone(),
+        ),
+        ("by", row.by != by, by.join(", ")),
+        (
+            "licence",
+            row.licence != manifest.licence,
+            manifest.licence.clone().unwrap_or_default(),
+        ),
+        (
+            "protocol",
+            row.protocol != protocol,
+            protocol.clone().unwrap_or_else(|| "none".to_owned()),
+        ),
+        (
+            "source",
+            // Results of several origins have one for each study, which the manifest does not state.
+            manifest.source != SEVERAL && row.source != manifest.source,
+            manifest.source.clone(),
+        ),
+        (
+            "verified",
+            deepest.is_some_and(|deepest| row.depth() > deepest),
+            format!("at most {depth}"),
+        ),
+    ];
+    let mut differing = differing.into_iter();
+    let (key, _, expected) = differing.find(|(_, differs, _)| *differs)?;
+    Some(format!(
+        "`{key}` of {} is not that of the manifest: expected {expected}",
+        row.words()
+    ))
+}

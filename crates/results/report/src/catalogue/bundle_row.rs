@@ -1,0 +1,262 @@
+//! Numbers that others measured with this program, each with the bundle that holds it.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use taceva_core::Unit;
+use toml::value::Datetime;
+
+/// Depths of a verification, the shallowest first.
+pub const DEPTHS: [&str; 6] = ["files", "form", "scores", "predictions", "model", "fit"];
+/// Words for [`DEPTHS`] in messages.
+const DEPTH: &str = "files, form, scores, predictions, model or fit";
+/// Form of digests in messages.
+const DIGEST: &str = "sha256: and 64 hexadecimal digits";
+/// Beginning of a digest.
+const PREFIX: &str = "sha256:";
+/// Digits of a digest in names.
+const SHORT: usize = 8;
+
+/// Number of a bundle. Its keys are those of a row in an entry; it gets no further field without a new version of the entries.
+///
+/// ```
+/// use taceva_report::catalogue::{Origin, Sensor};
+/// let digest = format!("sha256:{}", "5".repeat(64));
+/// let entry = format!(
+///     "catalogue_version = 2\nname = \"X\"\nkind = \"sensor\"\nmechanism = []\n[[measured]]\nmetric = \"mae\"\nchannel = \"Fz\"\nvalue = 0.02\n\
+///      unit = \"N\"\nn = 320\ndefinition = \"mae/1\"\nsamples = \"{digest}\"\nbundle = \"{digest}\"\nverified = \"predictions\"\n\
+///      source = \"recorded\"\ndate = 2026-11-28\n"
+/// );
+/// let sensor = Sensor::read("x.toml", &entry)?;
+/// assert_eq!(sensor.rows(Origin::Measured)[0].verified, "predictions");
+/// assert!(Sensor::read("x.toml", &entry.replace("recorded", "simulated")).is_err());
+/// # Ok::<(), taceva_report::catalogue::CatalogueError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Measured {
+    /// Study of the bundle's results, from 0.
+    #[serde(default)]
+    pub study: usize,
+    /// Metric: `mae`.
+    pub metric: String,
+    /// Channel or plane: `Fz`, `Pxy`.
+    pub channel: String,
+    /// Variant of the metric: `slope`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub variant: Option<String>,
+    /// Number in `unit`.
+    pub value: f64,
+    /// Both ends of the interval of 95 %, in `unit`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ci95: Option<[f64; 2]>,
+    /// Method of the interval: `jackknife by point_id, G=32`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub method: Option<String>,
+    /// Unit of number and interval.
+    pub unit: String,
+    /// Number of samples.
+    pub n: u64,
+    /// Number of clusters behind the interval.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clusters: Option<u64>,
+    /// Definition: `mae/1`.
+    pub definition: String,
+    /// Protocol of the presses: `scene sha256:…`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub protocol: Option<String>,
+    /// Digest of the samples.
+    pub samples: String,
+    /// Digest of the bundle's manifest.
+    pub bundle: String,
+    /// Address of the bundle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub url: Option<String>,
+    /// Depth to which the number was verified when it was added: one of [`DEPTHS`].
+    pub verified: String,
+    /// Origin of the samples: `recorded`, `unknown`, `simulated`, `synthetic`.
+    pub source: String,
+    /// Day on which the bundle was made.
+    pub date: Datetime,
+    /// Authors of the bundle.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub by: Vec<String>,
+    /// Licence of the bundle, as an SPDX identifier.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub licence: Option<String>,
+    /// Calibration certificates behind the labels.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub traceability: Vec<String>,
+}
+
+/// Table of an entry for numbers of bundles. It gets no further variant: a number was measured or was not, or nobody states it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// `[[measured]]`: samples that a real sensor recorded.
+    Measured,
+    /// `[[unknown]]`: samples whose origin the bundle does not state.
+    Unknown,
+    /// `[[simulated]]`: simulated or synthetic samples.
+    Simulated,
+}
+
+impl Origin {
+    /// All tables.
+    pub const ALL: [Origin; 3] = [Origin::Measured, Origin::Unknown, Origin::Simulated];
+
+    /// Table for samples of the origin `source`; `None` if samples of one study have several origins.
+    ///
+    /// ```
+    /// use taceva_report::catalogue::Origin;
+    /// assert_eq!(Origin::of_source("synthetic"), Some(Origin::Simulated));
+    /// assert_eq!(Origin::of_source("several"), None);
+    /// ```
+    pub fn of_source(source: &str) -> Option<Origin> {
+        match source {
+            "recorded" => Some(Origin::Measured),
+            "unknown" => Some(Origin::Unknown),
+            "simulated" | "synthetic" => Some(Origin::Simulated),
+            _ => None,
+        }
+    }
+
+    /// Name of the table in an entry.
+    pub const fn table(self) -> &'static str {
+        match self {
+            Origin::Measured => "measured",
+            Origin::Unknown => "unknown",
+            Origin::Simulated => "simulated",
+        }
+    }
+
+    /// Origins of samples that belong into the table, for messages.
+    const fn expected(self) -> &'static str {
+        match self {
+            Origin::Measured => "recorded; others belong into [[simulated]] or [[unknown]]",
+            Origin::Unknown => "unknown; others belong into [[measured]] or [[simulated]]",
+            Origin::Simulated => {
+                "simulated or synthetic; others belong into [[measured]] or [[unknown]]"
+            }
+        }
+    }
+}
+
+/// Value of a row that breaks a rule.
+pub(super) struct RowFault {
+    pub(super) what: &'static str,
+    pub(super) found: String,
+    pub(super) expected: &'static str,
+}
+
+impl Measured {
+    /// Metric, variant and channel in words: `hysteresis.ratio of Fz`.
+    pub fn words(&self) -> String {
+        let variant = self.variant.as_ref();
+        let variant = variant.map_or_else(String::new, |name| format!(".{name}"));
+        format!("{}{variant} of {}", self.metric, self.channel)
+    }
+
+    /// Origin of the samples in a word for readers: `measured`, `origin unknown`, `simulated`.
+    pub fn origin_word(&self) -> &str {
+        match self.source.as_str() {
+            "recorded" => "measured",
+            "unknown" => "origin unknown",
+            other => other,
+        }
+    }
+
+    /// First digits of the bundle's digest.
+    pub fn short_bundle(&self) -> String {
+        short(&self.bundle)
+    }
+
+    /// Place of [`verified`](Measured::verified) among [`DEPTHS`], from 0.
+    pub fn depth(&self) -> usize {
+        let place = DEPTHS.iter().position(|word| *word == self.verified);
+        place.unwrap_or_default()
+    }
+
+    /// First value that breaks a rule of a row in the table of `origin`.
+    pub(super) fn fault(&self, origin: Origin) -> Option<RowFault> {
+        let fault = |what, found: String, expected| {
+            Some(RowFault {
+                what,
+                found,
+                expected,
+            })
+        };
+        if Origin::of_source(&self.source) != Some(origin) {
+            return fault("source", self.source.clone(), origin.expected());
+        }
+        if !DEPTHS.contains(&self.verified.as_str()) {
+            return fault("verified", self.verified.clone(), DEPTH);
+        }
+        if Unit::from_symbol(&self.unit).is_none() {
+            return fault("unit", self.unit.clone(), "a unit such as mm, N or 1");
+        }
+        let ends = self.ci95.into_iter().flatten();
+        if let Some(number) = ends.chain([self.value]).find(|number| !number.is_finite()) {
+            return fault("value", number.to_string(), "a finite number");
+        }
+        if let Some([low, high]) = self.ci95
+            && low > high
+        {
+            return fault("ci95", format!("{low}, {high}"), "the lower end first");
+        }
+        let digests = [("samples", &self.samples), ("bundle", &self.bundle)];
+        if let Some((what, found)) = digests.into_iter().find(|(_, text)| !is_digest(text)) {
+            return fault(what, found.clone(), DIGEST);
+        }
+        let date = &self.date;
+        if date.date.is_none() || date.time.is_some() || date.offset.is_some() {
+            return fault("date", date.to_string(), "a day such as 2026-11-28");
+        }
+        let is_link = |url: &String| url.starts_with("https://");
+        if let Some(url) = self.url.as_ref().filter(|url| !is_link(url)) {
+            return fault("url", url.clone(), "an address that begins with https://");
+        }
+        None
+    }
+}
+
+/// First digits of a digest.
+pub(crate) fn short(digest: &str) -> String {
+    let digits = digest.strip_prefix(PREFIX).unwrap_or(digest);
+    digits.chars().take(SHORT).collect()
+}
+
+/// True for `sha256:` and 64 lower-case hexadecimal digits.
+fn is_digest(text: &str) -> bool {
+    let is_digit = |letter: u8| letter.is_ascii_digit() || (b'a'..=b'f').contains(&letter);
+    text.strip_prefix(PREFIX)
+        .is_some_and(|digits| digits.len() == 64 && digits.bytes().all(is_digit))
+}
+
+/// Rows as text of an entry, each in the table of its origin.
+///
+/// # Errors
+/// [`toml::ser::Error`] for a count above 2⁶³.
+pub fn rows_text(rows: &[Measured]) -> Result<String, toml::ser::Error> {
+    let mut tables: BTreeMap<&str, Vec<&Measured>> = BTreeMap::new();
+    for row in rows {
+        if let Some(origin) = Origin::of_source(&row.source) {
+            tables.entry(origin.table()).or_default().push(row);
+        }
+    }
+    toml::to_string(&tables)
+}
+
+/// Lines at which the rows of the table `origin` begin in the text of an entry; none if the table is written in another form.
+///
+/// ```
+/// use taceva_report::catalogue::{Origin, row_lines};
+/// let entry = "name = \"X\"\n[[measured]]\nn = 1\n[[measured]]\nn = 2\n";
+/// assert_eq!(row_lines(entry, Origin::Measured), [2, 4]);
+/// assert!(row_lines(entry, Origin::Simulated).is_empty());
+/// ```
+pub fn row_lines(text: &str, origin: Origin) -> Vec<usize> {
+    let head = format!("[[{}]]", origin.table());
+    let lines = text.lines().zip(1..);
+    let heads = lines.filter(|(line, _)| line.trim().starts_with(&head));
+    heads.map(|(_, number)| number).collect()
+}

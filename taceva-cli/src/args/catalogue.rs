@@ -1,0 +1,89 @@
+//! Arguments of `taceva catalogue`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+use taceva_bundle::MOST_BYTES;
+
+use super::Output;
+
+#[derive(Debug, Args)]
+pub(crate) struct CatalogueArgs {
+    #[command(subcommand)]
+    pub(crate) subject: CatalogueSubject,
+}
+
+/// Operation on the catalogue.
+#[derive(Debug, Subcommand)]
+pub(crate) enum CatalogueSubject {
+    /// List every sensor
+    List(Output),
+    /// Show the published numbers of one sensor, each with its source
+    Show(CatalogueShow),
+    /// Write the catalogue as pages: a list to filter and sort, and one page for each sensor
+    Site(CatalogueSite),
+    /// Verify a bundle as deep as its files allow, and add its numbers to the catalogue in a folder
+    Add(CatalogueAdd),
+    /// Check the catalogue in a folder without a network, and write its index; the exit code is 1 if there is a finding
+    Check(CatalogueCheckArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CatalogueShow {
+    /// The name of the sensor
+    pub(crate) name: String,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CatalogueSite {
+    /// The folder of a catalogue, whose numbers are shown beside the published ones
+    #[arg(value_name = "DIR")]
+    pub(crate) catalogue: Option<PathBuf>,
+    /// The folder to write the pages into
+    #[arg(long = "out", value_name = "FOLDER")]
+    pub(crate) folder: PathBuf,
+    /// Results of this program to show apart from published ones; may be repeated
+    #[arg(long, value_name = "RESULT")]
+    pub(crate) results: Vec<PathBuf>,
+    /// Replace pages that exist already
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+/// The catalogue is a folder with `entries/`, one file for each sensor, and `bundles/`, the manifests. Numbers of recorded samples go into
+/// `[[measured]]`, of simulated or synthetic ones into `[[simulated]]`, and of samples without a stated origin into `[[unknown]]`. Published
+/// numbers stay as they are. A draft and a bundle whose results are there already are refused. The exit code is 1 for a bundle that is not
+/// verified, and 3 for one that is damaged or refused.
+#[derive(Debug, Args)]
+pub(crate) struct CatalogueAdd {
+    /// The bundle: a folder, or a .tar.gz
+    pub(crate) bundle: PathBuf,
+    /// The folder of the catalogue, which is made if it is missing
+    #[arg(long = "to", value_name = "DIR")]
+    pub(crate) catalogue: PathBuf,
+    /// The address from which others get the bundle
+    #[arg(long, value_name = "URL", value_parser = address)]
+    pub(crate) url: Option<String>,
+    /// The most bytes of all files of the bundle together
+    #[arg(long, value_name = "BYTES", default_value_t = MOST_BYTES)]
+    pub(crate) most: u64,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CatalogueCheckArgs {
+    /// The folder of the catalogue
+    #[arg(value_name = "DIR")]
+    pub(crate) catalogue: PathBuf,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+/// Address of a bundle.
+fn address(text: &str) -> Result<String, String> {
+    match text.starts_with("https://") {
+        true => Ok(text.to_owned()),
+        false => Err("expected an address that begins with https://".to_owned()),
+    }
+}
