@@ -200,6 +200,9 @@ impl Machine {
         if words.is_empty() {
             return OK.to_owned();
         }
+        if words == ["$I"] {
+            return format!("[VER:1.1h.20190825:]\r\n[OPT:V,15,128]\r\n{OK}");
+        }
         let number = |letter: char| {
             let word = words.iter().find_map(|word| word.strip_prefix(letter));
             word.and_then(|number| number.parse::<f64>().ok())

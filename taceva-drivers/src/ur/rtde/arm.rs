@@ -133,6 +133,8 @@ pub(super) fn failed(
     DriverError::new(kind, &KEY, doing).because(why)
 }
 
+/// Timeout for the first state.
+const FIRST: Duration = Duration::from_secs(2);
 /// Maximum age of a state for a first look.
 const FRESH: Duration = Duration::from_millis(50);
 pub(super) const M_A_MM: f64 = 1e-3;
@@ -174,6 +176,13 @@ impl Arm {
             return Err(failed(ErrorKind::OutOfRange, doing, why));
         }
         Ok(())
+    }
+
+    /// Position of the speed slider, in whole percent; `None` if no state has come or it states none.
+    fn slider_percent(&self) -> Option<f64> {
+        let seen = self.look(None, FIRST).ok()?;
+        let slider = seen.what.slider;
+        slider.is_finite().then(|| (100.0 * slider).round())
     }
 
     /// Waits for a state newer than number `after`. Without `after`, returns an existing state if it is fresh.
@@ -245,8 +254,21 @@ impl Robot for Arm {
 
     fn settings(&self) -> BTreeMap<String, String> {
         let version = Some(self.states.version()).filter(|version| !version.is_empty());
-        let named = version.map(|version| ("firmware".to_owned(), version.to_owned()));
-        named.into_iter().collect()
+        let firmware = version.map(|version| ("firmware".to_owned(), version.to_owned()));
+        let percent = self.slider_percent();
+        let slider =
+            percent.map(|percent| ("speed_slider_percent".to_owned(), percent.to_string()));
+        firmware.into_iter().chain(slider).collect()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let reduced = self.slider_percent().filter(|percent| *percent < 100.0);
+        let warned = reduced.map(|percent| {
+            format!(
+                "the speed slider is at {percent} %, so the arm moves slower than commanded: set it to 100 % on the pendant"
+            )
+        });
+        warned.into_iter().collect()
     }
 
     fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
