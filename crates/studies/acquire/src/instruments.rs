@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use taceva_core::{Certificate, Date, Instrument, Traceability};
+use taceva_core::{
+    Certificate, CertificateContradiction, CertificateFault, Date, Instrument, Traceability,
+};
 use taceva_dataset::Source;
 use taceva_drivers::Selector;
 use taceva_protocol::RigFile;
@@ -47,8 +49,46 @@ pub(crate) fn kept(
 
 /// Today, in UTC, for a recording that measures; certificates are valid for a time.
 pub(crate) fn day_of(source: Source) -> Option<Date> {
+    today().filter(|_| source == Source::Recorded)
+}
+
+fn today() -> Option<Date> {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).ok()?;
-    (source == Source::Recorded).then(|| Date::of_unix_s(since.as_secs()))
+    Some(Date::of_unix_s(since.as_secs()))
+}
+
+/// Contradictions of the certificates of `instruments` with the serial numbers that were read, and with today.
+pub(crate) fn faults_today(instruments: &[Traceability]) -> Vec<CertificateFault> {
+    let days = today().map(|today| today..=today);
+    let faults = instruments.iter();
+    let faults = faults.flat_map(|of| of.faults(days.as_ref(), instruments));
+    faults.collect()
+}
+
+/// Warnings of labels that are measured today, for the certificates of `instruments` and the `settings` of the devices.
+pub(crate) fn warnings_today(
+    instruments: Vec<Traceability>,
+    settings: &BTreeMap<String, String>,
+) -> Vec<String> {
+    let instruments = kept(instruments, Source::Recorded, settings);
+    faults_today(&instruments).iter().map(remedy).collect()
+}
+
+/// Sentence of `fault` with its remedy.
+pub(crate) fn remedy(fault: &CertificateFault) -> String {
+    let mended = match fault.contradiction {
+        CertificateContradiction::IssuedLater { .. } => {
+            "correct `issued`, or the clock of this machine"
+        }
+        CertificateContradiction::Expired { .. } => {
+            "have it calibrated again and write the new certificate, or correct `valid_until`"
+        }
+        _ => "write the certificate of this device, or correct `serial`",
+    };
+    format!(
+        "{fault}: {mended} under [{}.certificate] of the rig file",
+        fault.instrument
+    )
 }
 
 /// The instrument of the device `driver`, a selector. Its serial number is the argument that chose it, if it has one.

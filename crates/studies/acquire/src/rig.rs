@@ -1,6 +1,8 @@
 //! Setup of a rig: registration of its robot, latencies, and checks of its devices.
 
+mod certificates;
 mod check;
+mod listen;
 mod problem;
 mod stock;
 mod stream;
