@@ -1,6 +1,7 @@
 //! Rig file: drivers, mounting and limits of the devices of a rig.
 
 mod axes;
+mod certificate;
 mod changers;
 mod latency;
 mod registration;
@@ -17,6 +18,7 @@ pub use teach::{Jogged, Taught, TeachError};
 use serde::Deserialize;
 use taceva_core::{Certificate, Instrument};
 
+use certificate::WrittenCertificate;
 use changers::WrittenChangers;
 use sensor::WrittenSensor;
 
@@ -144,7 +146,7 @@ struct WrittenRobot {
     axes: Setting<[String; 3]>,
     turned_deg: Option<Setting<[f64; 3]>>,
     latency_ms: Option<Setting<f64>>,
-    certificate: Option<Setting<Certificate>>,
+    certificate: Option<WrittenCertificate>,
 }
 
 #[derive(Deserialize)]
@@ -153,7 +155,7 @@ struct WrittenForce {
     driver: Setting<String>,
     axes: Setting<[String; 3]>,
     latency_ms: Option<Setting<f64>>,
-    certificate: Option<Setting<Certificate>>,
+    certificate: Option<WrittenCertificate>,
 }
 
 #[derive(Deserialize)]
@@ -306,23 +308,6 @@ impl Check<'_> {
             latency_ms: self.latency(force.latency_ms)?,
             certificate: self.certificate(Instrument::Force, force.certificate)?,
         })
-    }
-
-    fn certificate(
-        &self,
-        of: Instrument,
-        certificate: Option<Setting<Certificate>>,
-    ) -> Result<Option<Certificate>, SceneError> {
-        let Some(Setting { value, .. }) = &certificate else {
-            return Ok(None);
-        };
-        match value.check(of) {
-            Ok(()) => Ok(certificate.map(|certificate| certificate.value)),
-            Err(error) => self.refuse(
-                certificate.as_ref().and_then(Setting::at),
-                format!("[{of}.certificate]: {error}"),
-            ),
-        }
     }
 
     fn axes(&self, axes: Setting<[String; 3]>) -> Result<Setting<SignedAxes>, SceneError> {
