@@ -52,7 +52,8 @@ pub(crate) fn day_of(source: Source) -> Option<Date> {
     today().filter(|_| source == Source::Recorded)
 }
 
-fn today() -> Option<Date> {
+/// Today, in UTC.
+pub(crate) fn today() -> Option<Date> {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).ok()?;
     Some(Date::of_unix_s(since.as_secs()))
 }

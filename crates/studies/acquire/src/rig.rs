@@ -9,6 +9,7 @@ mod stream;
 mod switch;
 mod tap;
 mod teach;
+mod weight;
 
 use std::path::Path;
 
@@ -22,6 +23,7 @@ pub use stream::Stream;
 pub use switch::SwitchCheck;
 pub use tap::{RigTap, tap_rig};
 pub use teach::teach_rig;
+pub use weight::{RigWeight, weigh_rig};
 
 /// Reads the rig file at `path`.
 ///

@@ -7,6 +7,7 @@ mod latency;
 mod registration;
 mod sensor;
 mod teach;
+mod weighing;
 
 pub use axes::SignedAxes;
 pub use changers::RigChangers;
@@ -14,6 +15,7 @@ pub use latency::{Latency, RigLatencies};
 pub use registration::Registration;
 pub use sensor::RigSensor;
 pub use teach::{Jogged, Taught, TeachError};
+pub use weighing::Weighing;
 
 use serde::Deserialize;
 use taceva_core::{Certificate, Instrument};
@@ -108,6 +110,8 @@ pub struct RigForce {
     pub axes: Setting<SignedAxes>,
     /// Delay between a reading and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
+    /// Last comparison with a known weight, if any.
+    pub weighing: Option<Setting<Weighing>>,
     /// Calibration certificate.
     pub certificate: Option<Certificate>,
 }
@@ -155,6 +159,7 @@ struct WrittenForce {
     driver: Setting<String>,
     axes: Setting<[String; 3]>,
     latency_ms: Option<Setting<f64>>,
+    weighing: Option<Setting<Weighing>>,
     certificate: Option<WrittenCertificate>,
 }
 
@@ -306,6 +311,7 @@ impl Check<'_> {
             driver: force.driver,
             axes: self.axes(force.axes)?,
             latency_ms: self.latency(force.latency_ms)?,
+            weighing: self.weighing(force.weighing)?,
             certificate: self.certificate(Instrument::Force, force.certificate)?,
         })
     }
