@@ -155,6 +155,39 @@ driver = "lab/camera"
     }
 
     #[test]
+    fn a_certificate_that_contradicts_today_or_the_device_is_a_warning_with_its_remedy() {
+        let warned = |text: &str, settings: &[(&str, &str)]| {
+            let rig = RigFile::parse("lab.toml", text).expect("a rig");
+            let pairs = settings.iter();
+            let pairs = pairs.map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+            warnings_today(of_rig(&rig), &pairs.collect())
+        };
+        let read = [("force_serial", "B3"), ("serial", "D2")];
+        let long_ago = RIG.replace("2026-05-12", "2020-05-12");
+        assert_eq!(warned(&long_ago, &read), Vec::<String>::new());
+        let expired = long_ago.replace(
+            "serial = \"B3\"",
+            "serial = \"B3\"\nvalid_until = 2021-05-12",
+        );
+        let found = warned(&expired, &read);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].contains("was valid until 2021-05-12"), "{found:?}");
+        assert!(found[0].contains("under [force.certificate]"), "{found:?}");
+        let later = warned(&RIG.replace("2026-05-12", "9026-05-12"), &read);
+        assert!(later[0].contains("was issued on 9026-05-12"), "{later:?}");
+        // The serial number of the sensor is compared like that of the transducer.
+        let (_, certificate) = long_ago.split_once("[force.certificate]").expect("one");
+        let (certificate, _) = certificate.split_once("[sensor]").expect("a sensor");
+        let of_sensor = format!("{long_ago}[sensor.certificate]{certificate}");
+        let other = warned(&of_sensor, &read);
+        assert_eq!(other.len(), 1, "{other:?}");
+        assert!(
+            other[0].contains("of the sensor with serial number B3, the driver read D2"),
+            "{other:?}"
+        );
+    }
+
+    #[test]
     fn a_serial_number_that_a_driver_reads_is_compared_with_the_certificate() {
         let rig = RigFile::parse("lab.toml", &RIG.replace(";serial=B2", "")).expect("a rig");
         let read = |name: &str| BTreeMap::from([(name.to_owned(), "B4".to_owned())]);
