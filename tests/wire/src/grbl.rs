@@ -1,6 +1,6 @@
 //! Emulated machine with GRBL 1.1 at the other end of a pseudo-terminal.
 //!
-//! Supported: `?`, `!`, `~`, reset, `G53 G1` (with `G21 G90 G94`), one motion and one waiting, alarm at a reset during a motion. Not
+//! Supported: `?`, `!`, `~`, `$I`, reset, `G53 G1` (with `G21 G90 G94`), one motion and one waiting, alarm at a reset during a motion. Not
 //! supported: settings, offsets, arcs, homing, acceleration.
 
 use std::fs::File;
