@@ -1,7 +1,7 @@
 //! Certificates of a rig file: compared with the devices and with today, and their files looked for.
 
 use std::fs::File;
-use std::io::{ErrorKind, Read};
+use std::io::ErrorKind;
 use std::path::Path;
 
 use taceva_core::{Certificate, Instrument, shown};
@@ -11,9 +11,6 @@ use taceva_protocol::RigFile;
 use super::check::RigCheck;
 use super::problem::RigProblem;
 use crate::instruments::{faults_today, kept, of_rig, remedy};
-
-/// Greatest size of a certificate's file that is read, in bytes.
-const GREATEST_FILE: u64 = 64 << 20;
 
 impl RigCheck {
     /// Compares the certificates of `rig` with the serial numbers in the settings and with today, and looks for their files.
@@ -47,22 +44,23 @@ fn file_problem(
 ) -> Option<String> {
     let name = certificate.file.as_ref()?;
     let path = folder.join(name);
-    let file = shown(name);
-    let mut bytes = Vec::new();
-    let read = File::open(&path).and_then(|file| file.take(GREATEST_FILE).read_to_end(&mut bytes));
-    if let Err(error) = read {
-        let why = match error.kind() {
-            ErrorKind::NotFound => "no such file".to_owned(),
-            _ => error.to_string(),
-        };
-        return Some(format!(
-            "[{instrument}.certificate]: `file` is `{file}`, expected a file beside the rig file: {}: {why}; copy it there, or correct the key",
-            shown(&path)
-        ));
-    }
+    let digest = File::open(&path).and_then(|mut file| Digest::of_reader(&mut file));
+    let digest = match digest {
+        Ok(digest) => digest.to_string(),
+        Err(error) => {
+            let why = match error.kind() {
+                ErrorKind::NotFound => "no such file".to_owned(),
+                _ => error.to_string(),
+            };
+            return Some(format!(
+                "[{instrument}.certificate]: `file` is `{}`, expected a file beside the rig file: {}: {why}; copy it there, or correct the key",
+                shown(name),
+                shown(&path)
+            ));
+        }
+    };
     let stated = certificate.sha256.as_ref()?.to_ascii_lowercase();
-    let found = Digest::of(&bytes).to_string();
-    let found = found.trim_start_matches("sha256:");
+    let found = digest.trim_start_matches("sha256:");
     (found != stated).then(|| {
         format!(
             "[{instrument}.certificate]: `sha256` is `{stated}`, but {} has {found}: name the file of this certificate, or correct the key",
