@@ -9,13 +9,13 @@ use super::moment::Moment;
 const LIVE_FRAMES: u32 = 8;
 /// Number of changed frames of the untouched gel after which a camera counts as noisy. Then no two of its frames are equal.
 const NOISY_FRAMES: u32 = 4;
-/// Number of repeats of one frame after which a camera with fewer changes counts as frozen, if it showed the same change of the force before.
+/// Number of repeats of one frame after which a camera with fewer changes counts as frozen. It must have shown such a change of the force before.
 const STUCK_REPEATS: u32 = 3;
 /// Part of the greatest shown change that shows again. Presses to one depth differ in force.
 const SHOWN_PART: f64 = 0.75;
-/// Number of returns to older frames after which a camera counts as frozen, and the number for a camera without noise.
-const CYCLE_RETURNS: u32 = 3;
-const NOISELESS_RETURNS: u32 = 6;
+/// Number of returns to older frames after which a noisy camera counts as frozen, and the number for any other one.
+const NOISY_RETURNS: u32 = 3;
+const CYCLE_RETURNS: u32 = 6;
 /// Distance of a sample from black or from full scale, up to which it shows nothing.
 const CLIPPED: u16 = 4;
 /// Greatest part of the samples of a blank frame that are not clipped, as of hot pixels.
@@ -42,7 +42,7 @@ struct Distinct {
     is_left: bool,
     /// Number of repeats that should have differed.
     repeats: u32,
-    /// True if it was seen in the air and in contact, or in two presses, over a change of the force that the camera had shown before.
+    /// True if it was seen in the air and in contact, or in two presses, over a change of the force that was shown before.
     is_seen_across: bool,
 }
 
@@ -70,8 +70,8 @@ impl Freeze {
             self.changes_in_air += u32::from(stays_in_air);
             self.shown_n = self.shown_n.max(change_n);
             self.keep(frame, moment);
-            let allowed = match self.is_noiseless {
-                true => NOISELESS_RETURNS,
+            let allowed = match self.changes_in_air >= NOISY_FRAMES && !self.is_noiseless {
+                true => NOISY_RETURNS,
                 false => CYCLE_RETURNS,
             };
             return self.cycle.returns(frame, moment) >= allowed && !is_blank(frame);
@@ -88,8 +88,8 @@ impl Freeze {
             return false;
         }
         let is_other_press = last.is_left || last.moment.is_in_air != moment.is_in_air;
-        // Two presses at different places look different by the force of either.
-        let contrast_n = match last.is_left {
+        // Presses of two places look different by the force of either.
+        let contrast_n = match moment.is_beside(&last.moment) {
             true => change_n
                 .max(moment.felt.normal_n)
                 .max(last.moment.felt.normal_n),
@@ -213,8 +213,18 @@ mod tests {
     }
 
     #[test]
+    fn presses_of_one_place_within_a_step_of_a_coarse_camera_are_not_frozen() {
+        let mut freeze = Freeze::default();
+        assert!(!freeze.is_frozen(&frame([0, 50]), pressed(0.0)));
+        for force_n in [0.6, 0.8, 0.95, 0.6, 0.8] {
+            assert!(!freeze.is_frozen(&frame([90, 50]), pressed(force_n)));
+            freeze.leave();
+        }
+    }
+
+    #[test]
     fn a_camera_that_returns_old_frames_in_turn_is_found_while_the_force_changes() {
-        for (is_noiseless, allowed) in [(false, CYCLE_RETURNS), (true, NOISELESS_RETURNS)] {
+        for (is_noiseless, allowed) in [(false, NOISY_RETURNS), (true, CYCLE_RETURNS)] {
             let mut freeze = after_nine(!is_noiseless);
             let cycled = [frame([100, 7]), frame([120, 9])];
             let mut found = None;

@@ -45,6 +45,12 @@ impl Moment {
         self.change_n(earlier) > FORCE_STEPS * self.air_n
     }
 
+    /// True if the tip is at another place of the gel than at `earlier`, whatever its depth.
+    pub(super) fn is_beside(&self, earlier: &Moment) -> bool {
+        let (here, there) = (&self.pose.position, &earlier.pose.position);
+        (here.x.0 - there.x.0).hypot(here.y.0 - there.y.0) > MOVED_MM
+    }
+
     /// True if the tip moved so far since `earlier` that a camera without noise shows it.
     pub(super) fn is_moved_from(&self, earlier: &Moment) -> bool {
         distance(&earlier.pose, &self.pose) > MOVED_MM
