@@ -178,13 +178,6 @@ impl Arm {
         Ok(())
     }
 
-    /// Position of the speed slider, in whole percent; `None` if no state has come or it states none.
-    fn slider_percent(&self) -> Option<f64> {
-        let seen = self.look(None, FIRST).ok()?;
-        let slider = seen.what.slider;
-        slider.is_finite().then(|| (100.0 * slider).round())
-    }
-
     /// Waits for a state newer than number `after`. Without `after`, returns an existing state if it is fresh.
     pub(super) fn look(
         &self,
@@ -254,15 +247,16 @@ impl Robot for Arm {
 
     fn settings(&self) -> BTreeMap<String, String> {
         let version = Some(self.states.version()).filter(|version| !version.is_empty());
-        let firmware = version.map(|version| ("firmware".to_owned(), version.to_owned()));
-        let percent = self.slider_percent();
-        let slider =
-            percent.map(|percent| ("speed_slider_percent".to_owned(), percent.to_string()));
-        firmware.into_iter().chain(slider).collect()
+        let named = version.map(|version| ("firmware".to_owned(), version.to_owned()));
+        named.into_iter().collect()
     }
 
     fn warnings(&self) -> Vec<String> {
-        let reduced = self.slider_percent().filter(|percent| *percent < 100.0);
+        // No setting: a person may move the slider between the sessions of a recording.
+        let percent = self
+            .look(None, FIRST)
+            .map(|seen| (100.0 * seen.what.slider).round());
+        let reduced = percent.ok().filter(|percent| *percent < 100.0);
         let warned = reduced.map(|percent| {
             format!(
                 "the speed slider is at {percent} %, so the arm moves slower than commanded: set it to 100 % on the pendant"
