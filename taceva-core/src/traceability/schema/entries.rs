@@ -79,8 +79,7 @@ impl Certificate {
     /// Certificate of `instrument` from the entries of its table in a file.
     ///
     /// # Errors
-    /// [`CertificateError`] with the key: an unknown key, all missing keys at once, a value of another type, or as of
-    /// [`check`](Certificate::check).
+    /// [`CertificateError`] with the key: an unknown key, all missing keys, a value of another type, or as of [`check`](Certificate::check).
     pub fn of_entries<'de, V, E>(
         instrument: Instrument,
         entries: &BTreeMap<String, V>,
@@ -113,8 +112,8 @@ impl Certificate {
         }
         let pairs = entries.iter();
         let pairs = pairs.map(|(key, value)| (key.as_str(), value.clone()));
-        let written = WrittenCertificate::deserialize(MapDeserializer::new(pairs));
-        let written = written.map_err(|error: E| {
+        let pairs = MapDeserializer::<'de, _, E>::new(pairs);
+        let written = WrittenCertificate::deserialize(pairs).map_err(|error| {
             CertificateError::value("certificate", "a table", error.to_string())
         })?;
         let certificate = Certificate::try_from(written)?;
