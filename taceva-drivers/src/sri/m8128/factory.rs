@@ -29,8 +29,8 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
 ///
 /// # Verification
 /// Two published frames, whose values and checksums are tested, and an emulated box on which the driver passes its suite. There is no
-/// public client. **Not verified without the device**: the answers to queries and to a stop, zero in the box, the unit of torque (N·m
-/// unless `torque=N mm`), and frames with CRC32. The CRC's polynomial and byte order come from a single public driver.
+/// public client. **Not verified without the device**: the answers to queries and to a stop, zero in the box, and frames with CRC32. The
+/// unit of torque is not either (N·m unless `torque=N mm`). The CRC's polynomial and byte order come from a single public driver.
 ///
 /// ```
 /// use taceva_core::Factory;

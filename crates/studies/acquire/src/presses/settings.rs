@@ -17,8 +17,8 @@ impl OpenRig {
         settings
     }
 
-    /// Shows the operator, if any, the remarks of transducer and robot and the contradictions of certificates that are not in `shown`, and adds
-    /// them to it.
+    /// Shows the operator, if any, the remarks of the devices and the contradictions of certificates. Leaves out those in `shown`, and adds the
+    /// others to it.
     pub(super) fn warn(&self, workshop: Workshop<'_>, shown: &mut Vec<String>) {
         let Some(operator) = workshop.operator else {
             return;
