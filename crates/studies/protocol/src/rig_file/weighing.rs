@@ -67,7 +67,7 @@ impl Check<'_> {
         match &weighing {
             Some(written) if !written.value.is_right() => self.refuse(
                 written.at(),
-                "`weighing`: `measured_N` differs from `expected_N` by more than `tolerance_N`: run `taceva rig check` with `--weight` again"
+                "`weighing`: `measured_N` differs from `expected_N` by more than `tolerance_N`: delete this line, then run `taceva rig check` with `--weight`"
                     .to_owned(),
             ),
             _ => Ok(weighing),
