@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use taceva_core::{Deadline, DriverError, ErrorKind, ForceTransducer};
+use taceva_core::{Deadline, ErrorKind, ForceTransducer};
 use taceva_drivers::{Drivers, MonotonicClock};
 use taceva_protocol::{Answer, Cancel, Operator, Question, RigFile, SceneProblem, Weighing};
 
-use super::listen::{LISTENED, without_answer};
+use super::listen::LISTENED;
 use super::stream::Listener;
 use crate::error::AcquireError;
 use crate::instruments::today;
@@ -149,16 +149,12 @@ fn resting(
             }
             Ok(_) => {}
             Err(error) if error.kind() == ErrorKind::Timeout => {}
-            Err(error) => return Err(failed(error)),
+            Err(error) => return Err(error.into()),
         }
     }
     listener.mean().ok_or_else(|| {
         AcquireError::Request("the force transducer sent no reading: check its cable".to_owned())
     })
-}
-
-fn failed(error: DriverError) -> AcquireError {
-    AcquireError::Request(without_answer(error))
 }
 
 /// Contradiction of a comparison, with its remedy.
@@ -202,7 +198,7 @@ fn problem(weighing: &Weighing, [x_n, y_n, z_n]: [f64; 3]) -> Option<String> {
 mod tests {
     use std::sync::atomic::{AtomicU32, Ordering};
 
-    use taceva_core::{Axes, Newton, Stamp, Wrench};
+    use taceva_core::{Axes, DriverError, Newton, Stamp, Wrench};
 
     use super::*;
 
