@@ -22,33 +22,12 @@ const DIFFERENCE: f64 = 0.03;
 const HIDDEN: f64 = 0.1;
 /// Relative difference of a factor from that of a mistaken unit.
 const NEAR: f64 = 0.05;
-/// Factors of mistaken units.
-static MISTAKES: [(f64, &str); 7] = [
-    (
-        1.0 / 4.448_222,
-        "readings in pounds-force (lbf) are taken for newtons",
-    ),
-    (
-        4.448_222,
-        "readings in newtons are converted from pounds-force (lbf)",
-    ),
-    (
-        1.0 / FREE_FALL_M_S2,
-        "readings in kilograms-force (kgf) are taken for newtons",
-    ),
-    (
-        FREE_FALL_M_S2,
-        "readings in newtons are converted from kilograms-force (kgf)",
-    ),
-    (
-        1e3 / FREE_FALL_M_S2,
-        "readings in grams-force (gf) are taken for newtons",
-    ),
-    (1e3, "readings in millinewtons (mN) are taken for newtons"),
-    (
-        1e-3,
-        "readings in newtons are converted from millinewtons (mN)",
-    ),
+/// Units that are mistaken for newtons, each with its newtons.
+static UNITS: [(f64, &str); 4] = [
+    (4.448_222, "pounds-force (lbf)"),
+    (FREE_FALL_M_S2, "kilograms-force (kgf)"),
+    (1e-3 * FREE_FALL_M_S2, "grams-force (gf)"),
+    (1e-3, "millinewtons (mN)"),
 ];
 
 /// Result of a known weight on the transducer of a rig.
@@ -167,7 +146,8 @@ fn problem(weighing: &Weighing, [x_n, y_n, z_n]: [f64; 3]) -> Option<String> {
         ..
     } = *weighing;
     let of_noise_n = tolerance_n - DIFFERENCE * expected_n;
-    if of_noise_n > HIDDEN * expected_n {
+    // Under a mistaken unit the noise is another one too.
+    if of_noise_n > HIDDEN * expected_n.max(measured_n) {
         return Some(format!(
             "{mass_g} g weigh {expected_n:.3} N, expected at least 10 times the noise and the step of the readings, {of_noise_n:.3} N: hang a heavier weight"
         ));
@@ -181,10 +161,16 @@ fn problem(weighing: &Weighing, [x_n, y_n, z_n]: [f64; 3]) -> Option<String> {
         return None;
     }
     let factor = measured_n / expected_n;
-    let mut mistakes = MISTAKES.iter();
-    let mistake = mistakes.find(|(of_unit, _)| (factor / of_unit - 1.0).abs() < NEAR);
+    let is_near = |of_unit: f64| (factor / of_unit - 1.0).abs() < NEAR;
+    let mistake = UNITS.iter().find_map(|(n_per_unit, unit)| {
+        match (is_near(1.0 / n_per_unit), is_near(*n_per_unit)) {
+            (true, _) => Some(format!("readings in {unit} are taken for newtons")),
+            (_, true) => Some(format!("readings in newtons are converted from {unit}")),
+            _ => None,
+        }
+    });
     let cause = match mistake {
-        Some((_, mistake)) => format!(
+        Some(mistake) => format!(
             "{mistake}: set the unit of the device to N, or correct the arguments of its driver"
         ),
         None => "check the mass, whatever touches the transducer, and its calibration".to_owned(),
@@ -278,6 +264,7 @@ mod tests {
             (1.0 / 9.80665, "kilograms-force (kgf) are taken for newtons"),
             (9.80665, "converted from kilograms-force (kgf)"),
             (101.97, "grams-force (gf) are taken for newtons"),
+            (1.0 / 101.97, "converted from grams-force (gf)"),
             (1000.0, "millinewtons (mN) are taken for newtons"),
             (1.3, "check the mass"),
         ] {
