@@ -66,8 +66,9 @@ pub fn weigh_rig(
     let (mut force, _) = FileOpener::new(rig, drivers).force()?.ok_or_else(missing)?;
     force.start(DEADLINE)?;
     let weighed = weigh(&mut *force, operator, mass_g, LISTENED);
-    force.stop()?;
+    let stopped = force.stop();
     let (weighing, change_n) = weighed?;
+    stopped?;
     let factor = weighing.measured_n / weighing.expected_n;
     let problem = problem(&weighing, change_n);
     let text = rig.with_weighing(&weighing);
