@@ -1,6 +1,6 @@
 //! Emulated machine with GRBL 1.1 at the other end of a pseudo-terminal.
 //!
-//! Supported: `?`, `!`, `~`, reset, `G53 G1` (with `G21 G90 G94`), one motion and one waiting, alarm at a reset during a motion. Not
+//! Supported: `?`, `!`, `~`, `$I`, reset, `G53 G1` (with `G21 G90 G94`), one motion and one waiting, alarm at a reset during a motion. Not
 //! supported: settings, offsets, arcs, homing, acceleration.
 
 use std::fs::File;
@@ -199,6 +199,9 @@ impl Machine {
         let words: Vec<&str> = command.split_whitespace().collect();
         if words.is_empty() {
             return OK.to_owned();
+        }
+        if words == ["$I"] {
+            return format!("[VER:1.1h.20190825:]\r\n[OPT:V,15,128]\r\n{OK}");
         }
         let number = |letter: char| {
             let word = words.iter().find_map(|word| word.strip_prefix(letter));

@@ -51,6 +51,8 @@ struct Inside {
     turned: [f64; 3],
     /// Number of the last numbered stop.
     stop_number: i32,
+    /// Position of the speed slider, 0 to 1. It is reported only: motions keep their speed.
+    slider: f64,
 }
 
 impl Controller {
@@ -72,6 +74,10 @@ impl Controller {
 
     fn stop_number(&self) -> i32 {
         self.inside().stop_number
+    }
+
+    fn slider(&self) -> f64 {
+        self.inside().slider
     }
 
     fn fault(&self) -> Option<ArmFault> {
@@ -161,6 +167,7 @@ impl Emulator {
                 fault: None,
                 turned: DOWN,
                 stop_number: 0,
+                slider: 1.0,
             }),
         });
         let serving = (Arc::clone(&controller), end.clone());
@@ -192,6 +199,11 @@ impl Emulator {
             states,
             script,
         })
+    }
+
+    /// Sets the speed slider of the pendant, 0 to 1.
+    pub fn set_slider(&self, slider: f64) {
+        self.controller.inside().slider = slider;
     }
 
     /// Address of the data exchange.
