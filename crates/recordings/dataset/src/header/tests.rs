@@ -14,6 +14,7 @@ fn header() -> Header {
         source: Source::Simulated,
         clock: Clock::Monotonic,
         recorded_on: Some(Date::of_unix_s(0)),
+        recorded_until: Some(Date::of_unix_s(86_400)),
         sensor: SensorFacts {
             model: "a \"b\"\n[c]".to_owned(),
             serial: "unknown".to_owned(),
