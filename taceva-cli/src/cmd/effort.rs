@@ -65,7 +65,7 @@ fn lines(
     let room = (kept >= MUCH).then(|| {
         let free = free.map_or_else(String::new, |free| {
             let fits = if free < kept {
-                ": they may not fit; then they are not stored"
+                ": if they do not fit, they are not stored"
             } else {
                 ""
             };

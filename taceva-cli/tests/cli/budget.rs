@@ -328,7 +328,7 @@ fn an_uncertainty_above_the_greatest_allowed_one_ends_with_exit_code_1() {
     bench.refused(
         "budget budget.toml --mc 0 --format json",
         2,
-        "--format json holds one budget: add --at with one value, such as 0.5N",
+        "--format json writes one budget: add --at with one value, such as 0.5N",
     );
     let budget = bench.json("budget budget.toml --mc 0 --at 1000mN");
     near(number(&budget["at"]), 1.0, 1e-15);

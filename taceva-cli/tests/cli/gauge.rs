@@ -266,7 +266,7 @@ fn simulated_units_are_studied_by_the_error_and_every_form_says_that_they_are_si
     bench.refused(
         "gauge units.csv --format json",
         2,
-        "--format json holds one channel: add --channels with one of Fz, Pz",
+        "--format json writes one channel: add --channels with one of Fz, Pz",
     );
     bench.refused(
         "gauge units.csv --channels Fz --tolerance 1mm",

@@ -114,7 +114,7 @@ fn remarks(map: &str, path: &str) -> Vec<String> {
         };
         remarks.push(format!(
             "if several rows show one contact, such as the frames of a grasp or the repeats of a press, name the contacts: under [ids] of \
-             {path} write point_id = \"COLUMN\"{offered}. Scores then go by contact, and no contact is in both training and test"
+             {path} write point_id = \"COLUMN\"{offered}. Intervals then count contacts, and no contact is in both the training and the test part"
         ));
     }
     remarks

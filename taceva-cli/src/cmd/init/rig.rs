@@ -28,7 +28,7 @@ pub(super) fn write(
         "camera of the sensor",
         interview,
     )?;
-    interview.say("limits protect the gel: the robot is halted when it exceeds one");
+    interview.say("limits protect the gel: the robot halts when it exceeds one");
     let depth = interview.number("greatest depth, in mm", None, [0.01, 50.0])?;
     let normal = interview.number("greatest normal force, in N", None, [0.01, 1000.0])?;
     let shear_question = "greatest shear force, in N";

@@ -197,7 +197,7 @@ fn the_main_table_is_chosen_in_every_format() {
     bench.refused(
         "evaluate data --model ridge --format json --table main",
         2,
-        "JSON is no table",
+        "JSON has no tables",
     );
     let compared = bench.ok("compare GelSight MagicTac --format tex -q");
     assert!(

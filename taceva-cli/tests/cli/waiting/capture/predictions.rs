@@ -92,7 +92,7 @@ fn a_model_of_hand_presses_predicts_what_the_transducer_measures_on_a_page_and_b
         "frames seen",
         "dropped for newer ones",
         "of their stamps",
-        "were outside what the model has seen",
+        "were unlike the training pictures",
         "more/predictions.csv: predictions by ridge sha256:",
     ] {
         assert!(ran.err.contains(words), "`{words}` in {}", ran.err);
