@@ -47,7 +47,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
         id: "units".to_owned(),
         title: "Differences between units".to_owned(),
         caption: format!(
-            "Height of the surface of the second unit less that of the first at the same points, as measured, before the two surfaces are aligned. Mean distance of the aligned surfaces: {}.",
+            "Height of the surface of the second unit minus that of the first at the same points, as measured, before the two surfaces are aligned. Mean distance of the aligned surfaces: {}.",
             words.join("; ")
         ),
         description: format!(
