@@ -327,7 +327,7 @@ fn hint(name: &str, known: &[&str]) -> String {
     });
     match (plane, taceva_core::nearest(name, known.iter().copied())) {
         (Some((plane, [x, y], _)), _) => {
-            format!("; {plane} is formed of {x} and {y}: --channels {x},{y}")
+            format!("; {plane} is computed from {x} and {y}: --channels {x},{y}")
         }
         (None, Some(nearest)) => format!("; did you mean `{nearest}`?"),
         (None, None) => String::new(),

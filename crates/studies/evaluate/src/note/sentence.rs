@@ -226,7 +226,7 @@ impl fmt::Display for Note {
             ),
             Note::FramesFrozen(count) => write!(
                 f,
-                "the camera froze: {} equalled the one before although the force changed, {} broken off and repeated",
+                "the camera froze: {} equalled the one before although the force changed, {} aborted and repeated",
                 counted(*count, "frame"),
                 by_count(*count, "and its press was", "and their presses were")
             ),
@@ -323,7 +323,7 @@ mod tests {
             ),
             (
                 Note::FramesFrozen(1),
-                "the camera froze: 1 frame equalled the one before although the force changed, and its press was broken off and repeated",
+                "the camera froze: 1 frame equalled the one before although the force changed, and its press was aborted and repeated",
             ),
             (
                 left_out(1),

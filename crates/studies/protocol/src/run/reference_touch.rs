@@ -60,7 +60,7 @@ impl ReferenceTouch {
                 format!("{before:.3} N/mm in the last session ({change:+.1} %)")
             }
             None => {
-                "a gel that should be about 4.4 or 9.8 times stiffer or softer shows a wrong unit of force".to_owned()
+                "if the gel should be about 4.4 or 9.8 times stiffer or softer, the unit of force is wrong".to_owned()
             }
         };
         format!(
