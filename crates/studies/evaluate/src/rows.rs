@@ -368,7 +368,7 @@ mod tests {
     #[test]
     fn a_plane_and_another_case_of_a_channel_are_understood() {
         let six = ["Px", "Py", "Pz", "Fx", "Fy", "Fz"];
-        let plane = "; Fxy is formed of Fx and Fy: --channels Fx,Fy";
+        let plane = "; Fxy is computed from Fx and Fy: --channels Fx,Fy";
         assert_eq!(hint("Fxy", &six), plane);
         assert_eq!(hint("fxy", &six), plane);
         assert_eq!(hint("fz", &six), "; did you mean `Fz`?");

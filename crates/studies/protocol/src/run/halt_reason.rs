@@ -178,7 +178,7 @@ mod tests {
         ] {
             let said = trip.to_string();
             let expected = format!(
-                "the last {signal} reading is 84 ms old; on a busy machine, start the run by `chrt -f 10 "
+                "the last {signal} reading is 84 ms old; on a busy machine, run with `chrt -f 10 "
             );
             assert!(said.starts_with(&expected), "{said}");
         }

@@ -187,7 +187,7 @@ mod tests {
             line,
             "gentle touch with the sphere of radius 4 mm: 0.600 N at 0.300 mm, 2.000 N/mm; 1.600 N/mm in the last session (+25.0 %)"
         );
-        assert!(touch(0.6).line(None).contains("wrong unit of force"));
+        assert!(touch(0.6).line(None).contains("the unit of force is wrong"));
     }
 
     #[test]

@@ -230,8 +230,8 @@ mod tests {
     fn what_is_no_pattern_says_why() {
         for (pattern, expected) in [
             ("{a", "never closed"),
-            ("{a:hex}", "`:hex` is no kind"),
-            ("{1a}", "no name"),
+            ("{a:hex}", "`:hex` is not a kind"),
+            ("{1a}", "not a valid name"),
             ("{a}{a}", "twice"),
             ("plain", "names no part"),
         ] {
