@@ -368,6 +368,6 @@ fn units_of_a_gauge_study_are_a_source_with_their_own_degrees_of_freedom() {
     bench.refused(
         "budget budget.toml",
         3,
-        "budget.toml: line 6, `from`: `gauge.json#reproducibilty` is not measured here: `reproducibilty` is no component; did you mean `reproducibility`?",
+        "budget.toml: line 6, `from`: `gauge.json#reproducibilty` is not measured here: `reproducibilty` is not a component; did you mean `reproducibility`?",
     );
 }

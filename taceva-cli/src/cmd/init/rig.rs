@@ -125,7 +125,7 @@ fn device(
         return Ok(answer);
     }
     let driver = of_kind.into_iter().find(|driver| driver.key == answer);
-    let driver = driver.ok_or_else(|| Usage::error(format!("{answer} is no {what}")))?;
+    let driver = driver.ok_or_else(|| Usage::error(format!("{answer} is not a {what}")))?;
     let mut arguments = Vec::new();
     for argument in driver.arguments.iter().filter(|argument| argument.required) {
         let question = format!("{}: {} ({})", argument.key, argument.help, argument.takes);

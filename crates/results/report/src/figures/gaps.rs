@@ -34,7 +34,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     for (position, (at, gaps, units)) in found.iter().enumerate() {
         let area = grid.area(position);
         let title = format!(
-            "{}: unit {} less {}",
+            "{}: unit {} minus {}",
             short(&names[*at], 24),
             short(&units[1], 8),
             short(&units[0], 8)
