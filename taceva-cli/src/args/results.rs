@@ -51,7 +51,7 @@ pub(crate) struct ReportArgs {
     /// The channels and planes to report, separated by commas, such as Fz [default: all]
     #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
     pub(crate) channels: Vec<String>,
-    /// Also write the tables and figures of a published study in its own form, with its printed numbers and ours over them, into `like-STUDY/`
+    /// Also write the tables and figures of a published study in its own form, with its printed numbers and the ratio of ours to them, into `like-STUDY/`
     #[arg(long, value_enum, value_name = "STUDY")]
     pub(crate) like: Option<Like>,
     #[command(flatten)]
