@@ -49,7 +49,9 @@ impl<R: Iterator<Item = io::Result<String>>> Interview<R> {
     ) -> anyhow::Result<String> {
         if self.takes_defaults {
             return default.map(str::to_owned).ok_or_else(|| {
-                Usage::error(format!("no default for: {question}; run it without --yes"))
+                Usage::error(format!(
+                    "no default for: {question}; run the command without --yes"
+                ))
             });
         }
         loop {

@@ -287,7 +287,7 @@ fn unit_of_one(names: &[String], f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = shown(name);
         write!(
             f,
-            "{separator}{name}: not one of Px Py Pz Fx Fy Fz; taken as a channel of unit 1; "
+            "{separator}{name}: not one of Px Py Pz Fx Fy Fz; scored as a channel with the unit 1; "
         )?;
         match meant {
             Some(channel) => write!(
