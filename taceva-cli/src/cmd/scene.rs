@@ -104,7 +104,7 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             context.say(format_args!("rig: {change}"));
         }
         context.say(format_args!(
-            "rig: taceva is no safety function; the emergency stop and the guards of the site must hold without it (docs/rig.md)"
+            "rig: taceva is no safety function; the emergency stop and the guards of the site must work without it (docs/rig.md)"
         ));
     }
 }

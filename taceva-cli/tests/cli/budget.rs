@@ -155,7 +155,7 @@ fn a_template_names_what_a_result_lacks_and_is_read_back_without_a_change() {
     bench.refused(
         "budget --template r.json --channel Fy",
         2,
-        "--channel Fy: the result has no score of it, expected one of Fz, Px",
+        "--channel Fy: the result has no score of this channel, expected one of Fz, Px",
     );
 }
 

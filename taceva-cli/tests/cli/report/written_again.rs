@@ -165,7 +165,7 @@ fn results_of_another_version_are_refused_in_words() {
     bench.refused(
         "report data",
         2,
-        "data is a dataset: `taceva evaluate data` makes a result",
+        "data is a dataset: `taceva evaluate data` computes a result",
     );
 }
 
