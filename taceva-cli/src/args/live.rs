@@ -89,7 +89,8 @@ pixels, and a sharpness that is greatest in focus. Nothing is recorded. Ctrl-C o
 
 With --model a fitted model predicts the newest picture, up to 60 a second. The page shows its newtons and millimetres over that picture, marked as
 predictions, and marks pictures unlike the training pictures. It skips and counts older pictures if the model is too slow.
-At the end the command prints the frames seen, shown and skipped, the delay of 95 % of them after their stamps, and the share of unlike pictures.
+At the end the command prints the frames seen, shown and skipped, and the share unlike the training pictures. It also prints the delay after the
+stamp within which 95 % were sent to the page.
 
   taceva preview --sensor camera/mjpeg:url=http://192.168.1.20:8080/?action=stream
   taceva preview --rig hand.toml
