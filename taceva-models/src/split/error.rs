@@ -82,7 +82,7 @@ pub enum SplitError {
     /// There are too few samples or clusters for one in each part.
     #[error(
         "{found} {what} are too few for one in each part{}",
-        if *found == 0 { "; in a run this means that no press met the gel" } else { "" }
+        if *found == 0 { "; in a run this means that no press touched the gel" } else { "" }
     )]
     Few {
         /// Kind of clusters.
@@ -98,7 +98,7 @@ pub enum SplitError {
     },
     /// The recording names no contact points.
     #[error(
-        "split by-point: the recording names no `point_id`: name the column of contact points under [ids] of the map, or divide by-column:NAME or by-block"
+        "split by-point: the recording names no `point_id`: name the column of contact points under [ids] of the map, or split by-column:NAME or by-block"
     )]
     NoPoints,
     /// The recording has no times.
