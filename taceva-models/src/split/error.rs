@@ -144,8 +144,8 @@ pub enum SplitError {
     },
     /// The split has several folds, but a single one is needed.
     #[error(
-        "split {split} fits a model for each fold, which `evaluate` does, and `fit` for validation; to fit one model, use `all` or a \
-            split with a test part"
+        "split {split} fits a model for each fold, but one model is needed: use `all` or a split with a test part, or score all folds with \
+            `evaluate`"
     )]
     ManyFolds {
         /// Name of the split.
