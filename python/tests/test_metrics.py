@@ -358,7 +358,7 @@ def test_a_channel_that_is_probably_mistyped_is_refused_and_any_other_unknown_on
     normal = taceva.score(rows, rows, channels=["Fn", "Ft"])
     assert normal["mae", "Fn"].value == 0.0 and any(note.startswith("Ft: not one of") for note in normal.notes)
     noted = taceva.score(rows, rows, channels=["Fz", "force_z"])
-    assert any(note.startswith("force_z: not one of Px Py Pz Fx Fy Fz; taken as a channel of unit 1") for note in noted.notes)
+    assert any(note.startswith("force_z: not one of Px Py Pz Fx Fy Fz; scored as a channel with the unit 1") for note in noted.notes)
     assert not taceva.score(rows, rows, channels=["Fz", "force_z"], units={"force_z": "N"}).notes
     metrics = pickle.loads(pickle.dumps(taceva.TactileMetrics(["Fz", "force_z"])))
     assert any("force_z" in note for note in metrics(rows, rows).notes)

@@ -60,7 +60,7 @@ pub(crate) use self::sweep::{
 /// First commands of a new user, by the data at hand.
 pub(crate) const START: &str = "\
 I have a recording: pictures and labels in a folder
-  taceva init recording my-folder                           asks what the files do not say; writes map.toml
+  taceva init recording my-folder                           asks for units and names; writes map.toml
   taceva import my-folder --map map.toml --out my-dataset
   taceva evaluate my-dataset                                how well does the sensor measure?
 
@@ -69,7 +69,7 @@ I have no data yet
 
 I have a rig: camera, robot, force transducer
   taceva init rig                                           asks for its devices; writes rig.toml
-  taceva rig teach rig.toml                                 where is the gel? you jog, it reads
+  taceva rig teach rig.toml                                 jog the robot; it writes the place of the gel
   taceva rig check rig.toml                                 are they fast and quiet enough?";
 
 const EXIT_CODES: &str = "\

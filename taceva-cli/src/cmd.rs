@@ -153,7 +153,7 @@ fn check_free(scoring: &ScoringArgs, output: &Output) -> anyhow::Result<()> {
 pub(crate) fn table_scores(args: &TableArgs, format: Format) -> anyhow::Result<TableScores> {
     match (args.scores, format) {
         (Some(_), Format::Json) => Err(Usage::error(
-            "--table and --format json: JSON is no table and holds every number; use --format text, csv, md or tex, or leave --table out",
+            "--table and --format json: JSON has no tables and always contains every number; use --format text, csv, md or tex, or omit --table",
         )),
         (Some(scores), _) => Ok(scores),
         (None, format) => Ok(TableScores::usual(format)),

@@ -225,7 +225,8 @@ class TactileMetrics:
     def _scored(self, name: str | None, notes: Sequence[str]) -> str:
         """Return the results file of all samples, with ``notes``."""
         own = [
-            f"{channel}: not one of {' '.join(SIX)}; taken as a channel of unit 1; give its unit as units={{{channel!r}: …}}" for channel in self._unknown
+            f"{channel}: not one of {' '.join(SIX)}; scored as a channel with the unit 1; give its unit as units={{{channel!r}: …}}"
+            for channel in self._unknown
         ]
         return self._sums.compute(sorted(self._paired), name, [*own, *self._angles.notes(), *notes])
 

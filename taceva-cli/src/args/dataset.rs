@@ -115,10 +115,10 @@ pub(crate) struct Check {
     /// The dataset to check; several recordings are checked one by one, and then whether they can be joined
     #[arg(required = true, value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
-    /// Compare this folder, or a tar of it, with the files that the dataset was imported from, and make no other check
+    /// Compare this folder, or a tar of it, with the files that the dataset was imported from, and run no other check
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["only", "explain"])]
     pub(crate) source: Option<PathBuf>,
-    /// Make only the checks with these codes, separated by commas
+    /// Run only the checks with these codes, separated by commas
     #[arg(long, value_name = "CODES", value_delimiter = ',')]
     pub(crate) only: Vec<String>,
     #[command(flatten)]

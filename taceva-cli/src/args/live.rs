@@ -31,12 +31,12 @@ so no contact is in both the training and the test part. Frames between contacts
 
 With --model a fitted model predicts frames as they arrive. Page, terminal and recording mark these numbers as predictions:
 OUT/predictions.csv has them by frame, dataset.toml names the model and its digest, and they never become labels. The model never slows the
-capture: frames that it has no time for are skipped and counted. A model that needs a frame without contact uses the first one.
+capture: it skips frames that arrive too fast, and counts them. A model that needs a frame without contact uses the first one.
 
   taceva capture more --rig hand.toml --model presses.taceva    forces measured and predicted, side by side on a page
 
-Ctrl-C ends the capture; the dataset is complete. Lost frames are counted on the progress line, in the header, and by `taceva check`
-(TAC015): frames that did not fit into the queue of 8, and frames that the camera numbered but the program did not read in time.
+Ctrl-C ends the capture; the dataset is complete. The progress line, the header and `taceva check` (TAC015) count lost frames.
+A frame is lost if the queue of 8 is full, or if the program does not read it in time, which its number shows.
 
 The exit code is 0 after --for or --frames, or at Ctrl-C without either; 4 if a device failed; 5 at Ctrl-C before --for or --frames. The
 dataset is complete in each case. After a full disk or a power cut `taceva capture OUT --close` closes the interrupted recording.";
@@ -88,8 +88,9 @@ const PREVIEW_HELP: &str = "Prints the address of a page on this machine. The pa
 pixels, and a sharpness that is greatest in focus. Nothing is recorded. Ctrl-C or the button of the page ends the preview.
 
 With --model a fitted model predicts the newest picture, up to 60 a second. The page shows its newtons and millimetres over that picture, marked as
-predictions, and marks pictures outside what the model has seen. Older pictures that it has no time for are skipped and counted. At the end the
-command prints the frames seen, shown and skipped, the delay after the stamps of 95 % of them, and the share outside.
+predictions, and marks pictures unlike the training pictures. It skips and counts older pictures if the model is too slow.
+At the end the command prints the frames seen, shown and skipped, and the share unlike the training pictures. It also prints the delay after the
+stamp within which 95 % were sent to the page.
 
   taceva preview --sensor camera/mjpeg:url=http://192.168.1.20:8080/?action=stream
   taceva preview --rig hand.toml

@@ -54,7 +54,7 @@ pub(crate) struct ReportArgs {
     /// The channels and planes to report, separated by commas, such as Fz [default: all]
     #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
     pub(crate) channels: Vec<String>,
-    /// Also write the tables and figures of a published study in its own form, with its printed numbers and ours over them, into `like-STUDY/`
+    /// Also write the tables and figures of a published study in its own form, with its printed numbers and the ratio of ours to them, into `like-STUDY/`
     #[arg(long, value_enum, value_name = "STUDY")]
     pub(crate) like: Option<Like>,
     #[command(flatten)]
@@ -102,7 +102,7 @@ pub(crate) struct Choose {
 /// The needs that `--need` knows.
 fn needs_help() -> String {
     format!(
-        "Needs, separated by commas:\n{}\nPrices are bounded in one currency, such as EUR; none is converted. \
+        "Needs, separated by commas:\n{}\nA bound on the price names its currency, such as EUR; prices are not converted. \
          Other units are mN, cm, um and cm2.\n\
          A sensor whose number is unknown stays open. The exit code is 0 also if no sensor meets the needs.",
         taceva_report::Need::vocabulary()
@@ -123,13 +123,13 @@ Limits:
   unit = \"N\"
   most = 0.05               # or least; or both
 
-Rules, which may also stand below a [[limit]]:
+Rules, for the file or below one [[limit]]:
   simple       the value meets the limit; this is the rule if none is stated
   guarded      the value is inside the limit by r U, with U at `coverage` (0.95)
   probability  the probability of conformity is at least `p_conformity` (0.95)
   shared       the value meets the limit, and U is at most `most_uncertainty`
 The verdict is pass, conditional pass, conditional fail, fail or, without an interval, undecided.
-Limits of version 1 are read too: `whole_interval = true` holds the whole interval against the limit.
+Limits of version 1 are read too: `whole_interval = true` compares the whole interval with the limit.
 
 A file to start from, with the measured value beside each limit:
   taceva accept --template RESULT.json --out limits.toml";

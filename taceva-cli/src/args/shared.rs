@@ -57,11 +57,11 @@ pub(crate) struct ViewArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SplitArgs {
-    /// The division of samples: random, chronological, by-point, by-block, declared, by-column:NAME[=train:1,2;val:3;test:4], each with
-    /// shares of training, validation and test after a space: 'chronological 80/0/20' tests the last fifth of the samples in order of time; all
-    /// trains on every sample, for a final model; cv:K or loo, optionally followed by random, by-point, by-block or by-column:NAME, predict
-    /// each sample once; for several recordings also by-recording[=train:A,B;test:C] and leave-one-recording-out, which fits a model for
-    /// each [default: by-point where points have repeats, by groups or blocks of time where neighbours resemble each other, else random;
+    /// The division of samples: random, chronological, by-point, by-block, declared or by-column:NAME[=train:1,2;val:3;test:4]. Write shares
+    /// of training, validation and test behind a space: 'chronological 80/0/20' tests the last fifth of the samples in order of time. all
+    /// trains on every sample, for a final model. cv:K and loo predict each sample once; random, by-point, by-block or by-column:NAME may
+    /// follow. For several recordings also by-recording[=train:A,B;test:C] and leave-one-recording-out, which fits a model for each
+    /// [default: by-point where points have repeats, by groups or blocks of time where neighbours resemble each other, else random;
     /// `evaluate` of 5 to 999 groups: cv:5 of these]
     #[arg(long, value_name = "SPLIT")]
     pub(crate) split: Option<String>,

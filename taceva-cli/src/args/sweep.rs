@@ -84,11 +84,11 @@ pub(crate) enum SweepEngine {
 /// Operation on a sweep.
 #[derive(Debug, Subcommand)]
 pub(crate) enum SweepSubject {
-    /// Print means over tasks, grouped by any varying word
+    /// Print means over tasks, grouped by any key that varies
     Show(SweepShow),
     /// Print the number of finished tasks, and the jobs of the scheduler
     Status(SweepFolderArgs),
-    /// Cancel the jobs of a sweep; results stay
+    /// Cancel the jobs of a sweep; results are kept
     Cancel(SweepFolderArgs),
     /// Make the table and the pages of the existing results; the exit code is 1 if a result is missing or a limit was missed
     Collect(SweepCollect),
@@ -107,7 +107,7 @@ pub(crate) struct SweepFolderArgs {
 pub(crate) struct SweepShow {
     #[command(flatten)]
     pub(crate) of: SweepFolderArgs,
-    /// Words that rows differ by, separated by commas: model, dataset, split, seed, or a setting
+    /// Keys that group the rows, separated by commas: model, dataset, split, seed, or a setting
     #[arg(
         long,
         value_name = "WORDS",

@@ -92,7 +92,7 @@ fn units_of(named: &[PathBuf]) -> anyhow::Result<Vec<Study>> {
             let first = units.iter().zip(&files).find(|(other, _)| is_same(other));
             if let Some((_, first)) = first.filter(|_| is_known) {
                 return Err(Usage::error(format!(
-                    "--process {}: serial {} of {}, which {} has too; expected one result of each unit: name only one of them",
+                    "--process {}: serial {} of {} also occurs in {}; expected one result of each unit: name only one of them",
                     shown(path),
                     shown(&unit.serial),
                     shown(&unit.sensor),

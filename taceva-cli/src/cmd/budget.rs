@@ -103,7 +103,7 @@ fn at(budget: BudgetText, args: &Budget) -> anyhow::Result<BudgetText> {
     };
     if let (Format::Json, [first, _, ..]) = (args.output.format, budget.at()) {
         return Err(Usage::error(format!(
-            "--format json holds one budget: add --at with one value, such as {first}{}",
+            "--format json writes one budget: add --at with one value, such as {first}{}",
             shown(budget.unit())
         )));
     }

@@ -19,7 +19,7 @@ pub(crate) fn run(args: &Check, context: &Context) -> anyhow::Result<u8> {
     let is_table = matches!(args.output.format, Format::Csv | Format::Tex);
     if is_table && args.datasets.len() > 1 {
         return Err(Usage::error(
-            "--format csv and --format tex hold one recording: name one dataset, or take text, md or json",
+            "--format csv and --format tex write one recording: name one dataset, or use text, md or json",
         ));
     }
     let request = CheckRequest {

@@ -65,7 +65,7 @@ fn lines(
     let room = (kept >= MUCH).then(|| {
         let free = free.map_or_else(String::new, |free| {
             let fits = if free < kept {
-                ": they may not fit; then they are not stored"
+                ": if they do not fit, they are not stored"
             } else {
                 ""
             };
@@ -107,7 +107,7 @@ mod tests {
         assert!(said[0].contains("to read 1 picture whose"), "{said:?}");
         let said = lines(9, None, 80_000_000, Some(10_000), folder);
         assert!(
-            said[0].contains("10.0 kB are free: they may not fit"),
+            said[0].contains("10.0 kB are free: if they do not fit"),
             "{said:?}"
         );
     }

@@ -27,7 +27,7 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
         .transpose()?;
     if fitted.is_some() && args.split.split.is_some() {
         return Err(Usage::error(
-            "--split cannot be used with --with: a fitted model knows its own split",
+            "--split cannot be used with --with: the model file states its split",
         ));
     }
     let dataset = open_seen(&args.datasets, &args.view, fitted.as_ref())?;

@@ -49,7 +49,7 @@ pub(crate) fn studies(args: &Gauge, jobs: NonZeroUsize) -> anyhow::Result<GaugeS
     if args.output.format == Format::Json && responses.len() > 1 {
         let names: Vec<&str> = responses.iter().map(|of| of.channel.as_str()).collect();
         return Err(Usage::error(format!(
-            "--format json holds one channel: add --channels with one of {}",
+            "--format json writes one channel: add --channels with one of {}",
             names.join(", ")
         )));
     }

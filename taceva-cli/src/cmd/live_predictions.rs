@@ -107,7 +107,7 @@ fn in_words<'c>(
         .collect();
     let outside = match (prediction.is_outside(), prediction.distance) {
         (Some(true), Some(distance)) => {
-            format!(", outside what the model has seen: distance {distance:.1}, limit 1")
+            format!(", unlike the training pictures: distance {distance:.1}, limit 1")
         }
         _ => String::new(),
     };
@@ -138,11 +138,11 @@ fn summary(model: &LiveModel, counts: &PredictionCounts, sent: &Latencies) -> Ve
     let share = |outside: u64| 100.0 * outside as f64 / counts.predicted.max(1) as f64;
     lines.push(match counts.outside {
         Some(outside) => format!(
-            "{outside} of {} ({:.1} %) were outside what the model has seen",
+            "{outside} of {} ({:.1} %) were unlike the training pictures",
             counts.predicted,
             share(outside)
         ),
-        None => "the number of pictures outside what the model has seen is unknown".to_owned(),
+        None => "the number of pictures unlike the training pictures is unknown".to_owned(),
     });
     lines
 }

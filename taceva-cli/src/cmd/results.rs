@@ -182,7 +182,7 @@ fn file_of(path: &Path) -> anyhow::Result<PathBuf> {
         (false, _) => return Ok(path.to_owned()),
         (true, _) if path.join(HEADER).is_file() => {
             format!(
-                "{named} is a dataset: `taceva evaluate {}` makes a result",
+                "{named} is a dataset: `taceva evaluate {}` computes a result",
                 quoted(path)
             )
         }

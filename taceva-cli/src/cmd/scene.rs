@@ -95,7 +95,7 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
         }
         if study.is_untaught(drivers) {
             context.say(format_args!(
-                "rig: `origin_mm` and `axes` are those of a new file: a run is refused until taceva rig teach {}",
+                "rig: `origin_mm` and `axes` still have the values of a new file: run `taceva rig teach {}` before a run",
                 shown(rig.name())
             ));
         }
@@ -104,7 +104,7 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             context.say(format_args!("rig: {change}"));
         }
         context.say(format_args!(
-            "rig: taceva is no safety function; the emergency stop and the guards of the site must hold without it (docs/rig.md)"
+            "rig: taceva is no safety function; the emergency stop and the guards of the site must work without it (docs/rig.md)"
         ));
     }
 }

@@ -12,7 +12,7 @@ use crate::{exit, output, report};
 
 /// Notes on columns without a stated unit.
 const UNSTATED: [&str; 2] = [
-    "taken as a channel of unit 1",
+    "scored as a channel with the unit 1",
     "as angles in radians do, but are scored as degrees",
 ];
 

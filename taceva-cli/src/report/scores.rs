@@ -224,7 +224,7 @@ fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> 
     };
     let standings: String = standings(&report.scores)
         .iter()
-        .map(|standing| format!(" Not or only partly used in verdicts: {standing}."))
+        .map(|standing| format!(" Excluded from verdicts, fully or partly: {standing}."))
         .collect();
     format!(
         "{subject}, n = {n}.{recordings}{model}{split}{neighbours} {intervals}.{standings}{left_out} TacEva {}.",

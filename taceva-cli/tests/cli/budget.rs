@@ -155,7 +155,7 @@ fn a_template_names_what_a_result_lacks_and_is_read_back_without_a_change() {
     bench.refused(
         "budget --template r.json --channel Fy",
         2,
-        "--channel Fy: the result has no score of it, expected one of Fz, Px",
+        "--channel Fy: the result has no score of this channel, expected one of Fz, Px",
     );
 }
 
@@ -328,7 +328,7 @@ fn an_uncertainty_above_the_greatest_allowed_one_ends_with_exit_code_1() {
     bench.refused(
         "budget budget.toml --mc 0 --format json",
         2,
-        "--format json holds one budget: add --at with one value, such as 0.5N",
+        "--format json writes one budget: add --at with one value, such as 0.5N",
     );
     let budget = bench.json("budget budget.toml --mc 0 --at 1000mN");
     near(number(&budget["at"]), 1.0, 1e-15);
@@ -368,6 +368,6 @@ fn units_of_a_gauge_study_are_a_source_with_their_own_degrees_of_freedom() {
     bench.refused(
         "budget budget.toml",
         3,
-        "budget.toml: line 6, `from`: `gauge.json#reproducibilty` is not measured here: `reproducibilty` is no component; did you mean `reproducibility`?",
+        "budget.toml: line 6, `from`: `gauge.json#reproducibilty` is not measured here: `reproducibilty` is not a component; did you mean `reproducibility`?",
     );
 }

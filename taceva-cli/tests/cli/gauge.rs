@@ -156,7 +156,7 @@ fn a_missing_reading_is_refused_by_its_cell_or_its_part_is_left_out_and_counted(
     let mut rows = complete.lines();
     let row = rows.find(|row| row.starts_with("p03,B,2,")).expect("there");
     bench.write("study.csv", &complete.replace(&format!("{row}\n"), ""));
-    let message = "study.csv, channel length, by `part`, `appraiser`, `trial`: part p03, operator B: 2 readings where most cells have 3; `--drop-incomplete`";
+    let message = "study.csv, channel length, by `part`, `appraiser`, `trial`: part p03, operator B: 2 readings, expected 3 as in most cells; `--drop-incomplete`";
     bench.refused(AIAG, 3, message);
     let report = bench.json(&format!("{AIAG} --drop-incomplete"));
     crate::schema::check("gauge", &report);
@@ -266,7 +266,7 @@ fn simulated_units_are_studied_by_the_error_and_every_form_says_that_they_are_si
     bench.refused(
         "gauge units.csv --format json",
         2,
-        "--format json holds one channel: add --channels with one of Fz, Pz",
+        "--format json writes one channel: add --channels with one of Fz, Pz",
     );
     bench.refused(
         "gauge units.csv --channels Fz --tolerance 1mm",

@@ -233,7 +233,7 @@ fn a_scene_of_defaults_is_planned_and_of_two_sensors_has_a_study_each() {
     bench.ok("plan two.toml");
     let wrong = bench.answered("init scene --out three.toml", "x\nsimulated\nsim/none\n");
     assert!(
-        wrong.err.contains("`sim/none` is no simulated sensor"),
+        wrong.err.contains("`sim/none` is not a simulated sensor"),
         "{}",
         wrong.err
     );
@@ -297,7 +297,7 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
     ] {
         assert!(planned.err.contains(line), "no `{line}` in {}", planned.err);
     }
-    let untaught = "a run is refused until taceva rig teach lab.toml";
+    let untaught = "run `taceva rig teach lab.toml` before a run";
     assert!(planned.err.contains(untaught), "{}", planned.err);
     bench.refused(
         "init rig --yes --out other.toml",

@@ -230,8 +230,8 @@ fn samples_without_points_get_no_interval_rather_than_a_narrow_one() {
 #[test]
 fn a_folder_that_is_no_dataset_or_a_newer_one_is_refused() {
     let bench = imported();
-    bench.refused("evaluate lab --model ridge", 3, "lab is no dataset");
-    bench.refused("check nowhere", 3, "nowhere is no dataset");
+    bench.refused("evaluate lab --model ridge", 3, "lab is not a dataset");
+    bench.refused("check nowhere", 3, "nowhere is not a dataset");
     let header = std::fs::read_to_string(bench.path("data/dataset.toml")).expect("there");
     bench.write("data/dataset.toml", &of_format(&header, "2.0"));
     bench.refused(
@@ -277,7 +277,7 @@ fn a_pipe_in_place_of_any_file_is_refused_and_not_waited_for() {
     bench.write("truth.csv", "Fz\n1\n");
     bench.refused("score --truth pipe --pred truth.csv", 3, "pipe");
     bench.refused("score --truth truth.csv --pred pipe", 3, "pipe");
-    bench.refused("check pipe", 3, "pipe is no dataset");
+    bench.refused("check pipe", 3, "pipe is not a dataset");
 }
 
 #[test]

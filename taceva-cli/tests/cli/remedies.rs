@@ -14,7 +14,7 @@ fn a_column_whose_unit_nobody_states_is_named_with_the_remedy() {
     let score = "score --truth t.csv --pred p.csv --format json";
     let ran = bench.run(score);
     assert_eq!(ran.code, 0, "{}", ran.err);
-    let note = "Fz_N: not one of Px Py Pz Fx Fy Fz; taken as a channel of unit 1; rename it Fz, or give --units Fz_N=N";
+    let note = "Fz_N: not one of Px Py Pz Fx Fy Fz; scored as a channel with the unit 1; rename it Fz, or give --units Fz_N=N";
     assert!(ran.err.contains(note), "{}", ran.err);
     assert!(ran.out.contains(note), "{}", ran.out);
     let stated = bench.run(&format!("{score} --units Fz_N=N"));

@@ -125,7 +125,7 @@ fn results_that_were_changed_are_refused_by_metric_and_channel() {
     bench.refused(
         "compare a.json b.json",
         3,
-        "b.samples.csv: damaged or of other results",
+        "b.samples.csv: damaged, or written for another result",
     );
 }
 

@@ -171,7 +171,7 @@ fn cells_beside_the_channels_are_refused_by_place() {
         ("phase", "up", "expected `load` or `unload`"),
         ("repeat", "-1", "expected a whole number from 0"),
         ("depth_step", "2.5", "expected a whole number from 0"),
-        ("t_s", "noon", "is no finite number"),
+        ("t_s", "noon", "is not a finite number"),
     ] {
         let bad: Vec<&str> = names
             .iter()

@@ -92,7 +92,7 @@ impl Levels {
 
 fn too_many(channel: &Channel, values: usize) -> ModelError {
     invalid(format!(
-        "`{channel}` has {values} values in the training part, discriminants take at most {VALUES_MAX} classes: for continuous labels \
+        "`{channel}` has {values} values in the training part, discriminants accept at most {VALUES_MAX} classes: for continuous labels \
             choose another model, such as ridge"
     ))
 }
@@ -109,7 +109,7 @@ impl ModelEstimator for LinearDiscriminant {
         let width = training.features.shape().len();
         if width > FEATURES_MAX {
             return Err(invalid(format!(
-                "{width} features, discriminants take at most {FEATURES_MAX}: set a smaller `size` or `pca`"
+                "{width} features, discriminants accept at most {FEATURES_MAX}: set a smaller `size` or `pca`"
             )));
         }
         let design = Design::new(training.features, self.scale);

@@ -82,7 +82,7 @@ pub enum SplitError {
     /// There are too few samples or clusters for one in each part.
     #[error(
         "{found} {what} are too few for one in each part{}",
-        if *found == 0 { "; in a run this means that no press met the gel" } else { "" }
+        if *found == 0 { "; in a run this means that no press touched the gel" } else { "" }
     )]
     Few {
         /// Kind of clusters.
@@ -98,7 +98,7 @@ pub enum SplitError {
     },
     /// The recording names no contact points.
     #[error(
-        "split by-point: the recording names no `point_id`: name the column of contact points under [ids] of the map, or divide by-column:NAME or by-block"
+        "split by-point: the recording names no `point_id`: name the column of contact points under [ids] of the map, or split by-column:NAME or by-block"
     )]
     NoPoints,
     /// The recording has no times.
@@ -144,8 +144,8 @@ pub enum SplitError {
     },
     /// The split has several folds, but a single one is needed.
     #[error(
-        "split {split} fits a model for each fold, which `evaluate` does, and `fit` for validation; to fit one model, use `all` or a \
-            split with a test part"
+        "split {split} fits a model for each fold, but one model is needed: use `all` or a split with a test part, or score all folds with \
+            `evaluate`"
     )]
     ManyFolds {
         /// Name of the split.

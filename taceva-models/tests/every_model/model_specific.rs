@@ -134,7 +134,7 @@ fn levels_are_predicted_as_classes_and_too_many_are_refused() {
     let said = case_of("lda").refusal(&recording(257, 37), None);
     assert_eq!(
         said,
-        "`Px` has 257 values in the training part, discriminants take at most 256 classes: for continuous labels choose another model, \
+        "`Px` has 257 values in the training part, discriminants accept at most 256 classes: for continuous labels choose another model, \
          such as ridge"
     );
 }

@@ -80,7 +80,7 @@ pub enum DatasetError {
         path: PathBuf,
     },
     /// Folder that is not a dataset.
-    #[error("{} is no dataset: {problem}", shown_path(path))]
+    #[error("{} is not a dataset: {problem}", shown_path(path))]
     NoDataset {
         /// Path of the folder.
         path: PathBuf,

@@ -103,7 +103,7 @@ pub fn check_place(target: &Path, place: Place) -> Result<(), DatasetError> {
             refused("--force replaces only datasets, and this is not a dataset".to_owned())
         }
         (Place::OfDataset, Some(stranger)) => refused(format!(
-            "holds `{}`, which is no part of a dataset and would be lost; move it before --force",
+            "holds `{}`, which does not belong to a dataset and would be lost; move it before --force",
             shown(&stranger.to_string_lossy())
         )),
         (Place::OfDataset, None) => Ok(()),

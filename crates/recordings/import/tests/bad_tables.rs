@@ -19,10 +19,10 @@ fn a_missing_column_lists_those_there_are_and_suggests_one() {
 #[test]
 fn a_label_that_is_no_finite_number_names_its_place() {
     for (cell, word) in [
-        ("abc", "`abc`: is no finite number"),
-        ("NaN", "`NaN`: is no finite number"),
-        ("inf", "`inf`: is no finite number"),
-        ("1e400", "`1e400`: is no finite number"),
+        ("abc", "`abc`: is not a finite number"),
+        ("NaN", "`NaN`: is not a finite number"),
+        ("inf", "`inf`: is not a finite number"),
+        ("1e400", "`1e400`: is not a finite number"),
         ("\"1,234.5\"", "thousands separators"),
         ("1 234", "thousands separators"),
     ] {

@@ -45,7 +45,7 @@ impl ModelBench {
             counted(recording.train, "sample"), recording.test, recording.split, self.machine.cpu, self.machine.threads, counted(self.machine.cores, "core")
         ));
         table.note(
-            "front of: channels on which every model that takes less processor time to fit is shown, pair by pair, to have a larger error.",
+            "front of: channels on which a test shows that every model with a faster fit has a larger error.",
         );
         let rows = self.rows.iter();
         for (model, why) in rows.filter_map(|row| Some((&row.model, row.failed.as_ref()?))) {

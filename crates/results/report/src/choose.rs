@@ -186,7 +186,7 @@ fn by_other_definition(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let mut found: Vec<String> = Vec::new();
     for property in needs.iter().flat_map(Need::properties) {
         if let Some(other) = property.other(sensor) {
-            let words = format!("no {property}; known is {other}");
+            let words = format!("no {property}; known: {other}");
             if !found.contains(&words) {
                 found.push(words);
             }
@@ -258,7 +258,7 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
                 return Some(format!("`{words}` needs a seller, and none is known"));
             }
             None => match property.other(sensor) {
-                Some(other) => format!("is not known; known is {other}"),
+                Some(other) => format!("is not known; known: {other}"),
                 None => "is not known".to_owned(),
             },
             Some(value) if property.is_reached() && !bound.holds(value) => format!(
@@ -283,7 +283,7 @@ fn unplaced(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let names = unknown.iter().copied().map(Property::to_string);
     let names: Vec<String> = names.collect();
     let others = unknown.iter().filter_map(|property| property.other(sensor));
-    let others: String = others.map(|other| format!("; known is {other}")).collect();
+    let others: String = others.map(|other| format!("; known: {other}")).collect();
     (!names.is_empty()).then(|| format!("no known {}{others}", listed(&names)))
 }
 

@@ -63,7 +63,7 @@ pub(crate) fn draw(budget: &Budget, number: usize) -> Option<Figure> {
         id: format!("contributions-{number}"),
         title: format!("Contributions to the uncertainty{at}"),
         caption: format!(
-            "Standard uncertainty of each source times its sensitivity, with its sign; the broken line is the expanded uncertainty. {}.",
+            "Standard uncertainty of each source times its sensitivity, with its sign. The dashed line is the expanded uncertainty. {}.",
             budget.statement()
         ),
         description: format!("Bars of {}.", crate::names::listed(&names)),

@@ -65,13 +65,13 @@ fn in_order(studies: &[Study]) -> Vec<Study> {
 }
 
 impl PaperForm {
-    /// All tables, including those of figures, and all contradictions as one LaTeX text.
+    /// All tables, including those of figures, and all contradictions as one LaTeX text. Each table fits a two-column paper.
     pub fn latex(&self) -> String {
         let tables = self
             .tables
             .iter()
             .chain(&self.figures)
-            .map(|(_, table)| table.latex(Layout::Float));
+            .map(|(_, table)| table.latex(Layout::Paper));
         let mut out: String = tables.collect::<Vec<_>>().join("\n");
         for said in &self.contradictions {
             out += &format!("\n% {}\n", said.replace(['\n', '\r'], " "));

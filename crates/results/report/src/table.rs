@@ -1,5 +1,6 @@
 //! Tables: typed columns and cells, with a renderer for each format.
 
+mod blocks;
 mod cell;
 mod column;
 mod csv;
@@ -12,6 +13,7 @@ mod terminal;
 mod text;
 mod words;
 
+pub(crate) use blocks::{HEAD_PT, NAME_PT, SMALL_SIZE, VALUE_SIZE};
 pub use cell::{Cell, Estimate};
 pub use column::{Align, Column, Direction};
 pub use latex::{Layout, number as latex_number, symbol as latex_symbol};

@@ -146,7 +146,7 @@ pub(crate) fn imported(dataset: &Dataset) -> Vec<Note> {
         let header = recording.header();
         let taken = header.columns.iter().flat_map(|column| {
             let rules = [&column.zero, &column.gravity].into_iter().flatten();
-            rules.map(|rule| format!("{} less the {rule}", column.label))
+            rules.map(|rule| format!("{} minus the {rule}", column.label))
         });
         let words = header.warnings.iter().cloned().chain(taken);
         let words = words.chain(joins::of(header));

@@ -327,7 +327,7 @@ fn hint(name: &str, known: &[&str]) -> String {
     });
     match (plane, taceva_core::nearest(name, known.iter().copied())) {
         (Some((plane, [x, y], _)), _) => {
-            format!("; {plane} is formed of {x} and {y}: --channels {x},{y}")
+            format!("; {plane} is computed from {x} and {y}: --channels {x},{y}")
         }
         (None, Some(nearest)) => format!("; did you mean `{nearest}`?"),
         (None, None) => String::new(),
@@ -368,7 +368,7 @@ mod tests {
     #[test]
     fn a_plane_and_another_case_of_a_channel_are_understood() {
         let six = ["Px", "Py", "Pz", "Fx", "Fy", "Fz"];
-        let plane = "; Fxy is formed of Fx and Fy: --channels Fx,Fy";
+        let plane = "; Fxy is computed from Fx and Fy: --channels Fx,Fy";
         assert_eq!(hint("Fxy", &six), plane);
         assert_eq!(hint("fxy", &six), plane);
         assert_eq!(hint("fz", &six), "; did you mean `Fz`?");

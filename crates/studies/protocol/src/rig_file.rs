@@ -337,7 +337,7 @@ impl Check<'_> {
             None => Ok(()),
             Some(found) => self.refuse(
                 numbers.at(),
-                format!("`{key}` holds {found}, expected three numbers from -{greatest} to {greatest} {unit}"),
+                format!("`{key}` is {found}, expected three numbers from -{greatest} to {greatest} {unit}"),
             ),
         }
     }

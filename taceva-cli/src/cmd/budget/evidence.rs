@@ -182,7 +182,7 @@ impl Found {
         match (found, unit) {
             (Some(name), Some(unit)) => Ok(Channel::of(name, unit.symbol())),
             _ => Err(Usage::error(format!(
-                "--channel {}: the result has no score of it, expected one of {}",
+                "--channel {}: the result has no score of this channel, expected one of {}",
                 shown(asked.unwrap_or("Fz")),
                 known.join(", ")
             ))),

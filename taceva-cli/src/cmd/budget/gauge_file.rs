@@ -101,7 +101,7 @@ impl Study {
         let found = found.ok_or_else(|| {
             let known: Vec<&str> = self.components.iter().map(|of| of.name.as_str()).collect();
             format!(
-                "`{}` is no component; {}",
+                "`{}` is not a component; {}",
                 shown(name),
                 suggestion(name, &known)
             )

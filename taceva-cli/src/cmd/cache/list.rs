@@ -148,7 +148,7 @@ fn close(table: &mut Table, entries: &[CacheEntry]) {
     let own = entries.iter().map(|entry| entry.own_bytes).sum();
     table.note(match entries.is_empty() {
         true => "The cache is empty.".to_owned(),
-        false => format!("{} in total, of which {} are shared with no run; `taceva cache prune` removes entries by age or total size.", bytes(all), bytes(own)),
+        false => format!("{} in total; {} are not shared with any run. `taceva cache prune` removes entries by age or total size.", bytes(all), bytes(own)),
     });
 }
 

@@ -49,7 +49,9 @@ impl<R: Iterator<Item = io::Result<String>>> Interview<R> {
     ) -> anyhow::Result<String> {
         if self.takes_defaults {
             return default.map(str::to_owned).ok_or_else(|| {
-                Usage::error(format!("no default for: {question}; run it without --yes"))
+                Usage::error(format!(
+                    "no default for: {question}; run the command without --yes"
+                ))
             });
         }
         loop {
@@ -123,7 +125,8 @@ impl<R: Iterator<Item = io::Result<String>>> Interview<R> {
             None => Err(format!("expected a number from {least} to {most}")),
         };
         let answer = self.ask(question, default, check)?;
-        read(&answer).ok_or_else(|| Usage::error(format!("{question}: {answer} is no such number")))
+        read(&answer)
+            .ok_or_else(|| Usage::error(format!("{question}: {answer} is not a valid answer")))
     }
 
     /// A whole number within `[least, most]`.
@@ -147,7 +150,8 @@ impl<R: Iterator<Item = io::Result<String>>> Interview<R> {
             None => Err(format!("expected a whole number from {least} to {most}")),
         };
         let answer = self.ask(question, Some(default), check)?;
-        read(&answer).ok_or_else(|| Usage::error(format!("{question}: {answer} is no such number")))
+        read(&answer)
+            .ok_or_else(|| Usage::error(format!("{question}: {answer} is not a valid answer")))
     }
 }
 

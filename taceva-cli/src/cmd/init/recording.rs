@@ -114,7 +114,7 @@ fn remarks(map: &str, path: &str) -> Vec<String> {
         };
         remarks.push(format!(
             "if several rows show one contact, such as the frames of a grasp or the repeats of a press, name the contacts: under [ids] of \
-             {path} write point_id = \"COLUMN\"{offered}. Scores then go by contact, and no contact is in both training and test"
+             {path} write point_id = \"COLUMN\"{offered}. Intervals then count contacts, and no contact is in both the training and the test part"
         ));
     }
     remarks
@@ -263,7 +263,7 @@ impl Place {
             ("unit", Some(subject)) => format!("unit of {subject}, such as N, mN, gf, mm or um"),
             ("unit", None) => "unit of these times, such as s, ms, us or ns".to_owned(),
             ("from", Some(subject)) => {
-                format!("column that holds {subject}, or {LEFT_OUT} to leave it out")
+                format!("column with {subject}, or {LEFT_OUT} to leave it out")
             }
             ("model", None) => "name of the sensor".to_owned(),
             ("cut", _) => {
@@ -363,7 +363,7 @@ mod tests {
             Some("unit of Fx, such as N, mN, gf, mm or um")
         );
         let from = question("Fz = { from = \"?\", unit = \"?\" }   # a, b match equally");
-        let asked = "column that holds Fz, or none to leave it out";
+        let asked = "column with Fz, or none to leave it out";
         assert_eq!(from.as_deref(), Some(asked));
         assert_eq!(
             question("model = \"?\"").as_deref(),

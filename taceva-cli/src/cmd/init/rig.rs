@@ -28,7 +28,7 @@ pub(super) fn write(
         "camera of the sensor",
         interview,
     )?;
-    interview.say("limits protect the gel: the robot is halted when it exceeds one");
+    interview.say("limits protect the gel: the robot halts when it exceeds one");
     let depth = interview.number("greatest depth, in mm", None, [0.01, 50.0])?;
     let normal = interview.number("greatest normal force, in N", None, [0.01, 1000.0])?;
     let shear_question = "greatest shear force, in N";
@@ -36,7 +36,7 @@ pub(super) fn write(
     let shear = interview.number(shear_question, Some(&as_normal), [0.01, 1000.0])?;
     let speed = interview.number("greatest speed, in mm/s", Some("20"), [0.1, 500.0])?;
     let text = format!(
-        "# The devices of one place. taceva is no safety function: emergency stop and guards must hold without it (docs/rig.md).
+        "# The devices of one place. taceva is no safety function: emergency stop and guards must work without it (docs/rig.md).
 rig_version = 1
 
 [robot]
@@ -125,7 +125,7 @@ fn device(
         return Ok(answer);
     }
     let driver = of_kind.into_iter().find(|driver| driver.key == answer);
-    let driver = driver.ok_or_else(|| Usage::error(format!("{answer} is no {what}")))?;
+    let driver = driver.ok_or_else(|| Usage::error(format!("{answer} is not a {what}")))?;
     let mut arguments = Vec::new();
     for argument in driver.arguments.iter().filter(|argument| argument.required) {
         let question = format!("{}: {} ({})", argument.key, argument.help, argument.takes);

@@ -53,7 +53,7 @@ pub(super) fn write(
     let wanted = interview.choose("metrics", &["all", "accuracy"], Some("accuracy"))?;
     let seed = interview.count("seed of all random numbers", "7", [0, u32::MAX])?;
     let about = match sensing_area {
-        Some(_) => "A study on a real rig, whose file names the devices.",
+        Some(_) => "A study on a real rig; the rig file names the devices.",
         None => "A study on the simulated bench: nothing is measured.",
     };
     let mut text = format!(
@@ -107,7 +107,7 @@ fn simulated(sensors: &[String], interview: &mut Interview) -> anyhow::Result<St
         match words.find(|word| !sensors.iter().any(|sensor| sensor == word)) {
             None => Ok(()),
             Some(other) => Err(format!(
-                "`{other}` is no simulated sensor, expected some of {known}"
+                "`{other}` is not a simulated sensor, expected any of {known}"
             )),
         }
     };

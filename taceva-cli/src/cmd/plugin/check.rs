@@ -59,7 +59,7 @@ pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
     })?;
     if results.is_empty() {
         return Err(Usage::error(format!(
-            "--only {}: no check of this plugin has such a name",
+            "--only {}: this plugin has no check with this name",
             args.only.join(",")
         )));
     }

@@ -130,7 +130,7 @@ fn check(path: &Path, table: &[u8], study: &Study) -> anyhow::Result<()> {
     let found = taceva_files::seal::digest_of_bytes(table);
     if let Some(expected) = digest(study).filter(|expected| *expected != found) {
         bail!(
-            "{}: damaged or of other results: expected digest {expected}, found {found}",
+            "{}: damaged, or written for another result: expected digest {expected}, found {found}",
             shown(path)
         );
     }

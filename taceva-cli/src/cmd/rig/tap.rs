@@ -22,7 +22,7 @@ pub(super) fn run(args: &RigTapArgs, context: &Context) -> anyhow::Result<u8> {
         None if rig.simulated => None,
         None => {
             return Err(Usage::error(
-                "motion of the robot is permitted at a terminal, by typing its name: start taceva rig tap from a terminal",
+                "a person permits the motion by typing the name of the robot: start `taceva rig tap` from a terminal",
             ));
         }
     };

@@ -14,7 +14,7 @@ pub(super) fn run(args: &RigTeachArgs, context: &Context) -> anyhow::Result<u8> 
     let rig = read_rig(&args.rig)?;
     let Some(mut terminal) = operator::terminal(None) else {
         return Err(Usage::error(
-            "each jog of the robot is confirmed at a terminal: start taceva rig teach from a terminal",
+            "a person confirms each jog of the robot: start `taceva rig teach` from a terminal",
         ));
     };
     let _held = HeldRigs::of_file(&rig)?;

@@ -107,7 +107,7 @@ pub(super) fn cancel(named: &Path, context: &Context) -> anyhow::Result<u8> {
         .ok_or_else(|| Usage::error(format!("{}: no jobs were submitted", shown(folder.path()))))?;
     submitted.cancel()?;
     context.say(format_args!(
-        "cancelled; results stay, and the sweep may be submitted again at once"
+        "cancelled; results are kept, and the sweep can be submitted again now"
     ));
     Ok(exit::DONE)
 }

@@ -25,7 +25,7 @@ pub(super) fn print(
         || "unknown: nothing was measured yet".to_owned(),
         |count| {
             format!(
-                "about {}, features that tasks share not counted",
+                "about {}, without the features that tasks share",
                 bytes(count)
             )
         },

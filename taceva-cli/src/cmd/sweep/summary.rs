@@ -53,7 +53,7 @@ pub(super) fn print(folder: &SweepFolder, collected: &Collected) -> anyhow::Resu
                     "scores   {path}/score.json\ndigest   {}",
                     collected.digest
                 ),
-                false => writeln!(out, "scores   none before every shard is scored"),
+                false => writeln!(out, "scores   follow when every shard is scored"),
             };
         }
         writeln!(out, "table    {path}/table.csv")?;

@@ -82,11 +82,11 @@ fn every_kind_of_bad_source_is_refused_by_its_line_and_key() {
         ),
         (
             correlated(&pair("one", "tow", "0.1")),
-            "line 14, `between`: `tow` is no source; did you mean `two`?",
+            "line 14, `between`: `tow` is not a source; did you mean `two`?",
         ),
         (
             expression("2 * (alhpa + b)"),
-            "line 4, `expression`: column 6: `alhpa` is no source; did you mean `alpha`?",
+            "line 4, `expression`: column 6: `alhpa` is not a source; did you mean `alpha`?",
         ),
         (
             expression("1 + alpha / b"),

@@ -136,7 +136,7 @@ fn two_results_of_one_serial_are_one_unit_of_the_process() {
         bench.refused(
             &format!("{accept} --process {name} --process {others}"),
             2,
-            "which a.json has too; expected one result of each unit",
+            "also occurs in a.json; expected one result of each unit",
         );
     }
     // Results without a serial number may be of several units.

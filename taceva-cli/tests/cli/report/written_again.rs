@@ -165,7 +165,7 @@ fn results_of_another_version_are_refused_in_words() {
     bench.refused(
         "report data",
         2,
-        "data is a dataset: `taceva evaluate data` makes a result",
+        "data is a dataset: `taceva evaluate data` computes a result",
     );
 }
 
@@ -197,7 +197,7 @@ fn the_main_table_is_chosen_in_every_format() {
     bench.refused(
         "evaluate data --model ridge --format json --table main",
         2,
-        "JSON is no table",
+        "JSON has no tables",
     );
     let compared = bench.ok("compare GelSight MagicTac --format tex -q");
     assert!(

@@ -97,7 +97,7 @@ fn a_resumed_run_is_named_with_the_option_that_chooses_another() {
     bench.ok("run small.toml -q");
     let resumed = bench.run("run small.toml --resume");
     assert_eq!(resumed.code, 0, "{}", resumed.err);
-    let named = "small-1, the last one of this scene; --out FOLDER resumes another";
+    let named = "small-1, the last run of this scene; --out FOLDER resumes another";
     assert!(resumed.err.contains(named), "{}", resumed.err);
 }
 

@@ -25,7 +25,7 @@ fn a_sweep_of_shards_here_and_by_a_list_ends_in_the_bytes_of_one_pass() {
         part.out
     );
     assert!(
-        part.out.contains("none before every shard is scored"),
+        part.out.contains("follow when every shard is scored"),
         "{}",
         part.out
     );

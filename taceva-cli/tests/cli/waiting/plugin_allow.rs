@@ -180,12 +180,12 @@ fn what_a_manifest_does_not_ask_for_is_not_allowed_and_settings_stay_as_they_are
     bench.refused(
         &format!("{allow} usb"),
         2,
-        "it asks for `serial:/dev/ttyUSB*`",
+        "it requests `serial:/dev/ttyUSB*`",
     );
     bench.refused(
         &format!("{allow} serial:/dev/ttyS0"),
         2,
-        "does not ask for it",
+        "does not request it",
     );
     bench.refused(
         "plugin allow org.example.my-eyes usb --plugin-dir my-eye",

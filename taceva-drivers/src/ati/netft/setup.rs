@@ -105,7 +105,7 @@ impl Setup {
     pub(super) fn check(&self, expected: &Expected) -> Result<(), String> {
         if self.is_turned() && expected.frame == Frame::Own {
             return Err(format!(
-                "the box moves its readings into a tool frame (`cfgtfx` in {PAGE} is {}), expected zeros: clear the tool transformation on its Configurations page, or add `frame=tool` to the selector to measure in that frame",
+                "the box transforms its readings into a tool frame (`cfgtfx` in {PAGE} is {}), expected zeros: clear the tool transformation on its Configurations page, or add `frame=tool` to the selector to measure in that frame",
                 self.tool_in_words()
             ));
         }
@@ -201,7 +201,7 @@ impl Setup {
                 None => "delays forces by an unknown time".to_owned(),
             };
             warnings.push(format!(
-                "low pass {filter} of the box (`setuserfilter`) {delay}, which only `latency_ms` under [force] takes off: set it to 0 on the Settings page of the box, or run `taceva rig tap`"
+                "low pass {filter} of the box (`setuserfilter`) {delay}, which only `latency_ms` under [force] corrects: set it to 0 on the Settings page of the box, or run `taceva rig tap`"
             ));
         }
         warnings

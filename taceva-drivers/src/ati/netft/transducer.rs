@@ -126,7 +126,7 @@ impl Transducer {
         }
         if status.has_error() {
             let why = format!(
-                "the box reports {status}, expected status 0x00000000: its manual says what each bit needs; most are cleared by restarting it"
+                "the box reports {status}, expected status 0x00000000: its manual explains each bit; a restart clears most of them"
             );
             return Err(failed(ErrorKind::DeviceFault, READ, why));
         }

@@ -53,7 +53,7 @@ impl Leds {
         let wrong = |why: String| failed(ErrorKind::InvalidArgument, SET, why);
         if !self.are_there {
             return Err(wrong(format!(
-                "`{LED}` is {}, expected none without `preset=digit`: its zoom control sets LEDs, and that of other cameras zooms",
+                "`{LED}` is {}, expected none without `preset=digit`: the zoom control sets the LEDs of a DIGIT, but zooms other cameras",
                 shown(text)
             )));
         }

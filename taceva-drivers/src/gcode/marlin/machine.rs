@@ -76,7 +76,7 @@ impl Printer {
         printer.is_emulated = is_emulated;
         printer.facts = facts;
         if stops_at_once != Some(true) {
-            let why = "the printer does not report `Cap:EMERGENCY_PARSER:1`, so a stop would wait for the end of the motion: build its firmware with EMERGENCY_PARSER";
+            let why = "the printer does not report `Cap:EMERGENCY_PARSER:1`, so a stop would take effect only at the end of the motion: build its firmware with EMERGENCY_PARSER";
             return Err(DriverError::new(ErrorKind::Unsupported, &KEY, CONNECT).because(why));
         }
         Ok(printer)

@@ -47,7 +47,7 @@ impl Race<'_> {
         let is_behind = GRANTED * look.loss(1) > best.loss(1);
         let left = is_behind.then(|| {
             let best = best.name();
-            format!("worse than {best} even with half of its squared error")
+            format!("its squared error was more than twice that of {best}")
         });
         let is_over = is_behind || self.network_leads();
         self.network[0].left = left;
@@ -126,7 +126,7 @@ impl Race<'_> {
             };
             let plainer = going().find(does_as_well)?.name();
             Some(format!(
-                "{plainer} does as well with less than a tenth of the work"
+                "{plainer} is as accurate with less than a tenth of the work"
             ))
         };
         let reasons: Vec<Option<String>> = self.entrants.iter().map(why).collect();
@@ -288,7 +288,7 @@ mod tests {
             race.look_again().expect("nothing is fitted");
             assert_eq!(race.network.len(), 1);
             let left = race.network[0].left.as_deref().expect("said");
-            assert_eq!(left, "worse than ridge even with half of its squared error");
+            assert_eq!(left, "its squared error was more than twice that of ridge");
         });
     }
 
@@ -310,7 +310,7 @@ mod tests {
             assert_eq!(left(2), None);
             assert_eq!(
                 left(3),
-                Some("ridge does as well with less than a tenth of the work")
+                Some("ridge is as accurate with less than a tenth of the work")
             );
             assert_eq!(left(4), Some("ridge is clearly ahead"));
             assert!(!race.is_decided());

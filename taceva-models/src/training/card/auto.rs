@@ -87,7 +87,7 @@ impl fmt::Display for AutoCard {
         };
         write!(
             f,
-            "auto chose {}; error relative to the standard deviation of labels, and on how many of {} {folds}: {best}",
+            "auto chose {}; error relative to the standard deviation of labels, and number of folds used (of {} {folds}): {best}",
             best.model, self.folds
         )?;
         let others = self
@@ -152,7 +152,7 @@ mod tests {
     fn a_card_says_what_was_taken_and_why() {
         assert_eq!(
             card().to_string(),
-            "auto chose ridge; error relative to the standard deviation of labels, and on how many of 5 folds of whole groups: ridge \
+            "auto chose ridge; error relative to the standard deviation of labels, and number of folds used (of 5 folds of whole groups): ridge \
              0.250 on 5; knn 0.200 on 1, 25 % of its training (why); baseline 1.010 on 5; trials took 3.0 s of work of a budget of 60 s; not tried: cnn (too dear)"
         );
     }

@@ -29,7 +29,7 @@ pub enum FormatError {
     #[error("not a whole safetensors file: {0}")]
     Container(#[from] safetensors::SafeTensorError),
     /// The safetensors file contains no model.
-    #[error("the metadata lack `{CARD}`: a safetensors file, but no model of TacEva")]
+    #[error("the metadata lack `{CARD}`: a safetensors file, but not a model of TacEva")]
     NoCard,
     /// The card cannot be parsed.
     #[error("the card: {0}")]

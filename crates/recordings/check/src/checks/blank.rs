@@ -7,7 +7,7 @@ pub(crate) static CHECK: Check = Check {
     code: "TAC025",
     name: "blank-samples",
     looks_for: "frames of a single colour, and rows of signals that are all zero: arrays that were never filled",
-    hint: "an array that was allocated but never filled has the same value everywhere: record again, or drop these rows",
+    hint: "the array was allocated but never filled: record again, or drop these rows",
     reads: None,
     find,
 };

@@ -8,8 +8,7 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC045",
     name: "byte-counts",
-    looks_for: "forces in at most 256 whole counts that change slowly, but jump by more than 200 counts between neighbouring samples and go on \
-        in the direction before the jump: one byte, which begins anew above its greatest count",
+    looks_for: "forces stored in one byte that overflowed: at most 256 values, which change slowly but jump by more than 200 counts between neighbouring samples",
     hint: "read both bytes of each force, or keep forces below 255 counts; drop the presses with such a jump",
     reads: None,
     find,

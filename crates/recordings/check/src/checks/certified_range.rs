@@ -9,7 +9,7 @@ use crate::stamps::share;
 pub(super) static CHECK: Check = Check {
     code: "TAC029",
     name: "certified-range",
-    looks_for: "labels outside the range for which the certificate of their instrument holds",
+    looks_for: "labels outside the range of the certificate of their instrument",
     hint: "no uncertainty is known there: leave these samples out of claims, or have the instrument calibrated over the whole range",
     reads: None,
     find,

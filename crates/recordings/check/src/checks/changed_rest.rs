@@ -9,8 +9,7 @@ use crate::tiles::Tiles;
 pub(super) static CHECK: Check = Check {
     code: "TAC034",
     name: "changed-rest",
-    looks_for: "untouched pictures that differ from the reference: on average by more than a third of the change by contact, or by more \
-        than that change in one tile (1/8 of the width)",
+    looks_for: "untouched pictures that differ from the reference: by a third of the change by contact on average, or by all of it in one tile (1/8 of the width)",
     hint: "record a new untouched reference picture: that corrects most changes of light, exposure, dust and position; otherwise check \
         the lens, the lamps and the coating",
     reads: Some(Field::Frame),

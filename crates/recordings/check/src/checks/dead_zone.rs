@@ -9,8 +9,7 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC027",
     name: "dead-zone",
-    looks_for: "normal forces that are exactly zero in 5 % of the samples, although their pictures change as under load: forces below a \
-        threshold were set to zero",
+    looks_for: "normal forces set to zero below a threshold: exactly zero in 5 % of the samples, although their pictures change as under load",
     hint: "export the forces before a threshold or a clip at zero is applied; otherwise drop these samples, because a model learns that \
         light contact has no force",
     reads: Some(Field::Frame),

@@ -9,8 +9,7 @@ use crate::stamps::{Step, Stream, share};
 pub(super) static CHECK: Check = Check {
     code: "TAC023",
     name: "dropped-frames",
-    looks_for: "steps of two to ten periods in a stream whose steps are nearly all whole multiples of its period: frames in between are \
-        missing",
+    looks_for: "missing frames in a stream of constant rate: steps of two to ten periods",
     hint: "record to a faster disk, or record fewer streams at once; give joins by time a tolerance below the usual step",
     reads: None,
     find,

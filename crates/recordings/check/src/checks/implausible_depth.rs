@@ -8,8 +8,7 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC041",
     name: "implausible-depth",
-    looks_for: "depths above the thickness of any gel, or never near 0: a distance to the camera or a height of the robot instead of an \
-        indentation",
+    looks_for: "depths that are not indentations: above the thickness of any gel, or never near 0",
     hint: "map the indentation as Pz, 0 at the first touch and positive into the gel; subtract the height of the surface with `offset` of \
         the column",
     reads: None,

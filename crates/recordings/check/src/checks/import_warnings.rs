@@ -8,7 +8,7 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC043",
     name: "import-warnings",
-    looks_for: "warnings of the imports of the recording, from its header",
+    looks_for: "warnings of the import, from the header of the recording",
     hint: "correct the map as the warning says, and import again; an import without warnings clears them",
     reads: None,
     find,

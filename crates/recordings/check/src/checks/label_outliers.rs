@@ -8,7 +8,7 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC013",
     name: "label-outliers",
-    looks_for: "labels over 3 interquartile ranges beyond a quartile, whose gap to the next label exceeds that range and half the distance of the next label from the quartile",
+    looks_for: "isolated labels more than 3 interquartile ranges beyond a quartile",
     hint: "look at these samples: a transducer that was overloaded or read during motion gives such labels; leave them out by [drop] of \
         the map, or state why they are right",
     reads: None,

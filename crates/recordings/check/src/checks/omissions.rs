@@ -11,10 +11,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC021",
     name: "left-out",
-    looks_for: "data that the import left out: rows (above all unmatched rows), frames that no row uses, images, chunks that were \
-        never written, and unused rows of joined tables, except of logs joined by time with more of them than \
-        the table has rows",
-    hint: "compare the counts with the intended recording; `taceva import --explain` shows them again, and the distances in time of \
+    looks_for: "data that the import left out: rows, images, frames that no row uses, chunks that were never written, and unused rows of joined tables",
+    hint: "compare the counts with those that you expect; `taceva import --explain` shows them again, and the distances in time of \
         matches",
     reads: None,
     find,

@@ -39,7 +39,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     }
     let name = table.channels().as_slice()[load].name();
     let message = format!(
-        "frames of larger {name} are closer to the reference frame (rank correlation {correlation:.2}, n {})",
+        "frames of greater {name} are more similar to the reference frame (rank correlation {correlation:.2}, n {})",
         pairs.len()
     );
     vec![Found::overall(Severity::Warning, message)]

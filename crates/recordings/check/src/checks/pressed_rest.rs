@@ -70,7 +70,7 @@ fn resembling(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Opti
     (correlation <= SUSPECT).then(|| {
         let name = evidence.table.channels().as_slice()[load].name();
         let message = format!(
-            "samples of larger {name} are closer to the mean of `rest` (rank correlation {correlation:.2}, n {})",
+            "samples of greater {name} are more similar to the mean of `rest` (rank correlation {correlation:.2}, n {})",
             pairs.len()
         );
         Found::overall(Severity::Warning, message)

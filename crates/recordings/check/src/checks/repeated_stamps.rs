@@ -11,7 +11,7 @@ use crate::stamps::repeated;
 pub(super) static CHECK: Check = Check {
     code: "TAC036",
     name: "repeated-stamps",
-    looks_for: "labels joined by time although several rows share a time: the error of a match is unknown",
+    looks_for: "labels joined by a time that several rows share, so matches may be wrong",
     hint: "join by a clock with fractions of a second; if there is none, join by row number (`on = \"row\"`) if both tables were written in \
         step",
     reads: None,
@@ -40,7 +40,7 @@ pub(super) fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let longest = steps.fold(0.0, f64::max);
     let off = match different.len() {
         1 => "so any row may have any label".to_owned(),
-        _ => format!("so a match may be wrong by up to {longest:.3} s"),
+        _ => format!("so a match may be wrong by as much as {longest:.3} s"),
     };
     let joined = by_time
         .iter()

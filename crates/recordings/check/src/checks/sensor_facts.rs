@@ -9,7 +9,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC012",
     name: "unknown-facts",
     looks_for: "serial, gel, clock or reference frame that was not recorded",
-    hint: "ask the person who made the recording; every report shows `unknown` until then",
+    hint: "ask the person who made the recording and complete the map; reports show `unknown` until then",
     reads: None,
     find,
 };

@@ -8,8 +8,7 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC009",
     name: "stuck-channel",
-    looks_for: "channels with one value in every sample; forces and torques with one value over a tenth of the samples in succession \
-        although the pictures differ, or with an extreme away from zero in 5 % of the samples",
+    looks_for: "channels that never change; forces and torques that are constant over a tenth of the samples while pictures change, or clipped in 5 % of the samples",
     hint: "remove a constant channel from the map: its R² is undefined and its error is meaningless; drop samples in which a transducer \
         was frozen or at its limit",
     reads: None,

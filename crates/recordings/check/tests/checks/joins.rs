@@ -35,7 +35,7 @@ fn forces_that_were_joined_by_whole_seconds_are_warned_of_and_no_lag_is_sought()
     assert_eq!(codes(&report), [("TAC036", Severity::Warning)]);
     assert_eq!(
         message(&report, "TAC036"),
-        "150 rows have only 5 different times, by which they were joined with `ft`: rows of equal time get the labels of the same row, so a match may be wrong by up to 1.000 s"
+        "150 rows have only 5 different times, by which they were joined with `ft`: rows of equal time get the labels of the same row, so a match may be wrong by as much as 1.000 s"
     );
 }
 

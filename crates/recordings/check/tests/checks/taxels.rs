@@ -89,7 +89,7 @@ fn rows_without_contact_that_are_pressed_are_named() {
     };
     assert_eq!(*code, "TAC018");
     assert!(
-        message.contains("samples of larger Fz are closer to the mean of `rest`"),
+        message.contains("samples of greater Fz are more similar to the mean of `rest`"),
         "{message}"
     );
 }

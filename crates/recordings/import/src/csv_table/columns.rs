@@ -21,12 +21,12 @@ impl CsvTable {
     /// The numbers of the column called `name`; empty cells are absent.
     ///
     /// # Errors
-    /// [`ImportError::Table`] if there is no such column, or at the first cell that is no finite number.
+    /// [`ImportError::Table`] if there is no such column, or at the first cell that is not a finite number.
     pub fn numbers(&self, name: &str) -> Result<Column, ImportError> {
         self.whole(name, Invalid::Refuse)
     }
 
-    /// Numbers of the column called `name`; empty cells are absent. A cell that is no finite number becomes NaN, so that callers can count it.
+    /// Numbers of the column called `name`; empty cells are absent. A cell that is not a finite number becomes NaN, so that callers can count it.
     ///
     /// # Errors
     /// [`ImportError::Table`] if there is no such column.
@@ -37,7 +37,7 @@ impl CsvTable {
     /// Numbers of the column at `column` in `rows`, in that order; empty cells are absent.
     ///
     /// # Errors
-    /// [`ImportError::Table`] at the first cell that is no finite number.
+    /// [`ImportError::Table`] at the first cell that is not a finite number.
     /// # Panics
     /// If there is no such row or column.
     pub fn numbers_in(

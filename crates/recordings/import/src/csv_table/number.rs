@@ -157,7 +157,7 @@ pub(crate) fn not_a_number(cell: &str) -> String {
         Ok(number) if number.is_finite() => {
             format!("is too large a number, expected a magnitude up to {MAGNITUDE_MAX:.3e}")
         }
-        _ => format!("is no finite number{}", number_hint(cell)),
+        _ => format!("is not a finite number{}", number_hint(cell)),
     }
 }
 

@@ -166,7 +166,7 @@ impl<T: Tape> Members<T> {
             let name = long_name.take().unwrap_or_else(|| own_name(&header));
             let name = String::from_utf8(name).map_err(|error| TarError::Name {
                 name: String::from_utf8_lossy(error.as_bytes()).into_owned(),
-                problem: "no text of Unicode",
+                problem: "not Unicode text",
             })?;
             self.empty += u64::from(size == 0 || kind == b'5');
             if self.empty > EMPTY_MEMBERS {

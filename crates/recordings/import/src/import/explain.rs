@@ -47,7 +47,11 @@ impl fmt::Display for ImportSummary {
             writeln!(f, "{zero}")?;
         }
         if let Some(gravity) = &self.gravity {
-            writeln!(f, "gravity  forces and torques less the {}", shown(gravity))?;
+            writeln!(
+                f,
+                "gravity  forces and torques minus the {}",
+                shown(gravity)
+            )?;
         }
         if let Some(info) = self.signals {
             writeln!(
@@ -171,11 +175,11 @@ impl fmt::Display for Conversion {
 }
 
 impl fmt::Display for ZeroSummary {
-    /// `zero     Fz less -0.0210 to 1.5020 (mean of the first 10 rows of each table; 2 blocks)`
+    /// `zero     Fz minus -0.0210 to 1.5020 (mean of the first 10 rows of each table; 2 blocks)`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "zero     {} less {:.4} to {:.4} ({}; {})",
+            "zero     {} minus {:.4} to {:.4} ({}; {})",
             self.channel,
             self.least,
             self.greatest,

@@ -211,8 +211,7 @@ impl fmt::Display for ImportWarning {
                 tolerance_ms,
             } => write!(
                 f,
-                "{} {} labels of `{}` from up to {farthest_ms} ms away, although its rows are usually {usual_ms} ms apart: its pauses are \
-                 crossed; write `tolerance_ms = {tolerance_ms}` with `unmatched = \"drop\"` to leave these rows out, or `pick = \"before\"` if a row \
+                "{} {} labels of `{}` from up to {farthest_ms} ms away, although its rows are usually {usual_ms} ms apart: the join bridges pauses of the table; write `tolerance_ms = {tolerance_ms}` with `unmatched = \"drop\"` to leave these rows out, or `pick = \"before\"` if a row \
                  holds until the next",
                 taceva_core::counted(*rows, "row"),
                 taceva_core::by_count(*rows, "takes", "take"),

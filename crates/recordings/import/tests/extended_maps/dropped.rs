@@ -43,9 +43,9 @@ fn a_row_of_several_tables_is_named_with_its_table_and_a_row_that_is_not_there_i
         (
             "*.csv",
             "[{ row = 2, table = \"c.csv\" }]",
-            "`c.csv`, which is no table of the map",
+            "`c.csv`, which is not a table of the map",
         ),
-        ("a.csv", "[3]", "row 3 in `rows` of [drop] is not there"),
+        ("a.csv", "[3]", "row 3 in `rows` of [drop] does not exist"),
         ("a.csv", "[0]", "counted from 1"),
         ("a.csv", "[\"2\"]", "the number of a row, from 1"),
     ] {

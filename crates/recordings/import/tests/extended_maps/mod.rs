@@ -273,7 +273,7 @@ fn names_that_lead_nowhere_say_what_there_is() {
     assert!(of("path.nam").contains("names name"));
     assert!(of("b.v").contains("the columns are w"));
     assert!(of("ft[2]").contains("no value [2] among the 2"));
-    assert!(of("ft").contains("is no finite number"));
+    assert!(of("ft").contains("is not a finite number"));
 }
 
 #[test]

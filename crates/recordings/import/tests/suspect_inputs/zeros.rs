@@ -34,7 +34,7 @@ fn the_first_rows_of_each_file_and_rows_without_contact_are_its_zero() {
         assert!(
             summary
                 .to_string()
-                .contains("zero     Fz less 0.1100 to 1.6100")
+                .contains("zero     Fz minus 0.1100 to 1.6100")
         );
         assert_eq!(codes(&summary), [""; 0]);
     }
@@ -175,7 +175,7 @@ fn the_weight_of_a_tool_that_turns_leaves_the_force_of_contact_by_vector_and_qua
             assert!(
                 summary
                     .to_string()
-                    .contains("gravity  forces and torques less")
+                    .contains("gravity  forces and torques minus")
             );
         }
     }

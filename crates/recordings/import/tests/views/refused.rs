@@ -17,12 +17,12 @@ fn lists_of_pictures_that_are_none_are_refused_with_their_line() {
         (
             "name = \"right\"",
             "name = \"right+\"",
-            "`right+` is no name of a view",
+            "`right+` is not a valid name of a view",
         ),
         (
             "name = \"right\"",
             "name = \"frame\"",
-            "`frame` is no name of a view",
+            "`frame` is not a valid name of a view",
         ),
         (
             "name = \"right\"",

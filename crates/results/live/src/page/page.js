@@ -164,7 +164,7 @@
     find('values').replaceChildren(...rows);
     find('outside').hidden = !said.outside;
     find('predicted').classList.toggle('outside', Boolean(said.outside));
-    find('outside').textContent = said.outside ? `outside what the model has seen: distance ${number(said.distance, 1, '')}, limit 1` : '';
+    find('outside').textContent = said.outside ? `unlike the training pictures: distance ${number(said.distance, 1, '')}, limit 1` : '';
   };
 
   const draw = async (bytes, said) => {

@@ -121,7 +121,7 @@ impl BudgetText {
         match drawn {
             Some(Some(result)) => budget.take_draws(result, &inputs, &combined, &correlations),
             Some(None) => budget.warn(
-                "no Monte Carlo result: a draw leaves the domain of the expression, so sources are too wide for it",
+                "no Monte Carlo result: a draw is outside the domain of the expression; state narrower sources",
             ),
             None => {}
         }
@@ -222,7 +222,7 @@ impl Budget {
         });
         if let Some(input) = heavy {
             self.warn(format!(
-                "the standard deviation of the draws has no limit: `{}` has {} degrees of freedom",
+                "the standard deviation of the draws does not converge: `{}` has {} degrees of freedom, expected more than 2",
                 input.name, input.freedom
             ));
         }

@@ -81,7 +81,7 @@ pub enum BudgetProblem {
     #[error("{0}")]
     Keys(String),
     /// An unknown name.
-    #[error("`{name}` is no {kind}; {suggestion}")]
+    #[error("`{name}` is not a {kind}; {suggestion}")]
     UnknownName {
         /// Name as written.
         name: String,

@@ -28,7 +28,7 @@ pub struct Expression {
 /// ```
 /// use taceva_metrology::budget::Expression;
 /// let error = Expression::parse("a + b", &["a"]).unwrap_err();
-/// assert_eq!(error.to_string(), "column 5: `b` is no source; expected one of `a`");
+/// assert_eq!(error.to_string(), "column 5: `b` is not a source; expected one of `a`");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]

@@ -99,6 +99,6 @@ impl TryFrom<Record> for Freedom {
         let [one, other] = reasons.map(Freedom::Undefined);
         let mut known = [Freedom::Infinite, one, other].into_iter();
         let found = known.find(|known| known.to_string() == words);
-        found.ok_or_else(|| format!("`{words}` is no number of degrees of freedom"))
+        found.ok_or_else(|| format!("`{words}` is not a number of degrees of freedom"))
     }
 }

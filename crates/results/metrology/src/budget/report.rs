@@ -288,7 +288,7 @@ impl Budget {
         ranges.retain(|of| at < of[0] - rounding(of) || at > of[1] + rounding(of));
         let warning = |range: [f64; 2]| {
             format!(
-                "{at} {} is outside the labels of the samples, {}: their errors are not those of this reading",
+                "{at} {} is outside the labels of the samples, {}: their errors may not apply to this reading",
                 shown(&self.unit),
                 self.range_in_words(range)
             )

@@ -147,7 +147,8 @@ impl Residuals {
         let of_between = model.between_freedom.map_or(of_points, Freedom::Finite);
         let mut between = figure(model.between, of_between);
         if is_negative {
-            between.note = Some("the component came out negative and counts as 0".to_owned());
+            between.note =
+                Some("the variance between points was negative and is set to 0".to_owned());
         }
         Ok(Components {
             mean_square_between: model.mean_square_between,

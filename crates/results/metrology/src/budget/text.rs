@@ -92,7 +92,7 @@ impl BudgetText {
                 let hint = suggestion(name, &["Px", "Py", "Pz", "Fx", "Fy", "Fz"]);
                 let name = shown(name);
                 return keys(format!(
-                    "`{name}` is no channel, so the key `unit` is needed; {hint}"
+                    "`{name}` is not a channel, so the key `unit` is needed; {hint}"
                 ));
             }
         };

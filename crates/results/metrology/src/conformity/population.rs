@@ -79,7 +79,7 @@ impl Population {
         let mut distances: Vec<f64> = places.iter().map(|place| (place - mean).powi(2)).collect();
         let variance = sum(&mut distances) / (n - 1.0) - sum(&mut squares) / n;
         check(
-            "the variance of units less that of their measurement",
+            "the variance of units minus that of their measurement",
             variance,
             variance > 0.0,
             "a number above 0: units that differ by more than their uncertainties",

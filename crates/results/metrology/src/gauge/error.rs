@@ -51,7 +51,7 @@ pub enum GaugeError {
     },
     /// A cell whose number of readings differs from most cells.
     #[error(
-        "part {part}, operator {operator}: {have} readings where most cells have {expected}; `--drop-incomplete` leaves such parts out"
+        "part {part}, operator {operator}: {have} readings, expected {expected} as in most cells; `--drop-incomplete` leaves such parts out"
     )]
     Incomplete {
         /// Label of the part.
@@ -65,7 +65,7 @@ pub enum GaugeError {
     },
     /// A nested study in which operators have different numbers of parts.
     #[error(
-        "operator {operator}: {have} parts where most operators have {expected}; leave parts out until all have as many"
+        "operator {operator}: {have} parts, expected {expected} as for most operators; leave out parts until all operators have equally many"
     )]
     UnequalParts {
         /// Label of the operator.

@@ -48,7 +48,7 @@ pub struct LimitCheck {
 pub enum AcceptError {
     /// A value outside its confidence interval.
     #[error(
-        "{} {}: the value {} {unit} is outside its own interval {} … {} {unit}; make the result again with `taceva evaluate` or `taceva score`",
+        "{} {}: the value {} {unit} is outside its own interval {} … {} {unit}; compute the result again with `taceva evaluate` or `taceva score`",
         shown(.metric), shown(.channel), numeral(*.value), numeral(.ends[0]), numeral(.ends[1])
     )]
     OutsideInterval {

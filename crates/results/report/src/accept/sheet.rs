@@ -87,7 +87,7 @@ impl Acceptance<'_> {
         let trainings = self.findings.iter().map(|finding| finding.trainings);
         if let Some(trainings) = trainings.max().filter(|trainings| *trainings > 0) {
             table.note(format!(
-                "Intervals of scores that differ between {trainings} trainings of the model contain that variance."
+                "The model was trained {trainings} times; intervals of scores that differ between trainings include this variance."
             ));
         }
         if let Some(words) = not_measured([self.study.source.as_str()]) {

@@ -228,7 +228,7 @@ fn a_number_of_another_definition_is_shown_and_neither_meets_a_bound_nor_is_call
     assert!(insight.contains("≈ 0.03 N"), "{insight}");
     let text = choice.table().text();
     assert!(
-        text.contains("Minsight: no MAE of Fz; known is force_error F 0.07 N"),
+        text.contains("Minsight: no MAE of Fz; known: force_error F 0.07 N"),
         "{text}"
     );
     assert!(text.contains("one of another definition only"), "{text}");
@@ -242,7 +242,7 @@ fn a_number_of_another_definition_is_shown_and_neither_meets_a_bound_nor_is_call
     let open = both.open.iter().find(|open| open.name == "Minsight");
     let open = &open.expect("its rate is known").reason;
     assert!(
-        open.contains("is not known; known is force_error F 0.07 N"),
+        open.contains("is not known; known: force_error F 0.07 N"),
         "{open}"
     );
 }
@@ -266,7 +266,7 @@ fn widths_sizes_prices_and_sellers_are_bounds_and_what_is_unknown_is_open() {
     let open = narrow.open.iter().find(|open| open.name == "DIGIT Pinki");
     let open = &open.expect("its length is unknown").reason;
     assert!(
-        open.contains("greatest dimension is not known; known is 15 mm"),
+        open.contains("greatest dimension is not known; known: 15 mm"),
         "{open}"
     );
     let text = narrow.table().text();
@@ -284,7 +284,7 @@ fn widths_sizes_prices_and_sellers_are_bounds_and_what_is_unknown_is_open() {
             .reason
             .clone()
     };
-    assert!(open("DIGIT").contains("known is 15 USD (parts of one sensor, of 1000 made)"));
+    assert!(open("DIGIT").contains("known: 15 USD (parts of one sensor, of 1000 made)"));
     assert!(open("PaXini DP-S2015-Elite").contains("name the bound in KRW"));
     let built = chosen("bought, price <= 600 USD, width <= 50 mm");
     let open = built.open.iter().find(|open| open.name == "R-Tac0");

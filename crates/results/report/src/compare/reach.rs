@@ -21,7 +21,7 @@ pub(super) fn out_of_reach(family: &[Difference]) -> Vec<Option<String>> {
         .collect()
 }
 
-/// `5 groups cannot show a difference: the least p is 0.0625; 6 groups or more can`
+/// `5 groups cannot show a difference: the smallest possible p is 0.0625; 6 groups or more can`
 fn words(test: DifferenceTest, adjusted: f64, tests: usize) -> Option<String> {
     let DifferenceTest::SignFlip { clusters, .. } = test else {
         return None;
@@ -39,7 +39,7 @@ fn words(test: DifferenceTest, adjusted: f64, tests: usize) -> Option<String> {
         None => "compare fewer results".to_owned(),
     };
     Some(format!(
-        "{clusters} groups cannot show a difference: the least p is {}{of_family}; {remedy}",
+        "{clusters} groups cannot show a difference: the smallest possible p is {}{of_family}; {remedy}",
         significant(test.least_p())
     ))
 }
@@ -71,7 +71,7 @@ mod tests {
         assert_eq!(
             words(of(5), 0.125, 2).as_deref(),
             Some(
-                "5 groups cannot show a difference: the least p is 0.0625, 0.125 by Holm over 2 tests; 7 groups or more can"
+                "5 groups cannot show a difference: the smallest possible p is 0.0625, 0.125 by Holm over 2 tests; 7 groups or more can"
             )
         );
         assert_eq!(words(of(7), 0.03125, 2), None);

@@ -59,8 +59,7 @@ impl Comparison {
         let tests: std::collections::BTreeSet<String> = differences
             .map(|difference| difference.test.to_string())
             .collect();
-        let rule = "All pairs and channels of a metric are one family, in which Holm's procedure shows a false difference in at most one case of twenty: \
-                    p is for the pair alone, p by Holm is adjusted for the family, and the interval has the level of the decision on its pair. \
+        let rule = "All pairs and channels of a metric form one family. p is for the pair alone. p by Holm is adjusted, so that a family contains a false difference in at most 5 % of cases. The interval has the level of the decision on its pair. \
                     A difference is shown if p by Holm is at most 0.05; only then the interval excludes 0.";
         let mut notes = vec![rule.to_owned()];
         notes.extend(self.notes.iter().map(|note| format!("Note: {note}.")));

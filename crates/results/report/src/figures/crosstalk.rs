@@ -43,7 +43,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     Some(Figure {
         id: "crosstalk".to_owned(),
         title: "Crosstalk between channels".to_owned(),
-        caption: "Change of the predicted channel (row) over the range of the true channel (column), both as parts of their ranges: 1 on the diagonal and 0 elsewhere would be a sensor without crosstalk. Colours end at ±1.".to_owned(),
+        caption: "Change of the predicted channel (row) over the range of the true channel (column), both as shares of their ranges. A sensor without crosstalk has 1 on the diagonal and 0 elsewhere. Colours end at ±1.".to_owned(),
         description: format!("Matrices of crosstalk of {}.", crate::names::listed(&names)),
         canvas,
     })

@@ -34,7 +34,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     for (position, (at, gaps, units)) in found.iter().enumerate() {
         let area = grid.area(position);
         let title = format!(
-            "{}: unit {} less {}",
+            "{}: unit {} minus {}",
             short(&names[*at], 24),
             short(&units[1], 8),
             short(&units[0], 8)
@@ -47,7 +47,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
         id: "units".to_owned(),
         title: "Differences between units".to_owned(),
         caption: format!(
-            "Height of the surface of the second unit less that of the first at the same points, as measured, before the two surfaces are aligned. Mean distance of the aligned surfaces: {}.",
+            "Height of the surface of the second unit minus that of the first at the same points, as measured, before the two surfaces are aligned. Mean distance of the aligned surfaces: {}.",
             words.join("; ")
         ),
         description: format!(

@@ -42,7 +42,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
         id: "labels".to_owned(),
         title: "Label distributions".to_owned(),
         caption: format!(
-            "Shares of the labels of the presses that models are fitted and tested on, in {BINS} bins from the least to the greatest label of all sensors shown."
+            "Labels of the presses for training and test: share in each of {BINS} bins, from the least to the greatest label of all sensors shown."
         ),
         description: format!(
             "Histograms of the true {} of {}.",

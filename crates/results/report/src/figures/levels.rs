@@ -71,7 +71,7 @@ pub(super) fn bias(studies: &[Study], room: Option<f64>) -> Option<Figure> {
         id: "bias",
         title: "Bias by level",
         caption: format!(
-            "Mean of truth less prediction in bins of the truth with at least {FEWEST} samples; above zero the sensor reads low."
+            "Mean of truth − prediction in bins of the truth with at least {FEWEST} samples; above zero, the sensor reads too low."
         ),
         description: format!(
             "Bias over the true value, by channel, of {}.",

@@ -75,7 +75,7 @@ fn caption(studies: &[Study], names: &[String], others: &[usize]) -> String {
         ),
     };
     format!(
-        "Mean absolute error in each lighting scene as a ratio to that of the same presses in unchanged light, the scene “{LEARNT_IN}” that models are trained in: 1 is no change, 10 ten times the error; the axis is logarithmic. Predictions are not clipped to the bounds of the model, as in r_light. Sensors that no light reaches are not shown. Point at a dot for the light itself.{without}"
+        "Mean absolute error in each lighting scene, divided by that of the same presses in unchanged light, the training scene “{LEARNT_IN}”. 1 is no change, 10 is ten times the error. The axis is logarithmic. Predictions are not clipped to the bounds of the model, as in r_light. Sensors that no light reaches are not shown. Point at a dot for the light itself.{without}"
     )
 }
 

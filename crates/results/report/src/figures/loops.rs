@@ -49,7 +49,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
         id: "hysteresis".to_owned(),
         title: "Loading and unloading".to_owned(),
         caption: format!(
-            "True normal force over true depth while loading (whole lines) and unloading (broken lines), at most {MOST} points a sensor, first by name. Area between the branches: {}.",
+            "True normal force over true depth while loading (solid lines) and unloading (dashed lines). At most {MOST} points of each sensor are drawn, in the order of their names. Area between the branches: {}.",
             words.join("; ")
         ),
         description: format!(

@@ -87,7 +87,7 @@ pub fn study_figures(studies: &[Study], style: &FigureStyle) -> StudyFigures {
                 .push((id.to_owned(), format!("needs {needs}"))),
         }
     }
-    let reason = "shows frames of the cameras, which results do not hold";
+    let reason = "shows camera frames, which results do not contain";
     figures
         .absent
         .push(("figure-6a".to_owned(), reason.to_owned()));

@@ -52,7 +52,7 @@ fn one(study: &Study, at: usize, name: &str, room: Option<f64>) -> Option<Figure
         id: format!("predicted-{}", at + 1),
         title: format!("{}: predicted against true", short(name, 60)),
         caption: format!(
-            "Samples that the model has not seen, by channel; on the broken line prediction and truth are equal. n counts the samples, and R² is the score of the channel. {drawn}."
+            "Samples that the model has not seen, by channel. On the dashed line, prediction and truth are equal. n is the number of samples, R² the score of the channel. {drawn}."
         ),
         description: format!(
             "Predicted over true values of {} for {}.",

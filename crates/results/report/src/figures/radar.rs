@@ -154,7 +154,7 @@ fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure
         id: id.to_owned(),
         title: title.to_owned(),
         caption: format!(
-            "Each axis shows the share of the best sensor shown: value over best where more is better (↑), best over value where less is (↓). The rim is the best value, whether or not a test shows it to be better.{gaps}{barred}{}{}",
+            "Each axis shows a share of the best sensor shown: value / best if more is better (↑), best / value if less is better (↓). The rim is the best value, even if no test shows a difference.{gaps}{barred}{}{}",
             without_value(studies, axes),
             unproven(studies, axes)
         ),

@@ -68,7 +68,7 @@ pub(super) fn volumes(studies: &[Study], room: Option<f64>) -> Option<Figure> {
         id: "repeatability-volumes".to_owned(),
         title: "Repeatability by place".to_owned(),
         caption: format!(
-            "Predicted places of the same presses at the deepest step that was repeated: each ellipse has the standard deviations of Px and Py as half axes, enlarged {LARGER} times; the bar beside it is that of Pz, enlarged alike."
+            "Spread of predictions of repeated presses at the deepest repeated step. Half axes of an ellipse: standard deviations of Px and Py. Bar beside it: that of Pz. All are enlarged {LARGER} times."
         ),
         description: format!(
             "Ellipses of repeated predictions over the surface of {}.",

@@ -60,7 +60,7 @@ pub(super) fn section(report: &ReportPage<'_>) -> Option<(usize, Markup)> {
         p.note {
             "The samples with the greatest and the smallest error among those that the model has not seen, each of a different "
             (apart) ". The error is the mean over channels of |true − predicted| divided by the range of the true values. "
-            "The circle is the same for all samples of a sensor; in it the true place (ring) and the predicted one (dot), with the shear force as a line from each."
+            "Ring: true place. Dot: predicted place. Lines: shear forces. The circle is the same for all samples of a sensor."
         } "\n"
         fieldset {
             legend { "Show" } (filter("sensor", "all", sensors))

@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use taceva_metrics::SensorFacts;
 
 use super::beside::{Digits, beside, printed};
-use super::tables::{SCENES, Sheet, column, has_values, number_column};
+use super::tables::{SCENES, Sheet, column, has_values, named, number_column};
 use crate::results::Study;
 use crate::scores::ScoreTable;
-use crate::table::{Cell, Row, Table, Words, latex_symbol};
+use crate::table::{Cell, NAME_PT, Row, Table, VALUE_SIZE, Words, latex_symbol, stacked};
 use crate::variables::VARIABLES;
 
 /// Sentence on the figures without printed numbers.
-pub(super) const UNPRINTED: &str = "The study prints no numbers with its figures 6a, 7a, 7b and 8a to 8c; the means over figure 7b stand in its table V, and the quantities of figure 8 in its tables and in figures 3c and 4.";
+pub(super) const UNPRINTED: &str = "The study prints no numbers with its figures 6a, 7a, 7b and 8a to 8c; its table V has the means of figure 7b, and its tables and figures 3c and 4 have the quantities of figure 8.";
 
 /// A number of a figure: its name, its score, and the printed digits.
 struct Quantity {
@@ -26,7 +26,7 @@ struct Quantity {
 pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> Vec<(String, Table)> {
     let sheet = Sheet { studies, scores };
     let quantity = |name: &str, metric, channel, digits| Quantity {
-        name: Words::new(name),
+        name: Words::new(name).latex(stacked(name, NAME_PT, VALUE_SIZE, 'l')),
         metric,
         channel,
         digits,
@@ -112,7 +112,7 @@ impl Sheet<'_> {
                 let theirs = printed(study, "mean_gray", scene);
                 Cell::Estimate(beside(ours, theirs, Digits::Significant(2)))
             });
-            let name = [Cell::text(scene)].into_iter();
+            let name = [named(scene)].into_iter();
             name.chain(cells).collect::<Vec<Cell>>()
         });
         self.figure(

@@ -5,7 +5,8 @@ use crate::catalogue::{Sensor, find};
 use crate::results::Study;
 use crate::scores::BARRED;
 use crate::scores::ScoreTable;
-use crate::table::{Align, Cell, Column, Row, Table, Words, latex_symbol};
+use crate::table::{Align, Cell, Column, Row, Table, Words, latex_symbol, stacked};
+use crate::table::{HEAD_PT, NAME_PT, SMALL_SIZE, VALUE_SIZE};
 use crate::variables::VARIABLES;
 use taceva_metrics::Better;
 
@@ -116,11 +117,11 @@ impl Sheet<'_> {
                 Cell::Estimate(beside(ours, printed, Digits::Significant(3)))
             });
             table.rows.push(Row {
-                cells: [Cell::text(name)].into_iter().chain(cells).collect(),
+                cells: [named(name)].into_iter().chain(cells).collect(),
                 ..Row::default()
             });
         }
-        table.note("Beside each value stands the printed one of the study, and ours over it. Our results state pixels of recorded frames, which a scene may reduce, but neither pixels of cameras nor thickness.");
+        table.note("Beside each value: the number that the study prints, and our value divided by it. Our results contain neither the thickness nor the pixels of the camera, because a scene may reduce the recorded frames.");
         table
     }
 
@@ -136,7 +137,9 @@ impl Sheet<'_> {
             let column = Column::new(words).align(Align::Right);
             column.direction(crate::table::Direction::Is(better))
         });
-        let first = ["sensor", "variable"].map(column);
+        // Symbols need no head in LaTeX, which leaves room for the values.
+        let variable = Column::new(Words::new("variable").latex("")).align(Align::Left);
+        let first = [column("sensor"), variable];
         let caption = "Table II. Calibration by sensor and variable (MAE in N and mm).";
         let mut table = self.table(caption, first.into_iter().chain(columns));
         for block in BLOCKS {
@@ -146,7 +149,7 @@ impl Sheet<'_> {
                     let variable = Words::new(channel).latex(latex_symbol(channel));
                     let cells = heads
                         .map(|(metric, _)| self.cell(at, metric, channel, Digits::Significant(4)));
-                    let words = [Cell::text(name), Cell::text(variable)].into_iter();
+                    let words = [named(name), Cell::text(variable)].into_iter();
                     table.rows.push(Row {
                         cells: words.chain(cells).collect(),
                         begins_group: at == 0 && line == 0 && block[0] == "Pxy",
@@ -186,7 +189,11 @@ impl Sheet<'_> {
         let pairs: Vec<(&str, usize)> = pairs.collect();
         let columns = pairs.iter().map(|(channel, at)| {
             let name = &self.names()[*at];
-            let latex = format!("{} {}", latex_symbol(channel), crate::escape::latex(name));
+            let latex = format!(
+                "\\shortstack[r]{{{}\\\\{}}}",
+                latex_symbol(channel),
+                stacked(name, HEAD_PT, SMALL_SIZE, 'r')
+            );
             Column::new(Words::new(format!("{channel} {name}")).latex(latex)).align(Align::Right)
         });
         let caption = "Table IV. Robustness to lighting by scene (more is better).";
@@ -224,10 +231,7 @@ impl Sheet<'_> {
             let cells = VARIABLES
                 .map(|channel| self.cell(at, "repeatability", channel, Digits::Significant(3)));
             table.rows.push(Row {
-                cells: [Cell::text(name.as_str())]
-                    .into_iter()
-                    .chain(cells)
-                    .collect(),
+                cells: [named(name)].into_iter().chain(cells).collect(),
                 ..Row::default()
             });
         }
@@ -260,7 +264,9 @@ impl Sheet<'_> {
         };
         let mut said = Vec::new();
         if cells().any(|cell| cell.remark.is_some()) {
-            said.push("Beside each value stands the printed one of the study, and ours over it.");
+            said.push(
+                "Beside each value: the number that the study prints, and our value divided by it.",
+            );
         }
         if cells().any(|cell| cell.is_best) {
             said.push(
@@ -280,8 +286,15 @@ pub(super) fn column(name: &str) -> Column {
     Column::new(name).align(Align::Left)
 }
 
+/// Column of a sensor. LaTeX writes a long name in several lines.
 pub(super) fn number_column(name: &str) -> Column {
-    Column::new(name).align(Align::Right)
+    let latex = stacked(name, HEAD_PT, SMALL_SIZE, 'r');
+    Column::new(Words::new(name).latex(latex)).align(Align::Right)
+}
+
+/// Cell that names a row. LaTeX writes a long name in several lines.
+pub(super) fn named(name: &str) -> Cell {
+    Cell::text(Words::new(name).latex(stacked(name, NAME_PT, VALUE_SIZE, 'l')))
 }
 
 #[cfg(test)]

@@ -10,16 +10,13 @@ use super::notation::metric;
 use super::{ScoreCell, ScoreRow, ScoreTable};
 use crate::number::FormattedValue;
 use crate::table::{Align, Cell, Column, Estimate, Row, Table, Words, latex_symbol, stacked};
-use crate::table::{COLUMN_PT, GAP_PT, letters_pt};
+use crate::table::{COLUMN_PT, GAP_PT, SMALL_SIZE, VALUE_SIZE, letters_pt};
 
 /// Greatest number of rows in one table; with intervals, they fill half a page.
 const MOST_ROWS: usize = 18;
 /// Greatest width of a row name, and of a column head, in TeX points.
 const NAME_PT: f64 = 76.0;
 const HEAD_PT: f64 = 47.5;
-/// Font sizes in points: of values, and of intervals and heads.
-const VALUE_SIZE: f64 = 8.0;
-const SMALL_SIZE: f64 = 7.0;
 
 /// One line of the main table before the division into tables.
 struct Line<'a> {

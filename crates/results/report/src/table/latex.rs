@@ -1,6 +1,6 @@
 //! Tables as LaTeX with booktabs.
 
-use super::room::breakable;
+use super::room::{COLUMN_PT, PAGE_PT, breakable};
 use super::{Row, Table, Words};
 use crate::escape::{LETTER, LETTER_DEFINITION, latex as escape};
 
@@ -17,6 +17,8 @@ pub enum Layout {
     Float,
     /// Float of the width of a page column, in small letters.
     Column,
+    /// Float of the width of a page column, or of the page if the table is wider. A table wider than the page has blocks of columns.
+    Paper,
     /// Rows only.
     Rows,
 }
@@ -40,23 +42,27 @@ impl Table {
             out += &self.latex_rows("  ", "");
             return out + "\\end{tabular}\n";
         }
-        out += "\\begin{table}\n";
+        let is_wide = layout == Layout::Paper && self.width_pt() > COLUMN_PT;
+        let float = if is_wide { "table*" } else { "table" };
+        out += &format!("\\begin{{{float}}}\n");
         if !self.caption.is_empty() {
             let caption = match layout {
-                Layout::Column => breakable(&self.caption),
+                Layout::Column | Layout::Paper => breakable(&self.caption),
                 _ => escape(&self.caption),
             };
             out += &format!("  \\caption{{{caption}}}\n");
         }
         match layout {
             Layout::Column => {
-                out += &format!(
-                    "  {}\\setlength{{\\tabcolsep}}{{2pt}}\n  \\begin{{tabular*}}{{\\columnwidth}}{{@{{}}l@{{\\extracolsep{{\\fill}}}}{}@{{}}}}\n",
-                    self.size(),
-                    self.sides().get(1..).unwrap_or_default()
-                );
-                out += &self.latex_rows("    ", self.size_of_names());
-                out += "  \\end{tabular*}\n";
+                out += &self.stretched("\\columnwidth", self.size(), self.size_of_names());
+            }
+            Layout::Paper => {
+                let width_pt = if is_wide { PAGE_PT } else { COLUMN_PT };
+                let blocks = self.blocks(width_pt);
+                let blocks = blocks
+                    .iter()
+                    .map(|block| block.stretched("\\linewidth", "\\footnotesize", "\\scriptsize "));
+                out += &blocks.collect::<Vec<_>>().join("\n  \\par\\medskip\n");
             }
             _ => {
                 out += &format!("  \\begin{{tabular}}{{{}}}\n", self.sides());
@@ -66,14 +72,24 @@ impl Table {
         }
         for note in &self.notes {
             out += &match layout {
-                Layout::Column => format!(
-                    "\n  \\par\\vspace{{2pt}}\\noindent\\parbox{{\\columnwidth}}{{\\scriptsize\\raggedright {}}}\n",
+                Layout::Column | Layout::Paper => format!(
+                    "\n  \\par\\vspace{{2pt}}\\noindent\\parbox{{\\linewidth}}{{\\scriptsize\\raggedright {}}}\n",
                     breakable(note.plain())
                 ),
                 _ => format!("\n  \\footnotesize {}\n", note.in_latex()),
             };
         }
-        out + "\\end{table}\n"
+        out + &format!("\\end{{{float}}}\n")
+    }
+
+    /// Rows in an environment of this width, with numbers in the font `size` and heads in `small`.
+    fn stretched(&self, width: &str, size: &str, small: &str) -> String {
+        let sides = self.sides();
+        format!(
+            "  {size}\\setlength{{\\tabcolsep}}{{2pt}}\n  \\begin{{tabular*}}{{{width}}}{{@{{}}l@{{\\extracolsep{{\\fill}}}}{}@{{}}}}\n{}  \\end{{tabular*}}\n",
+            sides.get(1..).unwrap_or_default(),
+            self.latex_rows("    ", small)
+        )
     }
 
     /// Alignment letter of each column.

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use taceva_report::{FigureStyle, PaperForm, Study, paper_form, study_figures};
 
-use crate::paper::assert_compiles;
+use crate::paper::assert_fits_a_column;
 use crate::support;
 
 /// Sensors of the study in another order.
@@ -44,7 +44,7 @@ fn cells(form: &PaperForm, name: &str) -> Vec<Vec<String>> {
 }
 
 #[test]
-fn all_five_tables_are_there_and_compile() {
+fn all_five_tables_are_there_and_fit_a_paper() {
     let form = form();
     let names: Vec<&str> = form.tables.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(
@@ -52,7 +52,7 @@ fn all_five_tables_are_there_and_compile() {
         ["table-1", "table-2", "table-3", "table-4", "table-5"]
     );
     assert!(form.absent.is_empty());
-    assert_compiles("the form of the study", &form.latex());
+    assert_fits_a_column("the form of the study", &form.latex());
     let markdown = form.markdown();
     assert!(markdown.contains("72 boards") && markdown.contains("Our samples are simulated"));
 }
@@ -131,11 +131,21 @@ fn results_without_planes_have_no_tables_but_reasons() {
 }
 
 #[test]
+fn tables_of_many_sensors_have_blocks_that_fit_a_page() {
+    let names = SENSORS.map(str::to_owned);
+    let more = ["GelSight Mini 2 (ridge)", "left_finger", "a", "b"].map(str::to_owned);
+    let studies: Vec<Study> = names.iter().chain(&more).map(|name| study(name)).collect();
+    let tables = paper_form(&studies).latex();
+    assert!(tables.matches("\\begin{tabular*}").count() > tables.matches("\\caption{").count());
+    assert_fits_a_column("many sensors", &tables);
+}
+
+#[test]
 fn a_sensor_that_the_study_did_not_measure_stands_alone() {
     let form = paper_form(&[study("a_b & {c}")]);
     let calibration = cells(&form, "table-2");
     assert_eq!(calibration[0][2], "0.1000");
-    assert_compiles("another sensor", &form.latex());
+    assert_fits_a_column("another sensor", &form.latex());
 }
 
 #[test]

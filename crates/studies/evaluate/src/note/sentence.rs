@@ -226,7 +226,7 @@ impl fmt::Display for Note {
             ),
             Note::FramesFrozen(count) => write!(
                 f,
-                "the camera froze: {} equalled the one before although the force changed, {} broken off and repeated",
+                "the camera froze: {} equalled the one before although the force changed, {} aborted and repeated",
                 counted(*count, "frame"),
                 by_count(*count, "and its press was", "and their presses were")
             ),
@@ -287,7 +287,7 @@ fn unit_of_one(names: &[String], f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = shown(name);
         write!(
             f,
-            "{separator}{name}: not one of Px Py Pz Fx Fy Fz; taken as a channel of unit 1; "
+            "{separator}{name}: not one of Px Py Pz Fx Fy Fz; scored as a channel with the unit 1; "
         )?;
         match meant {
             Some(channel) => write!(
@@ -323,7 +323,7 @@ mod tests {
             ),
             (
                 Note::FramesFrozen(1),
-                "the camera froze: 1 frame equalled the one before although the force changed, and its press was broken off and repeated",
+                "the camera froze: 1 frame equalled the one before although the force changed, and its press was aborted and repeated",
             ),
             (
                 left_out(1),

@@ -30,8 +30,8 @@ fn a_column_of_unit_one_is_named_with_the_channel_that_it_may_be() {
     let note = Note::UnitOfOne(vec!["Fz_N".to_owned(), "grip".to_owned()]);
     assert_eq!(
         note.to_string(),
-        "Fz_N: not one of Px Py Pz Fx Fy Fz; taken as a channel of unit 1; rename it Fz, or give --units Fz_N=N; \
-         grip: not one of Px Py Pz Fx Fy Fz; taken as a channel of unit 1; to state its unit, give --units grip=UNIT"
+        "Fz_N: not one of Px Py Pz Fx Fy Fz; scored as a channel with the unit 1; rename it Fz, or give --units Fz_N=N; \
+         grip: not one of Px Py Pz Fx Fy Fz; scored as a channel with the unit 1; to state its unit, give --units grip=UNIT"
     );
 }
 

@@ -113,7 +113,7 @@ fn a_report_states_the_zero_of_the_map_and_the_angle_between_declared_rotations(
     let notes = |above: &str| evaluated("", above).report.provenance.notes.join("\n");
     let plain = notes("");
     assert!(
-        plain.contains("import: Fz less the mean of the first 4 rows of each table"),
+        plain.contains("import: Fz minus the mean of the first 4 rows of each table"),
         "{plain}"
     );
     assert!(!plain.contains("rotation Rx"), "{plain}");

@@ -58,7 +58,7 @@ pub enum StopCause {
     },
     /// A frame repeats the one before to the last bit although the force changed.
     #[error(
-        "frames repeat earlier ones to the last bit although the force changed: the camera is frozen; restart it, check it with `taceva preview`, and continue with `--resume`"
+        "frames equal earlier ones bit for bit although the force changed: the camera is frozen; restart it, check it with `taceva preview`, and continue with `--resume`"
     )]
     FrozenFrame,
     /// A motion would leave the workspace. It was not made.
@@ -72,7 +72,7 @@ pub enum StopCause {
     Rig(Box<SceneError>),
     /// The guard reacts so late that a limit would be exceeded too far.
     #[error(
-        "force readings arrive up to {reaction_ms:.0} ms late on this machine, and the tip travels {overshoot_mm:.3} mm in that time: expected at most {greatest_mm:.3} mm (30 % of the allowed depth); stop other programs, start the run by `chrt -f 10 taceva run …` if it was not, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
+        "force readings arrive up to {reaction_ms:.0} ms late on this machine, and the tip travels {overshoot_mm:.3} mm in that time: expected at most {greatest_mm:.3} mm (30 % of the allowed depth); stop other programs, run with `chrt -f 10 taceva run …`, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
     )]
     SlowGuard {
         /// Time from a limit to the halt, in ms: the 99.9th percentile.

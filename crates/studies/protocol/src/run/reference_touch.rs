@@ -60,7 +60,7 @@ impl ReferenceTouch {
                 format!("{before:.3} N/mm in the last session ({change:+.1} %)")
             }
             None => {
-                "a gel that should be about 4.4 or 9.8 times stiffer or softer shows a wrong unit of force".to_owned()
+                "if the gel should be about 4.4 or 9.8 times stiffer or softer, the unit of force is wrong".to_owned()
             }
         };
         format!(
@@ -187,7 +187,7 @@ mod tests {
             line,
             "gentle touch with the sphere of radius 4 mm: 0.600 N at 0.300 mm, 2.000 N/mm; 1.600 N/mm in the last session (+25.0 %)"
         );
-        assert!(touch(0.6).line(None).contains("wrong unit of force"));
+        assert!(touch(0.6).line(None).contains("the unit of force is wrong"));
     }
 
     #[test]

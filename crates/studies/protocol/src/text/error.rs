@@ -187,7 +187,7 @@ pub enum SceneProblem {
     },
     /// Devices use different clocks.
     #[error(
-        "`{simulated}` uses simulated time and `{real}` uses the clock of this machine, but a rig has one clock: choose both devices simulated or both real; only a sensor may be real beside a simulated robot, which stamps its pictures, and its recording is then `simulated`"
+        "`{simulated}` uses simulated time and `{real}` uses the clock of this machine, but a rig has one clock: choose both devices simulated or both real; a real sensor may be used with a simulated robot, and its recording is then `simulated`"
     )]
     MixedClocks {
         /// The simulated device.
@@ -223,7 +223,7 @@ pub enum SceneProblem {
     },
     /// A robot comes to rest too late after an exceeded limit.
     #[error(
-        "`{robot}` needs {stop_ms} ms to stop, so it rests {needed_ms:.0} ms after a limit is exceeded: expected at most {greatest_ms:.0} ms"
+        "`{robot}` needs {stop_ms} ms to stop, so it stops {needed_ms:.0} ms after a limit is exceeded: expected at most {greatest_ms:.0} ms"
     )]
     SlowStop {
         /// The robot.

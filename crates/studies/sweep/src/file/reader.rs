@@ -58,7 +58,7 @@ impl SweepFile {
             let known = known.map_err(|error| place.wrong("splits", error.to_string()))?;
             if matches!(known.kind, SplitKind::Folds(_)) {
                 let problem = format!(
-                    "`{}`: a sweep needs one division with validation and test parts, such as by-point or by-block",
+                    "`{}`: a sweep needs one split with validation and test parts, such as by-point or by-block",
                     shown(split)
                 );
                 return Err(place.wrong("splits", problem));

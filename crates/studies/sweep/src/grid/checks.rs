@@ -61,7 +61,7 @@ pub(super) fn words(file: &SweepFile) -> Result<(), SweepError> {
         }
     }
     if file.vary.contains_key("seed") {
-        let problem = "vary the seed with `seeds`, which set both the division of samples and the random numbers of models";
+        let problem = "vary the seed with `seeds`, which set both the split of samples and the random numbers of models";
         return Err(file.wrong("seed", problem.to_owned()));
     }
     let own = file.models.iter().flat_map(|model| model.set.keys());

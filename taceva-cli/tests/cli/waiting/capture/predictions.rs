@@ -92,7 +92,7 @@ fn a_model_of_hand_presses_predicts_what_the_transducer_measures_on_a_page_and_b
         "frames seen",
         "dropped for newer ones",
         "of their stamps",
-        "were outside what the model has seen",
+        "were unlike the training pictures",
         "more/predictions.csv: predictions by ridge sha256:",
     ] {
         assert!(ran.err.contains(words), "`{words}` in {}", ran.err);
@@ -183,7 +183,12 @@ fn every_frame_of_a_simulated_sensor_is_predicted_and_what_is_unlike_the_trainin
     let header = dataset.header();
     assert_eq!(header.predictions.as_ref().expect("some").rows, 12);
     assert!(header.channels.is_empty(), "a prediction is no label");
-    assert!(ran.err.contains("(100.0 %) were outside"), "{}", ran.err);
+    assert!(
+        ran.err
+            .contains("(100.0 %) were unlike the training pictures"),
+        "{}",
+        ran.err
+    );
     let text = std::fs::read_to_string(bench.path("seen/predictions.csv")).expect("a table");
     assert!(
         text.starts_with("sample,t_s,distance,Px,Fz\nframe-000001,"),

@@ -104,7 +104,7 @@ fn check(training: &TrainingSet<'_>) -> Result<(), ModelError> {
             return Err(ModelError::new(
                 ErrorKind::InvalidArgument,
                 format!(
-                    "`{channel}` has {values} values in the training part, {NAME} takes at most {VALUES_MAX} classes: for continuous \
+                    "`{channel}` has {values} values in the training part, {NAME} accepts at most {VALUES_MAX} classes: for continuous \
                         labels choose another model, such as linfa/elastic-net"
                 ),
             ));

@@ -78,6 +78,6 @@ pub(super) fn bytes_at(
     read.map_err(|error| error.to_string())?;
     match bytes.len() as u64 == size {
         true => Ok(bytes),
-        false => Err("the shard became shorter while it was read".to_owned()),
+        false => Err("the file of the shard shrank while it was read".to_owned()),
     }
 }

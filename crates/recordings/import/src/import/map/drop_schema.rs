@@ -53,7 +53,7 @@ impl Check<'_> {
             return Err(toml_error(
                 self.path,
                 None,
-                &format!("[drop.placeholders] names `{name}`, which is no channel of [columns]"),
+                &format!("[drop.placeholders] names `{name}`, which is not a channel of [columns]"),
             ));
         }
         let rows = written.rows.into_iter().map(|row| self.dropped_row(row));

@@ -174,7 +174,7 @@ impl Check<'_> {
                 return Err(self.at(
                     name.span().start,
                     &format!(
-                        "`{text}` is no name of a view: a letter, then letters, digits or `_`"
+                        "`{text}` is not a valid name of a view: expected a letter, then letters, digits or `_`"
                     ),
                 ));
             }

@@ -63,9 +63,9 @@ impl MatrixMap {
                 ];
                 let determinant: f64 = cross.iter().zip(c).map(|(a, b)| a * b).sum();
                 ((determinant - 1.0).abs() > ROTATION)
-                    .then(|| format!("no rotation: the determinant is {determinant:.6}, expected 1: it mirrors"))
+                    .then(|| format!("not a rotation: the determinant is {determinant:.6}, expected 1: the matrix mirrors"))
             }
-            _ => Some("no rotation: expected 3 × 3 numbers whose rows are of length 1 and at right angles".to_owned()),
+            _ => Some("not a rotation: expected 3 × 3 numbers whose rows have length 1 and are at right angles".to_owned()),
         }
     }
 }

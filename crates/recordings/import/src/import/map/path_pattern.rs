@@ -44,7 +44,7 @@ impl PathPattern {
                 Some((name, "folders")) => (name, Kind::Folders),
                 Some((_, other)) => {
                     return Err(format!(
-                        "`:{other}` is no kind of part, expected `:digits`, `:number`, `:folders` or none"
+                        "`:{other}` is not a kind of part, expected `:digits`, `:number`, `:folders` or none"
                     ));
                 }
             };
@@ -54,7 +54,7 @@ impl PathPattern {
                     .all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
             if !is_name {
                 return Err(format!(
-                    "`{name}` is no name: a letter, then letters, digits or `_`"
+                    "`{name}` is not a valid name: expected a letter, then letters, digits or `_`"
                 ));
             }
             let name = name.to_owned();
@@ -230,8 +230,8 @@ mod tests {
     fn what_is_no_pattern_says_why() {
         for (pattern, expected) in [
             ("{a", "never closed"),
-            ("{a:hex}", "`:hex` is no kind"),
-            ("{1a}", "no name"),
+            ("{a:hex}", "`:hex` is not a kind"),
+            ("{1a}", "not a valid name"),
             ("{a}{a}", "twice"),
             ("plain", "names no part"),
         ] {

@@ -185,7 +185,7 @@ impl Check<'_> {
                 return Err(self.at(
                     offset,
                     &format!(
-                        "`rotation` names `{0}`, which is no channel: add `{0} = {{ from = …, unit = … }}` to [columns]",
+                        "`rotation` names `{0}`, which is not a channel: add `{0} = {{ from = …, unit = … }}` to [columns]",
                         shown(name)
                     ),
                 ));

@@ -44,7 +44,7 @@ pub(super) fn check_tables(
             (Some(table), [first, ..]) if !tables.iter().any(|path| relative(path) == *table) => {
                 return Err(table_error!(
                     first,
-                    "row {number} in `rows` of [drop] is of `{}`, which is no table of the map: write its path relative to the folder, \
+                    "row {number} in `rows` of [drop] is of `{}`, which is not a table of the map: write its path relative to the folder, \
                      such as `{}`",
                     shown(table),
                     shown(&relative(first))
@@ -68,7 +68,7 @@ impl Reading<'_> {
             if dropped.row > count as u64 {
                 return Err(table_error!(
                     &self.current,
-                    "row {} in `rows` of [drop] is not there: the table has {}, counted from 1",
+                    "row {} in `rows` of [drop] does not exist: the table has {}, counted from 1",
                     dropped.row,
                     counted(count, "row")
                 ));

@@ -191,7 +191,7 @@ impl Reader<'_> {
         let text: String = self.letters[start..end].iter().collect();
         let value = text.parse::<f64>().ok().filter(|value| value.is_finite());
         let Some(value) = value else {
-            return Err(self.error(format!("`{text}` is no number")));
+            return Err(self.error(format!("`{text}` is not a number")));
         };
         self.at = end;
         self.push(Step::Number(value), start + 1);
@@ -218,7 +218,7 @@ impl Reader<'_> {
         let Some(index) = self.names.iter().position(|known| *known == name) else {
             self.at = start;
             let (name, hint) = (shown(name), suggestion(name, self.names));
-            return Err(self.error(format!("`{name}` is no source; {hint}")));
+            return Err(self.error(format!("`{name}` is not a source; {hint}")));
         };
         self.push(Step::Input(index), start + 1);
         Ok(())

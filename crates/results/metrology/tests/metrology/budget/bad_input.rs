@@ -164,7 +164,7 @@ fn a_correlation_beyond_1_is_refused() {
 fn a_correlation_with_an_unknown_source_names_the_nearest_one() {
     assert_eq!(
         correlations(&pair("one", "tow", "0.1")),
-        "line 14, `between`: `tow` is no source; did you mean `two`?"
+        "line 14, `between`: `tow` is not a source; did you mean `two`?"
     );
     assert!(correlations(&pair("one", "one", "0.1")).contains("between two sources"));
     let twice = [pair("one", "two", "0.1"), pair("two", "one", "0.1")].concat();
@@ -234,17 +234,17 @@ fn two_sources_of_one_name_are_refused_with_both_lines() {
 fn an_unknown_figure_names_the_nearest_one() {
     assert_eq!(
         figures("eror.within", "error.between"),
-        "line 6, `from`: `eror.within` is no measured figure here; did you mean `error.within`?"
+        "line 6, `from`: `eror.within` is not a measured figure here; did you mean `error.within`?"
     );
     assert!(source("from = \"certificate\"").contains("has no certificate"));
-    assert!(source("from = \"drift\"").contains("is no measured figure here"));
+    assert!(source("from = \"drift\"").contains("is not a measured figure here"));
 }
 
 #[test]
 fn an_expression_with_an_unknown_name_has_its_column() {
     assert_eq!(
         expression("2 * (alhpa + b)"),
-        "line 4, `expression`: column 6: `alhpa` is no source; did you mean `alpha`?"
+        "line 4, `expression`: column 6: `alhpa` is not a source; did you mean `alpha`?"
     );
 }
 
@@ -276,7 +276,7 @@ fn expressions_that_cannot_be_read_have_their_column() {
         ("(alpha", "column 7: expected `)`"),
         ("alpha b", "column 7: `b` is found, expected an operator"),
         ("sin alpha", "column 5: expected `(`"),
-        ("1.2.3", "is no number"),
+        ("1.2.3", "is not a number"),
         ("alpha $ b", "column 7: `$` is found"),
         ("", "column 1: the end is found"),
     ] {
@@ -322,7 +322,9 @@ fn unknown_keys_and_missing_ones_are_said_with_their_line() {
     );
     let said = "the key `enters` belongs to `u`, `U`, `s` or `half_width`";
     assert!(source("from = \"error.within\"\nenters = \"relative\"").contains(said));
-    assert!(source("half_width = \"1 mN\"\nshape = \"square\"").contains("`square` is no shape"));
+    assert!(
+        source("half_width = \"1 mN\"\nshape = \"square\"").contains("`square` is not a shape")
+    );
     let said = refusal(
         "budget_version = 1\nmeasurand = \"Fy\"\n",
         &Evidence::default(),
@@ -336,7 +338,7 @@ fn unknown_keys_and_missing_ones_are_said_with_their_line() {
         &Evidence::default(),
     );
     assert!(
-        said.contains("`Fzz` is no channel, so the key `unit` is needed; did you mean `Fz`?"),
+        said.contains("`Fzz` is not a channel, so the key `unit` is needed; did you mean `Fz`?"),
         "{said}"
     );
 }

@@ -285,7 +285,7 @@ fn draws_beyond_the_domain_are_said() {
     let budget = drawn(text, all());
     assert!(budget.mcm.is_none());
     assert!(
-        budget.warnings[0].contains("leaves the domain"),
+        budget.warnings[0].contains("is outside the domain"),
         "{:?}",
         budget.warnings
     );

@@ -68,7 +68,7 @@ fn unequal_cells_are_refused_by_the_first_and_dropped_as_whole_parts_if_wanted()
     let error = refusal(is_left);
     assert_eq!(
         error.to_string(),
-        "part part 2, operator C: 0 readings where most cells have 3; `--drop-incomplete` leaves such parts out"
+        "part part 2, operator C: 0 readings, expected 3 as in most cells; `--drop-incomplete` leaves such parts out"
     );
     let kept: Vec<_> = readings(1.0).into_iter().filter(is_left).collect();
     let dropping = settings(|settings| settings.drop_incomplete = true);

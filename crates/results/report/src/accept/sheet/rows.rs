@@ -113,7 +113,7 @@ impl Acceptance<'_> {
         }
         let mut notes = vec![
             "u: standard uncertainty; nu: its degrees of freedom; p_c: probability of conformity.".to_owned(),
-            "u holds the scatter of the tested presses, not the calibration of the reference.".to_owned(),
+            "u includes the scatter of the tested presses, but not the calibration of the reference.".to_owned(),
             "Conditional pass: within the limit, not within the acceptance limit. Conditional fail: beyond the limit by less than the guard. Undecided: no uncertainty, or one greater than agreed.".to_owned(),
         ];
         for (rule, checks) in &rules {

@@ -98,7 +98,7 @@ fn draw(studies: &[Study], quantities: &[Quantity], title: &str) -> Option<Figur
         ),
     };
     let caption = format!(
-        "The quantities that the study prints, without regard to whether they support a claim; positions are the mean of Pxy and Pz, forces that of Fxy and Fz. Each axis shows the share of the best sensor: value over best where more is better (↑), best over value where less is (↓).{floor}"
+        "The quantities that the study prints, even if they support no claim. Positions are the mean of Pxy and Pz, forces that of Fxy and Fz. Each axis shows a share of the best sensor: value / best if more is better (↑), best / value if less is better (↓).{floor}"
     );
     draw_spokes(studies, &spokes, title, caption)
 }

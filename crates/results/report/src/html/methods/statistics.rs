@@ -79,7 +79,7 @@ fn skill(studies: &[Study]) -> String {
         ),
     };
     format!(
-        " Scores of predictions are compared only where the model has skill: on samples that the model had not seen, the lower end of the 95 % interval of 1 − MSE(model) / MSE(constant) exceeds zero on each channel of the score. For success rates (sr, and tolerance if the constant is known), the interval must also lie above the rate of a constant answer. {marked}."
+        " Scores of predictions are compared only where the model has skill on each channel of the score. It has skill if the lower end of the 95 % interval of 1 − MSE(model) / MSE(constant), on samples that it had not seen, exceeds zero. For success rates (sr, and tolerance if the constant is known), the interval must also lie above the rate of a constant answer. {marked}."
     )
 }
 
@@ -99,9 +99,9 @@ fn seeds(studies: &[Study]) -> String {
     match all.as_slice() {
         [] => String::new(),
         [seeds] => format!(
-            " Each model was fitted with the seeds {}; scores are those of the first, the standard deviation over seeds is given separately, and its square is added to the variance between clusters in tests of predictions.",
+            " Each model was fitted with the seeds {}. Scores are those of the first seed; the standard deviation over seeds is given separately. Tests of predictions add its square to the variance between clusters.",
             listed(seeds)
         ),
-        _ => " Models were fitted with several seeds each; scores are those of the first, the standard deviation over seeds is given separately, and its square is added to the variance between clusters in tests of predictions.".to_owned(),
+        _ => " Each model was fitted with several seeds. Scores are those of the first seed; the standard deviation over seeds is given separately. Tests of predictions add its square to the variance between clusters.".to_owned(),
     }
 }

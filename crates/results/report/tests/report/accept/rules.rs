@@ -252,7 +252,7 @@ fn a_value_outside_its_own_interval_is_refused_by_both_versions() {
         assert!(matches!(error, AcceptError::OutsideInterval { .. }));
         assert_eq!(
             error.to_string(),
-            "mae Fz: the value 0.0535 N is outside its own interval 0.0671 … 0.100 N; make the result again with `taceva evaluate` or `taceva score`"
+            "mae Fz: the value 0.0535 N is outside its own interval 0.0671 … 0.100 N; compute the result again with `taceva evaluate` or `taceva score`"
         );
     }
     // A limit on another score is decided.

@@ -11,7 +11,7 @@ const SHARE: &str =
 const GUARDED: &str = "[decision]\nrule = \"guarded\"";
 const GUARD: &str = "guard band w = 1 U, U at a coverage of 0.95, on the logarithmic scale of the interval: the limit divided by 1.22";
 const SCATTER: &str =
-    "u holds the scatter of the tested presses, not the calibration of the reference.";
+    "u includes the scatter of the tested presses, but not the calibration of the reference.";
 
 fn checks(study: &Study, limits: &LimitsFile) -> Vec<LimitCheck> {
     accept(study, limits).expect("checks")

@@ -15,7 +15,7 @@ fn studies(points: u32) -> [Study; 2] {
 fn five_groups_are_said_to_show_no_difference_in_every_format() {
     let studies = studies(5);
     let comparison = of_metric(&studies, "mae");
-    let reason = "5 groups cannot show a difference: the least p is 0.0625; 6 groups or more can";
+    let reason = "5 groups cannot show a difference: the smallest possible p is 0.0625; 6 groups or more can";
     let words = comparison.answers[0].words(&comparison.names);
     assert!(words.ends_with(&format!("; {reason}")), "{words}");
     let decision = &comparison.decisions()[0].words;

@@ -66,7 +66,7 @@ pub enum TapError {
     },
     /// The signal of a device still changes long after the tip came to rest.
     #[error(
-        "tap {tap}: the {device} signal still changes after the tip has rested for 0.4 s: its latency is too long for a tap, or the gel creeps; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it"
+        "tap {tap}: the {device} signal still changes after the tip has rested for 0.4 s: its latency is too long for a tap, or the gel creeps; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it into the rig file"
     )]
     Late {
         /// Number of the tap, from 1.
@@ -76,7 +76,7 @@ pub enum TapError {
     },
     /// So many taps are late that the others show too short a latency.
     #[error(
-        "{late} of {taps} taps were left out as late, expected at most a fifth: those that remain show too short a latency; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it"
+        "{late} of {taps} taps were left out as late, expected at most a fifth: the remaining taps show too short a latency; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it into the rig file"
     )]
     MostlyLate {
         /// Number of late taps.

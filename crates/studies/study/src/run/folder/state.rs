@@ -48,8 +48,7 @@ impl RunFolder {
             differences => differences.join("; "),
         };
         format!(
-            "the run in it has a different plan: {differences}: undo this change and use --resume to continue it, or choose another folder to record \
-             with the change"
+            "the run in it has a different plan: {differences}; undo this change and use --resume, or choose another folder for the new plan"
         )
     }
 
