@@ -1,5 +1,6 @@
 //! Tables of errors with faults.
 
+use taceva_core::counted;
 use taceva_metrics::plane_of;
 use taceva_report::{Cell, Column, FormattedValue, Table};
 use taceva_stress::{By, CellScore, Estimate, FaultReport, NEVER, SeverityReport, StressReport};
@@ -26,7 +27,7 @@ pub(crate) fn table(report: &StressReport) -> Table {
             ];
             let ratios = channels.iter().map(|name| {
                 let score = of.stale.get(*name);
-                score.map_or_else(|| Cell::text("–"), |score| cell(&score.degradation, ""))
+                score.map_or_else(|| Cell::text("–"), |score| cell(&score.degradation))
             });
             cells.extend(ratios);
             cells.push(Cell::text(of.check.join(" ")));
@@ -83,6 +84,10 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
             "The recording has no untouched picture; the change by faults and contact is measured from: {}.",
             report.untouched
         ));
+    }
+    if report.left_out > 0 {
+        let left_out = counted(report.left_out, "sample");
+        notes.push(format!("{left_out} left out, without a picture."));
     }
     let skipped = report.skipped.iter();
     notes.extend(skipped.map(|of| format!("Skipped: {}: {}.", of.fault, of.reason)));
@@ -163,10 +168,9 @@ fn phrase(of: &Estimate, unit: &str) -> String {
     formatted(of).phrase(&unit)
 }
 
-fn cell(of: &Estimate, unit: &str) -> Cell {
+fn cell(of: &Estimate) -> Cell {
     Cell::Estimate(taceva_report::Estimate {
         formatted: formatted(of),
-        unit: unit.to_owned(),
         ..taceva_report::Estimate::default()
     })
 }

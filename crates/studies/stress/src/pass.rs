@@ -50,7 +50,6 @@ pub(crate) const UNTOUCHED: &str = "untouched";
 ///
 /// # Shapes
 /// `[rows, channels]`, row after row.
-#[derive(Default)]
 pub(crate) struct Predictions {
     pub(crate) clean: Vec<f64>,
     pub(crate) cells: Vec<CellPredictions>,
@@ -78,7 +77,7 @@ impl CellPredictions {
 struct Row {
     frame: Frame,
     clean: Vec<f64>,
-    /// Of a cell that repeats pictures only the change is open.
+    /// Numbers of each cell; those of a fault that repeats pictures are filled in order.
     cells: Vec<CellPredictions>,
 }
 

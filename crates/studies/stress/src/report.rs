@@ -32,6 +32,8 @@ pub struct StressReport {
     pub seed: u64,
     /// Number of scored samples.
     pub samples: usize,
+    /// Number of samples of the part that have no picture.
+    pub left_out: usize,
     /// Untouched picture: `reference`, `least load`, or `none`.
     pub untouched: &'static str,
     /// Mean change of a picture by contact, a share of full scale.

@@ -76,6 +76,7 @@ pub fn stress(
         list: list(&setup.faults, request),
         seed: request.seed,
         samples: setup.rows.len(),
+        left_out: setup.target.left_out + setup.target.rows.len() - setup.rows.len(),
         untouched: match (&scale.untouched, scale.is_reference) {
             (Some(_), true) => "reference",
             (Some(_), false) => "least load",
@@ -214,7 +215,7 @@ impl Results<'_> {
             parameter: of.parameter,
             note: of.note,
             mean: by_channel(&stale),
-            recovers: by_channel(&|name| match has_fresh {
+            recovers: by_channel(&|name: &str| match has_fresh {
                 true => recovers(&severities, name, &stale(name)),
                 false => Estimate::undefined(Undefined::NoFreshReference),
             }),
