@@ -20,8 +20,10 @@ const LEAST: f64 = 1e-7;
 const ACCURACY: f64 = 1.02;
 /// Bisections of a search.
 const STEPS: usize = 28;
-/// Pictures of a fault that is drawn for each picture, over which its stimulus is averaged.
-const DRAWN: usize = 4;
+/// Lines of the pictures over which the stimulus of a fault is averaged that is drawn for each picture.
+const LINES: u32 = 512;
+/// Most of these pictures.
+const DRAWN: u32 = 32;
 
 /// Quantity that sets severity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -181,12 +183,12 @@ impl Reference<'_> {
         }
         let drawn = match fault.scope {
             Scope::Fixed => 1,
-            Scope::Each => DRAWN,
+            Scope::Each => (LINES / self.untouched.info().height.max(1)).clamp(1, DRAWN),
         };
         let changes = (0..drawn).map(|number| {
             let sample = format!("untouched {number}");
             difference(&stress.apply(self.untouched, &sample, None), self.untouched)
         });
-        changes.sum::<f64>() / (drawn as f64 * self.contact)
+        changes.sum::<f64>() / (f64::from(drawn) * self.contact)
     }
 }

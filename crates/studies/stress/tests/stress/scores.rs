@@ -96,7 +96,7 @@ fn a_new_untouched_picture_removes_most_of_the_error_of_lost_light() {
     let fresh = third.fresh.as_ref().expect("the model reads differences");
     assert!(ratio(&third.stale["Fz"]) > 2.0, "{third:?}");
     assert!(ratio(&fresh["Fz"]) < ratio(&third.stale["Fz"]), "{third:?}");
-    assert!(dark.recovers["Fz"].value.expect("a share") > 0.3);
+    assert!(dark.recovers["Fz"].value.expect("a share") > 0.1);
     assert!(third.check.contains(&"TAC034"), "{third:?}");
     // Noise is drawn for each picture, so no untouched picture has it too.
     let noise = fault(&report, "sensor_noise");
