@@ -50,7 +50,7 @@ impl Errors {
 
     /// Mean error; `None` for no errors.
     pub(crate) fn mean(&self) -> Option<f64> {
-        (self.count > 0).then(|| self.total / self.count as f64)
+        (self.count > 0).then_some(self.total / self.count as f64)
     }
 
     /// Relative change of the mean error if only the errors outside of the cluster at `left` remain.

@@ -94,7 +94,7 @@ fn mean(numbers: impl Iterator<Item = f64>) -> Option<f64> {
     let (sum, count) = numbers.fold((0.0, 0.0), |(sum, count), number| {
         (sum + number, count + 1.0)
     });
-    (count > 0.0).then(|| sum / count)
+    (count > 0.0).then_some(sum / count)
 }
 
 /// A row with its load.

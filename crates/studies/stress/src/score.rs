@@ -177,7 +177,7 @@ impl<'a> Scorer<'a> {
                 let label = self.truth[position].get(row)?;
                 sum += (predicted[position].get(row)? - label).abs();
             }
-            (!positions.is_empty()).then(|| sum / positions.len() as f64)
+            (!positions.is_empty()).then_some(sum / positions.len() as f64)
         };
         let errors: Vec<Option<f64>> = (0..self.rows.len()).map(error).collect();
         Errors::of(&errors, self.clusters.as_deref())

@@ -41,7 +41,7 @@ fn a_fault_that_changes_no_pixel_has_a_degradation_of_exactly_one() {
 fn a_constant_model_breaks_at_the_first_severity_of_every_fault_and_never_degrades() {
     let folder = tempfile::tempdir().expect("a folder");
     let seen = record(&folder.path().join("seen"), 1);
-    let model = fitted(&seen, "baseline", &[]);
+    let model = fitted(&seen, "baseline", &["size=8x8"]);
     let dataset = record(&folder.path().join("unseen"), 2);
     let report = stress(&dataset, &model, &by_parameter(&["gel-12"]), WORK).expect("tested");
     assert_eq!(report.list.name, "gel-12/1");
