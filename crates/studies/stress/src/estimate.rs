@@ -22,7 +22,7 @@ pub enum Undefined {
     NoClusters,
     /// The samples are of fewer than five contact points or groups.
     TooFewClusters,
-    /// The error hangs on one contact point, or is zero.
+    /// The error hangs on one contact point, or is zero; a share of the excess error has no interval.
     NoInterval,
     /// No severity of the fault was reached.
     NoSeverity,

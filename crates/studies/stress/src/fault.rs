@@ -41,5 +41,5 @@ pub(crate) enum Effect {
 }
 
 /// Remark on faults of a gel that are drawn at the same pixels of every picture.
-pub(crate) const LIES_STILL: &str = "it lies still in the picture, so a new untouched picture removes it; on a real gel it moves with the contact: \
-                                     the number is a lower bound";
+pub(crate) const LIES_STILL: &str = "it lies still in the picture; on a real gel it moves with the contact, so errors after a new untouched picture \
+                                     are lower bounds";

@@ -1,6 +1,5 @@
 //! Change of pictures by contact: the unit of the strength of faults.
 
-use taceva_check::{FrameFacts, Tiles};
 use taceva_core::{Frame, Unit};
 use taceva_dataset::Dataset;
 use taceva_evaluate::EvaluateError;
@@ -23,8 +22,8 @@ pub(crate) struct Scale {
     pub(crate) contact: Option<f64>,
     /// Mean change from one picture to the next among those compared.
     pub(crate) successive: f64,
-    /// Tiles of pictures with a great load.
-    pub(crate) pressed: Vec<Tiles>,
+    /// Pictures with a great load.
+    pub(crate) pressed: Vec<Frame>,
     /// Number of decoded pictures.
     pub(crate) decoded: u64,
 }
@@ -60,9 +59,9 @@ impl Scale {
         let successive = mean(pairs.map(|pair| difference(&pair[0].1, &pair[1].1)));
         let greatest = frames.iter().map(|(load, _)| *load).fold(0.0, f64::max);
         let pressed = frames
-            .iter()
+            .into_iter()
             .filter(|(load, _)| greatest > 0.0 && *load >= PRESSED * greatest)
-            .map(|(_, frame)| FrameFacts::of(frame, None).tiles)
+            .map(|(_, frame)| frame)
             .collect();
         Ok(Scale {
             untouched,

@@ -36,7 +36,7 @@ impl Default for StressRequest {
             faults: vec![LIST.to_owned()],
             severities: (1..=5).collect(),
             by: By::default(),
-            seed: 1,
+            seed: 0,
             part: None,
         }
     }
@@ -70,13 +70,13 @@ impl Setup {
         if model.reads_features() && !model.reads_frames() {
             return refused("the model reads signals, and all faults change pictures: fit a model on pictures by `taceva fit --set input=frame`".to_owned());
         }
+        dataset.require_view()?;
         if dataset.header().frames.is_none() {
             return refused(format!(
                 "{}: the recording has no pictures, expected some: all faults change pictures",
                 shown(dataset.path())
             ));
         }
-        dataset.require_view()?;
         let target = Target::new(dataset, model, request.part)?;
         let is_fitted = target
             .divided

@@ -13,7 +13,7 @@ use crate::faults::{FAULTS, LIST, LIST_VERSION};
 use crate::findings::{breaks_at, recovers, unnoticed};
 use crate::pass::{Cell, CellPredictions, UNTOUCHED, predictions};
 use crate::report::{
-    ByChannel, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport, StressReport,
+    ByChannel, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport, StressReport,
 };
 use crate::scale::Scale;
 use crate::score::{Scored, Scorer, degradation, mean_degradation};
@@ -45,9 +45,10 @@ pub fn stress(
     let baseline = scorer.score(&found.clean)?;
     let scored = found.cells.iter().map(|of| ScoredCell::of(&scorer, of));
     let scored: Vec<ScoredCell> = scored.collect::<Result<_, EvaluateError>>()?;
+    let clean = scorer.clean(&baseline);
     let results = Results {
         scale: &scale,
-        scorer: &scorer,
+        clean: &clean,
         cells: &cells,
         predicted: &found.cells,
         scored: &scored,
@@ -57,6 +58,7 @@ pub fn stress(
     let faults: Vec<FaultReport> = (0..setup.faults.len())
         .map(|fault| results.of_fault(fault, setup.faults[fault], &levels[fault]))
         .collect();
+    let mean = results.mean(setup.faults.len());
     let subject = subject_of(dataset);
     let divided = setup.target.divided.as_ref();
     let provenance = Provenance {
@@ -84,8 +86,8 @@ pub fn stress(
         },
         contact: scale.contact,
         units: scorer.units(&baseline),
-        clean: scorer.clean(&baseline),
-        mean: results.mean(setup.faults.len()),
+        clean,
+        mean,
         unnoticed: scale.is_reference.then(|| unnoticed(&faults)),
         faults,
         skipped: setup.skipped,
@@ -181,7 +183,7 @@ impl ScoredCell {
 /// Scores of all cells.
 struct Results<'a> {
     scale: &'a Scale,
-    scorer: &'a Scorer<'a>,
+    clean: &'a ByChannel<CleanScore>,
     cells: &'a [Cell],
     predicted: &'a [CellPredictions],
     scored: &'a [ScoredCell],
@@ -233,7 +235,6 @@ impl Results<'_> {
         let (cell, scored) = (&self.cells[at], &self.scored[at]);
         let contact = self.scale.contact;
         let stimulus = contact.map(|contact| self.predicted[at].change(self.rows) / contact);
-        let clean = self.scorer.clean(self.baseline);
         SeverityReport {
             severity: cell.level.severity,
             parameter: cell.level.parameter,
@@ -243,15 +244,15 @@ impl Results<'_> {
                 true => vec![CHANGED_REST],
                 false => Vec::new(),
             },
-            stale: scored.stale.beside(self.baseline, &clean),
+            stale: scored.stale.beside(self.baseline, self.clean),
             fresh: scored
                 .fresh
                 .as_ref()
-                .map(|fresh| fresh.beside(self.baseline, &clean)),
+                .map(|fresh| fresh.beside(self.baseline, self.clean)),
         }
     }
 
-    /// True if the check of untouched pictures finds the fault.
+    /// True if the check of untouched pictures finds the fault, which is in the pictures of contact too.
     fn is_noticed(&self, stress: &Stress) -> bool {
         let untouched = self.scale.untouched.as_ref();
         let Some(reference) = untouched.filter(|_| self.scale.is_reference) else {
@@ -259,7 +260,13 @@ impl Results<'_> {
         };
         let tiles = |frame: &Frame| FrameFacts::of(frame, None).tiles;
         let rest = tiles(&stress.apply(reference, UNTOUCHED, None));
-        let pressed: Vec<&Tiles> = self.scale.pressed.iter().collect();
+        let pressed = self.scale.pressed.iter().enumerate();
+        let pressed = pressed.map(|(number, frame)| {
+            let sample = format!("pressed {number}");
+            tiles(&stress.apply(frame, &sample, None))
+        });
+        let pressed: Vec<Tiles> = pressed.collect();
+        let pressed: Vec<&Tiles> = pressed.iter().collect();
         let change = RestChange::of(&tiles(reference), &rest, &pressed);
         change.is_some_and(|change| change.is_overall() || change.is_local())
     }

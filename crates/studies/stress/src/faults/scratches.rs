@@ -16,7 +16,7 @@ pub(super) static FAULT: Fault = Fault {
 
 /// Light of a scratch, share of full scale.
 const LIGHT: f32 = 40.0 / 255.0;
-/// Attempts to draw a direction; more than 60 in a row fail less than once in 10⁴⁰ lines.
+/// Attempts to draw a direction; all of them fail less than once in 10³⁸ lines.
 const ATTEMPTS: u64 = 60;
 
 fn apply(canvas: &mut Canvas, stroke: &Stroke) {
