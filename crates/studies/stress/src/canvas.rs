@@ -75,39 +75,39 @@ impl Canvas {
 }
 
 /// Strength and random numbers of a fault in one picture.
-pub(crate) struct Stroke {
+pub(crate) struct Realisation {
     /// Parameter of the fault, above 0.
     pub(crate) parameter: f32,
     /// Random numbers: of the unit for fixed faults, of the sample for others.
     pub(crate) draws: Draws,
 }
 
-impl Stroke {
+impl Realisation {
     /// Number u with 0 ≤ u < 1, a multiple of 2⁻²⁴.
     pub(crate) fn unit(&self, counter: u64) -> f32 {
         unit(self.draws, counter)
     }
 
-    /// Places of things that are drawn one after another, each with its strength. Only the last is weaker than 1.
-    pub(crate) fn things(&self) -> impl Iterator<Item = Thing> + '_ {
+    /// Places of defects that are drawn one after another, each with its strength. Only the last is weaker than 1.
+    pub(crate) fn defects(&self) -> impl Iterator<Item = Defect> + '_ {
         let strength = move |number: u16| (self.parameter - f32::from(number)).min(1.0);
         (0..u16::MAX)
-            .map(move |number| Thing {
+            .map(move |number| Defect {
                 strength: strength(number),
                 draws: self.draws.of(u64::from(number)),
             })
-            .take_while(|thing| thing.strength > 0.0)
+            .take_while(|defect| defect.strength > 0.0)
     }
 }
 
-/// A thing on the gel or the lens, such as a scratch.
-pub(crate) struct Thing {
+/// A defect on the gel or the lens, such as a scratch.
+pub(crate) struct Defect {
     /// Strength from 0 to 1.
     pub(crate) strength: f32,
     draws: Draws,
 }
 
-impl Thing {
+impl Defect {
     /// Number u with 0 ≤ u < 1, a multiple of 2⁻²⁴.
     pub(crate) fn unit(&self, counter: u64) -> f32 {
         unit(self.draws, counter)

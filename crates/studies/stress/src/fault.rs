@@ -1,6 +1,6 @@
 //! Kinds of faults of pictures.
 
-use crate::canvas::{Canvas, Stroke};
+use crate::canvas::{Canvas, Realisation};
 
 /// Random numbers of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +35,7 @@ pub struct Fault {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Effect {
     /// Changes the numbers of the picture.
-    Numbers(fn(&mut Canvas, &Stroke)),
+    Numbers(fn(&mut Canvas, &Realisation)),
     /// Puts the picture before in the place of the picture.
     Before,
 }

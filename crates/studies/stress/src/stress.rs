@@ -3,7 +3,7 @@
 use taceva_core::Frame;
 use taceva_core::random::{Draws, fnv_1a, mix};
 
-use crate::canvas::{Canvas, Stroke, single};
+use crate::canvas::{Canvas, Realisation, single};
 use crate::fault::{Effect, Fault, Scope};
 
 /// A fault of one strength, with its random numbers.
@@ -61,12 +61,12 @@ impl Stress {
         }
         match self.fault.effect {
             Effect::Numbers(change) => {
-                let stroke = Stroke {
+                let drawn = Realisation {
                     parameter: single(self.parameter),
                     draws: self.draws(sample),
                 };
                 let mut canvas = Canvas::of(frame);
-                change(&mut canvas, &stroke);
+                change(&mut canvas, &drawn);
                 canvas.into_frame()
             }
             Effect::Before => match before.filter(|_| self.is_repeated(sample)) {

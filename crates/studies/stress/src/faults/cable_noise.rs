@@ -2,7 +2,7 @@
 
 use taceva_core::random::scaled;
 
-use crate::canvas::{Canvas, Stroke};
+use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};
 
 pub(super) static FAULT: Fault = Fault {
@@ -23,21 +23,21 @@ const MOST: u64 = 8;
 /// Random numbers of a line.
 const DRAWS: u64 = 4;
 
-fn apply(canvas: &mut Canvas, stroke: &Stroke) {
+fn apply(canvas: &mut Canvas, drawn: &Realisation) {
     let (colours, full) = (canvas.colours(), canvas.full());
     let length = canvas.width() * colours;
     for (line, row) in (0_u64..).zip(canvas.rows()) {
         let first = DRAWS * line;
-        if stroke.unit(first) >= stroke.parameter {
+        if drawn.unit(first) >= drawn.parameter {
             continue;
         }
-        if stroke.unit(first + 1) >= DISPLACED {
-            row.fill(stroke.unit(first + 2) * full);
+        if drawn.unit(first + 1) >= DISPLACED {
+            row.fill(drawn.unit(first + 2) * full);
             continue;
         }
-        let pixels = 1 + scaled(stroke.draws.bits(first + 2), MOST);
+        let pixels = 1 + scaled(drawn.draws.bits(first + 2), MOST);
         let by = usize::try_from(pixels).expect("8 at most") * colours % length;
-        match stroke.unit(first + 3) < 0.5 {
+        match drawn.unit(first + 3) < 0.5 {
             true => row.rotate_left(by),
             false => row.rotate_right(by),
         }

@@ -1,6 +1,6 @@
 //! A camera that moved in its mount.
 
-use crate::canvas::{Canvas, Stroke, index};
+use crate::canvas::{Canvas, Realisation, index};
 use crate::fault::{Effect, Fault, Scope};
 
 pub(super) static FAULT: Fault = Fault {
@@ -14,8 +14,8 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-fn apply(canvas: &mut Canvas, stroke: &Stroke) {
-    let by = stroke.parameter * canvas.width() as f32;
+fn apply(canvas: &mut Canvas, drawn: &Realisation) {
+    let by = drawn.parameter * canvas.width() as f32;
     let colours = canvas.colours();
     let row = canvas.width() * colours;
     for values in canvas.values.chunks_exact_mut(row) {

@@ -1,6 +1,6 @@
 //! Pixels of the camera that no longer measure.
 
-use crate::canvas::{Canvas, Stroke};
+use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};
 
 pub(super) static FAULT: Fault = Fault {
@@ -14,11 +14,11 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-fn apply(canvas: &mut Canvas, stroke: &Stroke) {
+fn apply(canvas: &mut Canvas, drawn: &Realisation) {
     let full = canvas.full();
     for (counter, pixel) in (0_u64..).zip(canvas.pixels()) {
-        if stroke.unit(2 * counter) < stroke.parameter {
-            let is_bright = stroke.unit(2 * counter + 1) < 0.5;
+        if drawn.unit(2 * counter) < drawn.parameter {
+            let is_bright = drawn.unit(2 * counter + 1) < 0.5;
             pixel.fill(if is_bright { full } else { 0.0 });
         }
     }

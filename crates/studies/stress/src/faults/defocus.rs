@@ -2,7 +2,7 @@
 
 use taceva_metrics::elementary::exponential;
 
-use crate::canvas::{Canvas, Stroke, index, single};
+use crate::canvas::{Canvas, Realisation, index, single};
 use crate::fault::{Effect, Fault, Scope};
 
 pub(super) static FAULT: Fault = Fault {
@@ -16,8 +16,8 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-fn apply(canvas: &mut Canvas, stroke: &Stroke) {
-    let deviation = stroke.parameter * canvas.width() as f32;
+fn apply(canvas: &mut Canvas, drawn: &Realisation) {
+    let deviation = drawn.parameter * canvas.width() as f32;
     let kernel = kernel(deviation);
     along_rows(canvas, &kernel);
     along_columns(canvas, &kernel);

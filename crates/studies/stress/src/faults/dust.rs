@@ -2,7 +2,7 @@
 
 use taceva_metrics::elementary::exponential;
 
-use crate::canvas::{Canvas, Stroke, Thing, index, single};
+use crate::canvas::{Canvas, Defect, Realisation, index, single};
 use crate::fault::{Effect, Fault, LIES_STILL, Scope};
 
 pub(super) static FAULT: Fault = Fault {
@@ -21,13 +21,13 @@ const LOST: f32 = 0.6;
 /// Radius of a drawn spot, standard deviations.
 const REACH: f32 = 4.0;
 
-fn apply(canvas: &mut Canvas, stroke: &Stroke) {
-    for spot in stroke.things() {
+fn apply(canvas: &mut Canvas, drawn: &Realisation) {
+    for spot in drawn.defects() {
         darken(canvas, &spot);
     }
 }
 
-fn darken(canvas: &mut Canvas, spot: &Thing) {
+fn darken(canvas: &mut Canvas, spot: &Defect) {
     let (width, height) = (canvas.width(), canvas.height());
     let (x, y) = (spot.unit(0) * width as f32, spot.unit(1) * height as f32);
     let deviation = (0.005 + 0.01 * spot.unit(2)) * width as f32;

@@ -1,6 +1,6 @@
 //! A longer exposure, or more gain.
 
-use crate::canvas::{Canvas, Stroke};
+use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};
 
 pub(super) static FAULT: Fault = Fault {
@@ -14,7 +14,7 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-fn apply(canvas: &mut Canvas, stroke: &Stroke) {
-    let gain = 1.0 + stroke.parameter;
+fn apply(canvas: &mut Canvas, drawn: &Realisation) {
+    let gain = 1.0 + drawn.parameter;
     canvas.values.iter_mut().for_each(|value| *value *= gain);
 }

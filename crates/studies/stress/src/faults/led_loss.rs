@@ -1,6 +1,6 @@
 //! A lamp that fails.
 
-use crate::canvas::{Canvas, Stroke};
+use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};
 
 pub(super) static FAULT: Fault = Fault {
@@ -14,11 +14,11 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-fn apply(canvas: &mut Canvas, stroke: &Stroke) {
+fn apply(canvas: &mut Canvas, drawn: &Realisation) {
     let (colours, steps) = (canvas.colours(), canvas.width().saturating_sub(1).max(1));
     for row in canvas.rows() {
         for (x, pixel) in row.chunks_exact_mut(colours).enumerate() {
-            let kept = 1.0 - stroke.parameter * (1.0 - x as f32 / steps as f32);
+            let kept = 1.0 - drawn.parameter * (1.0 - x as f32 / steps as f32);
             pixel.iter_mut().for_each(|value| *value *= kept);
         }
     }

@@ -1,6 +1,6 @@
 //! Wear of the coating.
 
-use crate::canvas::{Canvas, Stroke, Thing, index};
+use crate::canvas::{Canvas, Defect, Realisation, index};
 use crate::fault::{Effect, Fault, LIES_STILL, Scope};
 
 pub(super) static FAULT: Fault = Fault {
@@ -19,13 +19,13 @@ const LIGHT: f32 = 40.0 / 255.0;
 /// Attempts to draw a direction; all of them fail less than once in 10³⁸ lines.
 const ATTEMPTS: u64 = 60;
 
-fn apply(canvas: &mut Canvas, stroke: &Stroke) {
-    for line in stroke.things() {
+fn apply(canvas: &mut Canvas, drawn: &Realisation) {
+    for line in drawn.defects() {
         draw(canvas, &line);
     }
 }
 
-fn draw(canvas: &mut Canvas, line: &Thing) {
+fn draw(canvas: &mut Canvas, line: &Defect) {
     let (width, height) = (canvas.width() as f32, canvas.height() as f32);
     let start = [line.unit(0) * width, line.unit(1) * height];
     let length = (0.05 + 0.2 * line.unit(2)) * width;
@@ -46,7 +46,7 @@ fn draw(canvas: &mut Canvas, line: &Thing) {
 }
 
 /// Random direction: a point of the disc, moved to its edge.
-fn direction(line: &Thing) -> [f32; 2] {
+fn direction(line: &Defect) -> [f32; 2] {
     let points = (0..ATTEMPTS).map(|attempt| {
         let coordinate = |counter: u64| 2.0 * line.unit(3 + 2 * attempt + counter) - 1.0;
         [coordinate(0), coordinate(1)]

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use taceva_metrics::distributions::normal;
 
-use crate::canvas::{Canvas, Stroke, single};
+use crate::canvas::{Canvas, Realisation, single};
 use crate::fault::{Effect, Fault, Scope};
 
 pub(super) static FAULT: Fault = Fault {
@@ -37,11 +37,11 @@ static LEVELS: LazyLock<Vec<f32>> = LazyLock::new(|| {
     levels.collect()
 });
 
-fn apply(canvas: &mut Canvas, stroke: &Stroke) {
-    let deviation = stroke.parameter * canvas.full();
+fn apply(canvas: &mut Canvas, drawn: &Realisation) {
+    let deviation = drawn.parameter * canvas.full();
     let (levels, mask) = (&*LEVELS, (1_u64 << BITS) - 1);
     for (counter, values) in (0_u64..).zip(canvas.values.chunks_mut(LEVELS_A_WORD)) {
-        let mut word = stroke.draws.bits(counter);
+        let mut word = drawn.draws.bits(counter);
         for value in values {
             let level = usize::try_from(word & mask).expect("twelve bits");
             *value += deviation * levels[level];

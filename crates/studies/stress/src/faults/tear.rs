@@ -1,6 +1,6 @@
 //! A tear of the coating.
 
-use crate::canvas::{Canvas, Stroke};
+use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, LIES_STILL, Scope};
 
 pub(super) static FAULT: Fault = Fault {
@@ -17,12 +17,12 @@ pub(super) static FAULT: Fault = Fault {
 /// Share of the light that is lost.
 const LOST: f32 = 0.8;
 
-fn apply(canvas: &mut Canvas, stroke: &Stroke) {
+fn apply(canvas: &mut Canvas, drawn: &Realisation) {
     let (width, height) = (canvas.width() as f32, canvas.height() as f32);
     let colours = canvas.colours();
-    let centre = [stroke.unit(0), stroke.unit(1)].map(|unit| 0.2 + 0.6 * unit);
+    let centre = [drawn.unit(0), drawn.unit(1)].map(|unit| 0.2 + 0.6 * unit);
     let (x, y) = (centre[0] * width, centre[1] * height);
-    let radius = stroke.parameter * width;
+    let radius = drawn.parameter * width;
     for (line, row) in canvas.rows().enumerate() {
         let down = line as f32 + 0.5 - y;
         for (column, pixel) in row.chunks_exact_mut(colours).enumerate() {
