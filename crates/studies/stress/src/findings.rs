@@ -11,7 +11,7 @@ const DOUBLE: f64 = 2.0;
 /// Skill up to which a model is a constant but for rounding errors.
 const NO_SKILL: f64 = 1e-9;
 
-/// Least severity whose skill is no longer shown to be above 0; [`NEVER`] if there is none, `None` if that is unknown or no severity was tested.
+/// Least severity whose skill is no longer shown to be above 0; [`NEVER`] if there is none. `None` if that is unknown, or no severity was tested.
 pub(crate) fn breaks_at(severities: &[SeverityReport], channel: &str) -> Option<u8> {
     for of in severities {
         let skill = of.stale.get(channel)?.skill;

@@ -64,8 +64,8 @@ impl Errors {
 
 /// Mean over some cells of the ratios of their errors to those without a fault.
 ///
-/// To first order its logarithm changes by Σ r_c (δ_c − δ_0) / Σ r_c, with r_c the ratio of cell c and δ the relative change of a mean error. A cluster
-/// is left out of every cell and of the clean errors at once, because the same samples have all of them.
+/// To first order its logarithm changes by Σ r_c (δ_c − δ_0) / Σ r_c. Here r_c is the ratio of cell c, and δ the relative change of a mean error. A
+/// cluster is left out of every cell and of the clean errors at once, because the same samples have all of them.
 ///
 /// # Reference
 /// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999).

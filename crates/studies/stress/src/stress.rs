@@ -8,8 +8,8 @@ use crate::fault::{Effect, Fault, Scope};
 
 /// A fault of one strength, with its random numbers.
 ///
-/// A picture with the fault depends on nothing but the picture, the fault, its parameter, the seed and the name of the sample: the order of the
-/// pictures and the number of threads change no bit.
+/// A picture with the fault depends only on the picture, the fault, its parameter, the seed and the name of the sample. The order of the pictures
+/// and the number of threads change no bit.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
