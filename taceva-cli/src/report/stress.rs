@@ -145,7 +145,7 @@ fn main_channels(report: &StressReport) -> Vec<&str> {
     names.filter(is_main).collect()
 }
 
-/// Three digits of a number.
+/// A number with four digits.
 fn short(number: f64) -> String {
     FormattedValue::number(number, None).value
 }
