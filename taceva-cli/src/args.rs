@@ -17,6 +17,7 @@ mod plugin;
 mod results;
 mod rig;
 mod shared;
+mod stress;
 mod study;
 mod sweep;
 
@@ -52,6 +53,7 @@ pub(crate) use self::shared::{
     PartArg, PartArgs, ScoringArgs, SeedArgs, SettingArgs, SplitArgs, SplitOutArgs, TableArgs,
     TableScores, ViewArgs,
 };
+pub(crate) use self::stress::{Stress, StressBy};
 pub(crate) use self::study::{PlanArgs, Run, SceneArgs};
 pub(crate) use self::sweep::{
     Sweep, SweepCollect, SweepEngine, SweepRun, SweepShow, SweepSubject, SweepTask,
@@ -124,6 +126,8 @@ pub(crate) enum Command {
     Fit(Fit),
     /// Fit a model, or use a fitted one, and score it on unseen samples
     Evaluate(Evaluate),
+    /// Score a fitted model on pictures with faults: blur, dead pixels, lost light, wear, dust
+    Stress(Stress),
     /// Write a model's predictions as a table
     Predict(Predict),
     /// Score the predictions of another program: no pictures, no model

@@ -96,6 +96,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Export(args) => cmd::export::run(args, context),
         Command::Fit(args) => cmd::fit::run(args, context),
         Command::Evaluate(args) => cmd::evaluate::run(args, context),
+        Command::Stress(args) => cmd::stress::run(args, context),
         Command::Predict(args) => cmd::predict::run(args, context),
         Command::Score(args) => cmd::score::run(args, context),
         Command::Merge(args) => cmd::merge::run(args, context),
@@ -135,9 +136,11 @@ fn patience(command: &Command) -> Option<Duration> {
         | Command::Run(_)
         | Command::Rig(_)
         | Command::Plugin(_) => None,
-        Command::Fit(_) | Command::Evaluate(_) | Command::Predict(_) | Command::Bench(_) => {
-            Some(Duration::from_secs(8))
-        }
+        Command::Fit(_)
+        | Command::Evaluate(_)
+        | Command::Stress(_)
+        | Command::Predict(_)
+        | Command::Bench(_) => Some(Duration::from_secs(8)),
         _ => Some(Duration::from_secs(1)),
     }
 }

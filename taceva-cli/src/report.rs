@@ -18,6 +18,7 @@ mod profile;
 mod recordings;
 pub(crate) mod rig;
 mod scores;
+pub(crate) mod stress;
 mod text;
 mod thumbnail;
 pub(crate) mod triple;

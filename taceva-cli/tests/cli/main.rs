@@ -42,6 +42,7 @@ mod several;
 mod shards;
 mod shared_work;
 mod skill;
+mod stress;
 mod support;
 mod sweep;
 mod sweep_scenes;

@@ -4,6 +4,7 @@ use taceva_core::{Field, Unit, by_count, counted};
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
+use crate::rest_change::RestChange;
 use crate::tiles::Tiles;
 
 pub(super) static CHECK: Check = Check {
@@ -23,8 +24,6 @@ const UNTOUCHED_N: f64 = 0.02;
 const UNTOUCHED_MM: f64 = 0.01;
 /// Share of the greatest load above which a picture shows contact.
 const PRESSED: f64 = 0.5;
-/// Reported change of the untouched picture, as a share of the change by contact. Both are means over all tiles.
-const THIRD: f64 = 1.0 / 3.0;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let (Some(load), Some(reference)) = (evidence.load(), evidence.reference) else {
@@ -55,37 +54,26 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let Some(mean) = Tiles::mean(rest.iter().map(|(_, tiles)| *tiles)) else {
         return Vec::new();
     };
-    let still = &reference.tiles;
     // Contact is measured from the untouched pictures of its own time, because a fault is in both.
-    let contact = median(pressed.iter().map(|tiles| mean.distance(tiles)));
-    let contact_tile = median(pressed.iter().map(|tiles| mean.greatest(tiles)));
-    let (change, change_tile) = (mean.distance(still), mean.greatest(still));
-    if !change.is_finite() || contact <= 0.0 || contact_tile <= 0.0 {
+    let Some(change) = RestChange::of(&reference.tiles, &mean, &pressed) else {
         return Vec::new();
-    }
+    };
     let percent = |part: f64, whole: f64| 100.0 * part / whole;
     let pictures = counted(rest.len(), "picture");
     let differ = by_count(rest.len(), "differs", "differ");
-    let message = if change > THIRD * contact {
+    let message = if change.is_overall() {
         format!(
             "{pictures} without contact {differ} from the reference by {:.0} % of the mean change by contact",
-            percent(change, contact)
+            percent(change.mean, change.contact_mean)
         )
-    } else if change_tile > contact_tile {
+    } else if change.is_local() {
         format!(
             "{pictures} without contact {differ} from the reference in one place by {:.0} % of the largest change by contact",
-            percent(change_tile, contact_tile)
+            percent(change.greatest, change.contact_greatest)
         )
     } else {
         return Vec::new();
     };
     let rows: Vec<usize> = rest.iter().map(|(row, _)| *row).collect();
     vec![evidence.found(Severity::Warning, message, &rows)]
-}
-
-/// Median; 0 for no numbers.
-fn median(numbers: impl Iterator<Item = f64>) -> f64 {
-    let mut sorted: Vec<f64> = numbers.collect();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }

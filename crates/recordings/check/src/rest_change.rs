@@ -1,0 +1,55 @@
+//! Change of the untouched picture, compared with the change by contact.
+
+use crate::tiles::Tiles;
+
+/// Reported change of the untouched picture, as a share of the change by contact. Both are means over all tiles.
+const THIRD: f64 = 1.0 / 3.0;
+
+/// Change of the untouched picture since the reference, beside the change by contact.
+///
+/// # Units
+/// Shares of the full scale of the pixel format.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RestChange {
+    /// Mean change over all tiles.
+    pub mean: f64,
+    /// Greatest change of one tile.
+    pub greatest: f64,
+    /// Median of the mean changes by contact.
+    pub contact_mean: f64,
+    /// Median of the greatest changes by contact.
+    pub contact_greatest: f64,
+}
+
+impl RestChange {
+    /// Change from `reference` to `rest`, beside the change from `rest` to the `pressed` pictures. `None` without a change by contact, or for
+    /// pictures of different sizes.
+    pub fn of(reference: &Tiles, rest: &Tiles, pressed: &[&Tiles]) -> Option<RestChange> {
+        let found = RestChange {
+            mean: rest.distance(reference),
+            greatest: rest.greatest(reference),
+            contact_mean: median(pressed.iter().map(|tiles| rest.distance(tiles))),
+            contact_greatest: median(pressed.iter().map(|tiles| rest.greatest(tiles))),
+        };
+        let is_known = found.mean.is_finite() && found.contact_mean.is_finite();
+        let has_contact = found.contact_mean > 0.0 && found.contact_greatest > 0.0;
+        (is_known && has_contact).then_some(found)
+    }
+
+    /// True if the mean change is more than a third of that by contact.
+    pub fn is_overall(&self) -> bool {
+        self.mean > THIRD * self.contact_mean
+    }
+
+    /// True if one tile changed by more than the greatest change by contact.
+    pub fn is_local(&self) -> bool {
+        self.greatest > self.contact_greatest
+    }
+}
+
+/// Median; 0 for no numbers.
+fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut sorted: Vec<f64> = numbers.collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+}

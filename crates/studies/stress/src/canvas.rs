@@ -1,0 +1,148 @@
+//! Numbers of a picture, which a fault changes.
+
+use taceva_core::random::Draws;
+use taceva_core::{Frame, FrameInfo};
+
+/// Numbers of a picture: row by row, the colours of a pixel side by side.
+pub(crate) struct Canvas {
+    info: FrameInfo,
+    /// Numbers in steps of the camera, also outside its range.
+    ///
+    /// # Shapes
+    /// `[height, width, colours]`.
+    pub(crate) values: Vec<f32>,
+}
+
+impl Canvas {
+    /// The numbers of `frame`.
+    pub(crate) fn of(frame: &Frame) -> Canvas {
+        Canvas {
+            info: frame.info(),
+            values: frame.samples().map(f32::from).collect(),
+        }
+    }
+
+    /// The picture: each number rounded half to even, and clamped to the range of the camera.
+    pub(crate) fn into_frame(self) -> Frame {
+        let full = self.full();
+        let width = self.info.format.bytes_per_sample();
+        let mut bytes = Vec::with_capacity(self.values.len() * width);
+        for value in &self.values {
+            let number = whole(value.clamp(0.0, full)).to_le_bytes();
+            bytes.extend_from_slice(&number[..width]);
+        }
+        Frame::new(self.info, bytes).expect("as many numbers as before")
+    }
+
+    /// Pixels of a row.
+    pub(crate) fn width(&self) -> usize {
+        self.info.width as usize
+    }
+
+    /// Rows.
+    pub(crate) fn height(&self) -> usize {
+        self.info.height as usize
+    }
+
+    /// Numbers of a pixel.
+    pub(crate) fn colours(&self) -> usize {
+        self.info.format.samples()
+    }
+
+    /// Greatest number that the camera can give.
+    pub(crate) fn full(&self) -> f32 {
+        f32::from(self.info.format.full_scale())
+    }
+
+    /// Numbers of all pixels, one slice for each pixel.
+    pub(crate) fn pixels(&mut self) -> impl Iterator<Item = &mut [f32]> {
+        let colours = self.colours();
+        self.values.chunks_exact_mut(colours)
+    }
+
+    /// Rows of numbers.
+    pub(crate) fn rows(&mut self) -> impl Iterator<Item = &mut [f32]> {
+        let length = self.width() * self.colours();
+        self.values.chunks_exact_mut(length)
+    }
+
+    /// Numbers of the pixel in column `x` of row `y`.
+    pub(crate) fn pixel(&mut self, x: usize, y: usize) -> &mut [f32] {
+        let colours = self.colours();
+        let first = (y * self.width() + x) * colours;
+        &mut self.values[first..first + colours]
+    }
+}
+
+/// Strength and random numbers of a fault in one picture.
+pub(crate) struct Realisation {
+    /// Parameter of the fault, above 0.
+    pub(crate) parameter: f32,
+    /// Random numbers: of the unit for fixed faults, of the sample for others.
+    pub(crate) draws: Draws,
+}
+
+impl Realisation {
+    /// Number u with 0 ≤ u < 1, a multiple of 2⁻²⁴.
+    pub(crate) fn unit(&self, counter: u64) -> f32 {
+        unit(self.draws, counter)
+    }
+
+    /// Places of defects that are drawn one after another, each with its strength. Only the last is weaker than 1.
+    pub(crate) fn defects(&self) -> impl Iterator<Item = Defect> + '_ {
+        let strength = move |number: u16| (self.parameter - f32::from(number)).min(1.0);
+        (0..u16::MAX)
+            .map(move |number| Defect {
+                strength: strength(number),
+                draws: self.draws.of(u64::from(number)),
+            })
+            .take_while(|defect| defect.strength > 0.0)
+    }
+}
+
+/// A defect on the gel or the lens, such as a scratch.
+pub(crate) struct Defect {
+    /// Strength from 0 to 1.
+    pub(crate) strength: f32,
+    draws: Draws,
+}
+
+impl Defect {
+    /// Number u with 0 ≤ u < 1, a multiple of 2⁻²⁴.
+    pub(crate) fn unit(&self, counter: u64) -> f32 {
+        unit(self.draws, counter)
+    }
+}
+
+fn unit(draws: Draws, counter: u64) -> f32 {
+    (draws.bits(counter) >> 40) as f32 / 16_777_216.0
+}
+
+/// Number in single precision.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "pixels need seven digits at most"
+)]
+pub(crate) fn single(number: f64) -> f32 {
+    number as f32
+}
+
+/// Pixels to the left of `place`; 0 for a negative place.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a conversion to integers ends at its bounds"
+)]
+pub(crate) fn index(place: f32) -> usize {
+    place.floor() as usize
+}
+
+/// Nearest whole number, half to even.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the number is clamped to the range of the camera"
+)]
+fn whole(number: f32) -> u16 {
+    number.round_ties_even() as u16
+}

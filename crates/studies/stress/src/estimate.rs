@@ -1,0 +1,90 @@
+//! Numbers with intervals, and the reasons for absent ones.
+
+use std::fmt;
+
+use serde::Serialize;
+
+/// Reason why a number or its interval is absent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Undefined {
+    /// No sample has a label of the channel.
+    Empty,
+    /// The error without a fault is zero, so no ratio to it exists.
+    ZeroBaseline,
+    /// All labels are equal, so no constant prediction can be better or worse.
+    ConstantTruth,
+    /// The fault does not add to the error, so no part of it can be removed.
+    NoExcess,
+    /// The model reads no untouched picture, or the fault has none of its own.
+    NoFreshReference,
+    /// The samples name no contact points or groups.
+    NoClusters,
+    /// The samples are of fewer than five contact points or groups.
+    TooFewClusters,
+    /// The error hangs on one contact point, or is zero; a share of the excess error has no interval.
+    NoInterval,
+    /// No severity of the fault was reached.
+    NoSeverity,
+}
+
+impl fmt::Display for Undefined {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Undefined::Empty => "no label",
+            Undefined::ZeroBaseline => "no error without the fault",
+            Undefined::ConstantTruth => "all labels are equal",
+            Undefined::NoExcess => "the fault adds no error",
+            Undefined::NoFreshReference => "no untouched picture from after the fault",
+            Undefined::NoClusters => "no contact points",
+            Undefined::TooFewClusters => "fewer than five contact points",
+            Undefined::NoInterval => "no interval",
+            Undefined::NoSeverity => "no severity was reached",
+        })
+    }
+}
+
+/// A number with its 95 % interval, or the reason for an absent one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Estimate {
+    /// The number.
+    pub value: Option<f64>,
+    /// Both ends of its 95 % interval.
+    pub ci95: Option<[f64; 2]>,
+    /// Reason for an absent number, otherwise for an absent interval.
+    pub reason: Option<Undefined>,
+}
+
+impl Estimate {
+    /// A number, with its interval or the reason for none.
+    pub(crate) fn new(value: f64, interval: Result<[f64; 2], Undefined>) -> Estimate {
+        Estimate {
+            value: Some(value),
+            ci95: interval.ok(),
+            reason: interval.err(),
+        }
+    }
+
+    /// A number without an interval; absent without a reason if it is unknown.
+    pub fn of_known(value: Option<f64>) -> Estimate {
+        Estimate {
+            value,
+            ci95: None,
+            reason: None,
+        }
+    }
+
+    /// No number.
+    pub(crate) fn undefined(reason: Undefined) -> Estimate {
+        Estimate {
+            value: None,
+            ci95: None,
+            reason: Some(reason),
+        }
+    }
+
+    /// Lower end of the interval.
+    pub(crate) fn low(&self) -> Option<f64> {
+        self.ci95.map(|[low, _]| low)
+    }
+}

@@ -1,0 +1,45 @@
+//! Kinds of faults of pictures.
+
+use crate::canvas::{Canvas, Realisation};
+
+/// Random numbers of a fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scope {
+    /// Drawn once: the same pixels in every picture.
+    Fixed,
+    /// Drawn for each picture.
+    Each,
+}
+
+/// A fault of pictures, a pure function of picture, parameter, seed and sample name.
+#[derive(Debug)]
+pub struct Fault {
+    /// Name of the fault, such as `defocus`.
+    pub id: &'static str,
+    /// Cause and appearance, in one line.
+    pub title: &'static str,
+    /// Meaning and unit of the parameter; 0 is no fault.
+    pub parameter: &'static str,
+    /// Random numbers of the fault.
+    pub scope: Scope,
+    /// Parameters of severities 1 to 5 if severity is set by parameter.
+    pub table: [f64; 5],
+    /// Greatest parameter.
+    pub most: f64,
+    /// Limit of what the numbers of the fault show.
+    pub note: Option<&'static str>,
+    pub(crate) effect: Effect,
+}
+
+/// Change that a fault makes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Effect {
+    /// Changes the numbers of the picture.
+    Numbers(fn(&mut Canvas, &Realisation)),
+    /// Puts the picture before in the place of the picture.
+    Before,
+}
+
+/// Remark on faults of a gel that are drawn at the same pixels of every picture.
+pub(crate) const LIES_STILL: &str = "it lies still in the picture; on a real gel it moves with the contact, so errors after a new untouched picture \
+                                     are lower bounds";

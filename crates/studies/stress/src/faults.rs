@@ -1,0 +1,68 @@
+//! The list of faults, and the choice of some.
+
+mod cable_noise;
+mod camera_shift;
+mod dead_pixels;
+mod defocus;
+mod dust;
+mod exposure_high;
+mod exposure_low;
+mod led_loss;
+mod scratches;
+mod sensor_noise;
+mod stale_frames;
+mod tear;
+
+use taceva_core::{shown, suggestion};
+use taceva_evaluate::EvaluateError;
+
+use crate::fault::Fault;
+
+/// Name of the list of all faults.
+pub const LIST: &str = "gel-12";
+/// Version of the list. Scores by lists of different versions are not compared.
+pub(crate) const LIST_VERSION: u32 = 1;
+
+/// All faults, in the order of the list.
+pub static FAULTS: [&Fault; 12] = [
+    &defocus::FAULT,
+    &dead_pixels::FAULT,
+    &exposure_low::FAULT,
+    &exposure_high::FAULT,
+    &sensor_noise::FAULT,
+    &cable_noise::FAULT,
+    &camera_shift::FAULT,
+    &led_loss::FAULT,
+    &scratches::FAULT,
+    &tear::FAULT,
+    &dust::FAULT,
+    &stale_frames::FAULT,
+];
+
+/// Faults called `names`, in the order of the list; all for the name of the list.
+///
+/// # Errors
+/// [`EvaluateError::Request`] for an unknown name, or without a name.
+pub fn select(names: &[String]) -> Result<Vec<&'static Fault>, EvaluateError> {
+    let ids: Vec<&str> = FAULTS.iter().map(|fault| fault.id).collect();
+    let known: Vec<&str> = [LIST].into_iter().chain(ids).collect();
+    if let Some(unknown) = names.iter().find(|name| !known.contains(&name.as_str())) {
+        return Err(EvaluateError::Request(format!(
+            "fault `{}`: unknown, {}",
+            shown(unknown),
+            suggestion(unknown, &known)
+        )));
+    }
+    let is_wanted = |name: &str| names.iter().any(|wanted| wanted == name);
+    let chosen: Vec<&'static Fault> = FAULTS
+        .into_iter()
+        .filter(|fault| is_wanted(LIST) || is_wanted(fault.id))
+        .collect();
+    match chosen.is_empty() {
+        true => Err(EvaluateError::Request(format!(
+            "no fault is named, expected {LIST} or some of `{}`",
+            known[1..].join("`, `")
+        ))),
+        false => Ok(chosen),
+    }
+}

@@ -1,0 +1,14 @@
+//! A camera or a program that repeats pictures.
+
+use crate::fault::{Effect, Fault, Scope};
+
+pub(super) static FAULT: Fault = Fault {
+    id: "stale_frames",
+    title: "the picture before stands in the place of the picture",
+    parameter: "share of pictures",
+    scope: Scope::Each,
+    table: [0.01, 0.03, 0.1, 0.25, 0.5],
+    most: 1.0,
+    note: Some("the picture before is the one before it among the scored samples"),
+    effect: Effect::Before,
+};

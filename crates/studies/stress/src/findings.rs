@@ -1,0 +1,70 @@
+//! Findings in the scores of faults: where skill ends, what a new untouched picture removes, and what remains unnoticed.
+
+use taceva_metrics::elementary::logarithm;
+
+use crate::estimate::{Estimate, Undefined};
+use crate::report::{FaultReport, SeverityReport};
+use crate::severity::NEVER;
+
+/// Degradation above which a number is wrong.
+const DOUBLE: f64 = 2.0;
+/// Skill up to which a model is a constant but for rounding errors.
+const NO_SKILL: f64 = 1e-9;
+
+/// Least severity whose skill is no longer shown to be above 0; [`NEVER`] if there is none. `None` if that is unknown, or no severity was tested.
+pub(crate) fn breaks_at(severities: &[SeverityReport], channel: &str) -> Option<u8> {
+    for of in severities {
+        let skill = of.stale.get(channel)?.skill;
+        let is_broken = match (skill.value?, skill.low()) {
+            (value, _) if value <= NO_SKILL => true,
+            (_, low) => low? <= 0.0,
+        };
+        if is_broken {
+            return Some(of.severity);
+        }
+    }
+    (!severities.is_empty()).then_some(NEVER)
+}
+
+/// Share of the excess error, in logarithms over all severities, that a new untouched picture removes. `mean` is the mean degradation without one.
+pub(crate) fn recovers(severities: &[SeverityReport], channel: &str, mean: &Estimate) -> Estimate {
+    let Some(value) = mean.value else {
+        return *mean;
+    };
+    if mean.low().unwrap_or(value) <= 1.0 {
+        return Estimate::undefined(Undefined::NoExcess);
+    }
+    let mut sums = [0.0; 2];
+    for of in severities {
+        let fresh = of.fresh.as_ref();
+        let sides = [of.stale.get(channel), fresh.and_then(|of| of.get(channel))];
+        for (sum, score) in sums.iter_mut().zip(sides) {
+            let degradation = score.and_then(|score| score.degradation.value);
+            match degradation.filter(|ratio| *ratio > 0.0) {
+                Some(ratio) => *sum += logarithm(ratio),
+                None => return Estimate::undefined(Undefined::NoFreshReference),
+            }
+        }
+    }
+    let [stale, fresh] = sums;
+    match stale > 0.0 {
+        true => Estimate::new(1.0 - fresh / stale, Err(Undefined::NoInterval)),
+        false => Estimate::undefined(Undefined::NoExcess),
+    }
+}
+
+/// Faults of whose first severity with a doubled error the check of untouched pictures finds nothing.
+pub(crate) fn unnoticed(faults: &[FaultReport]) -> Vec<&'static str> {
+    let is_wrong = |of: &&SeverityReport| {
+        let mut ratios = of
+            .stale
+            .values()
+            .filter_map(|score| score.degradation.value);
+        ratios.any(|ratio| ratio >= DOUBLE)
+    };
+    let hidden = faults.iter().filter(|fault| {
+        let first = fault.severities.iter().find(is_wrong);
+        first.is_some_and(|of| of.check.is_empty())
+    });
+    hidden.map(|fault| fault.id).collect()
+}

@@ -1,0 +1,28 @@
+#![doc = include_str!("../README.md")]
+
+mod canvas;
+mod estimate;
+mod fault;
+mod faults;
+mod findings;
+mod pass;
+mod ratio;
+mod report;
+mod scale;
+mod score;
+mod setup;
+mod severity;
+mod stress;
+mod study;
+
+pub use estimate::{Estimate, Undefined};
+pub use fault::{Fault, Scope};
+pub use faults::{FAULTS, LIST, select};
+pub use report::{
+    ByChannel, CellScore, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport,
+    SkippedFault, StressReport,
+};
+pub use setup::{StressRequest, stress_plan};
+pub use severity::{By, NEVER, TARGETS, Unreached, severities};
+pub use stress::Stress;
+pub use study::stress;

@@ -1,0 +1,167 @@
+//! One pass over the pictures: each is decoded once, goes through every fault, and is predicted.
+
+use taceva_core::{Frame, Input};
+use taceva_dataset::{Dataset, Pass};
+use taceva_evaluate::{EvaluateError, Work, blank, model_extractor};
+use taceva_models::{Extractor, Model};
+
+use crate::scale::difference;
+use crate::severity::Level;
+use crate::stress::Stress;
+
+/// A fault of one severity.
+pub(crate) struct Cell {
+    /// Position of the fault in the list.
+    pub(crate) fault: usize,
+    pub(crate) level: Level,
+    pub(crate) stress: Stress,
+    /// Features beside an untouched picture from after the fault; `None` if the model or the fault has none.
+    fresh: Option<Extractor>,
+}
+
+impl Cell {
+    /// The fault with an untouched picture from before it, and from after it where `untouched` is given.
+    pub(crate) fn new(
+        fault: usize,
+        level: Level,
+        stress: Stress,
+        model: &Model,
+        untouched: Option<&Frame>,
+    ) -> Cell {
+        let fresh = untouched.and_then(|untouched| {
+            let faulty = stress.apply(untouched, UNTOUCHED, None);
+            // A picture in which markers are no longer found gives no extractor.
+            let reference = Some(Input::from(&faulty));
+            model.extractor(faulty.info(), reference).ok()
+        });
+        Cell {
+            fault,
+            level,
+            stress,
+            fresh,
+        }
+    }
+}
+
+/// Name of the untouched picture, for the random numbers of a fault.
+pub(crate) const UNTOUCHED: &str = "untouched";
+
+/// Predictions without a fault, and of every cell.
+///
+/// # Shapes
+/// `[rows, channels]`, row after row.
+pub(crate) struct Predictions {
+    pub(crate) clean: Vec<f64>,
+    pub(crate) cells: Vec<CellPredictions>,
+}
+
+/// Predictions of one cell.
+#[derive(Clone, Default)]
+pub(crate) struct CellPredictions {
+    /// With the untouched picture from before the fault.
+    pub(crate) stale: Vec<f64>,
+    /// With one from after the fault; empty without.
+    pub(crate) fresh: Vec<f64>,
+    /// Sum of the changes of all pictures.
+    changes: f64,
+}
+
+impl CellPredictions {
+    /// Mean change of the pictures, a share of full scale.
+    pub(crate) fn change(&self, rows: usize) -> f64 {
+        self.changes / rows as f64
+    }
+}
+
+/// Predicted row: its picture, and the numbers of each cell.
+struct Row {
+    frame: Frame,
+    clean: Vec<f64>,
+    /// Numbers of each cell; those of a fault that repeats pictures are filled in order.
+    cells: Vec<CellPredictions>,
+}
+
+/// A model with its features of the recording.
+struct Predictor<'a> {
+    model: &'a Model,
+    /// `None` for a model whose predictions depend on no feature.
+    clean: Option<Extractor>,
+}
+
+impl Predictor<'_> {
+    /// Unclamped predictions of one picture, always made alone, so that other pictures cannot change a bit.
+    fn of(&self, frame: &Frame, extractor: Option<&Extractor>) -> Result<Vec<f64>, EvaluateError> {
+        let features = match extractor {
+            Some(extractor) => extractor.extract_all([frame])?,
+            None => blank(self.model.card().features.shape(), 1)?,
+        };
+        Ok(self.model.predict_unbounded(&features)?)
+    }
+
+    fn row(&self, sample: &str, frame: Frame, cells: &[Cell]) -> Result<Row, EvaluateError> {
+        let clean = self.of(&frame, self.clean.as_ref())?;
+        let of_cell = |cell: &Cell| -> Result<CellPredictions, EvaluateError> {
+            if cell.stress.repeats() {
+                return Ok(CellPredictions::default());
+            }
+            let faulty = cell.stress.apply(&frame, sample, None);
+            let fresh = cell.fresh.as_ref().filter(|_| self.clean.is_some());
+            let fresh = fresh.map(|fresh| self.of(&faulty, Some(fresh)));
+            Ok(CellPredictions {
+                stale: self.of(&faulty, self.clean.as_ref())?,
+                fresh: fresh.transpose()?.unwrap_or_default(),
+                changes: difference(&faulty, &frame),
+            })
+        };
+        let cells = cells.iter().map(of_cell).collect::<Result<_, _>>()?;
+        Ok(Row {
+            frame,
+            clean,
+            cells,
+        })
+    }
+}
+
+/// Predictions of `rows`, which have pictures, without a fault and in each of `cells`.
+pub(crate) fn predictions(
+    dataset: &Dataset,
+    model: &Model,
+    rows: &[usize],
+    cells: &[Cell],
+    work: Work<'_>,
+) -> Result<Predictions, EvaluateError> {
+    let clean = model.reads_features();
+    let clean = clean.then(|| model_extractor(dataset, model)).transpose()?;
+    let predictor = Predictor { model, clean };
+    let samples = dataset.table().samples();
+    let mut all = Predictions {
+        clean: Vec::new(),
+        cells: vec![CellPredictions::default(); cells.len()],
+    };
+    let mut before: Option<Row> = None;
+    dataset.map_frames(
+        Pass::new(rows, work.jobs, work.progress),
+        |row, frame| predictor.row(&samples[row], frame, cells),
+        |row, found| {
+            let mut found: Row = found?;
+            for (cell, own) in cells.iter().zip(&mut found.cells) {
+                if cell.stress.repeats() {
+                    let repeated = before
+                        .as_ref()
+                        .filter(|_| cell.stress.is_repeated(&samples[row]));
+                    own.stale = repeated.map_or(&found.clean, |row| &row.clean).clone();
+                    own.changes = repeated.map_or(0.0, |row| difference(&row.frame, &found.frame));
+                }
+            }
+            all.clean.extend_from_slice(&found.clean);
+            for (cell, own) in all.cells.iter_mut().zip(&found.cells) {
+                cell.stale.extend_from_slice(&own.stale);
+                cell.fresh.extend_from_slice(&own.fresh);
+                cell.changes += own.changes;
+            }
+            before = Some(found);
+            Ok(())
+        },
+    )?;
+    Ok(all)
+}

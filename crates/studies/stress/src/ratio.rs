@@ -1,0 +1,194 @@
+//! Ratios of mean errors with a fault to those without, and their intervals.
+
+use std::collections::BTreeMap;
+
+use taceva_metrics::LEAST_CLUSTERS;
+use taceva_metrics::distributions::student_t;
+use taceva_metrics::elementary::exponential;
+
+use crate::estimate::{Estimate, Undefined};
+
+/// Share of the distribution below the upper end of an interval.
+const UPPER: f64 = 0.975;
+
+/// Absolute errors of some rows, summed by cluster.
+#[derive(Clone, Debug)]
+pub(crate) struct Errors {
+    total: f64,
+    count: u64,
+    /// Sum and number of the errors of each cluster; `None` if a row has no cluster.
+    clusters: Option<Vec<Cluster>>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Cluster {
+    sum: f64,
+    count: u64,
+}
+
+impl Errors {
+    /// Sums of `errors` by the cluster of each row; rows without an error do not count.
+    pub(crate) fn of(errors: &[Option<f64>], clusters: Option<&[String]>) -> Errors {
+        let known: Vec<f64> = errors.iter().copied().flatten().collect();
+        let by_name = clusters.map(|names| {
+            let mut sums: BTreeMap<&str, Cluster> = BTreeMap::new();
+            for (error, name) in errors.iter().zip(names) {
+                if let Some(error) = error {
+                    let own = sums.entry(name).or_default();
+                    own.sum += error;
+                    own.count += 1;
+                }
+            }
+            sums.into_values().collect()
+        });
+        Errors {
+            total: known.iter().sum(),
+            count: known.len() as u64,
+            clusters: by_name,
+        }
+    }
+
+    /// Mean error; `None` for no errors.
+    pub(crate) fn mean(&self) -> Option<f64> {
+        (self.count > 0).then_some(self.total / self.count as f64)
+    }
+
+    /// Relative change of the mean error if only the errors outside of the cluster at `left` remain.
+    fn change(&self, left: usize) -> f64 {
+        let clusters = self.clusters.as_deref().unwrap_or_default();
+        let own = clusters[left];
+        let others = (self.total - own.sum) / (self.count - own.count) as f64;
+        others / (self.total / self.count as f64) - 1.0
+    }
+}
+
+/// Mean over some cells of the ratios of their errors to those without a fault.
+///
+/// To first order its logarithm changes by Σ r_c (δ_c − δ_0) / Σ r_c. Here r_c is the ratio of cell c, and δ the relative change of a mean error. A
+/// cluster is left out of every cell and of the clean errors at once, because the same samples have all of them.
+///
+/// # Reference
+/// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999).
+pub(crate) fn mean_ratio<'a>(
+    cells: impl IntoIterator<Item = Share<'a>>,
+    clean: &Errors,
+) -> Estimate {
+    let Some(baseline) = clean.mean() else {
+        return Estimate::undefined(Undefined::Empty);
+    };
+    if baseline <= 0.0 {
+        return Estimate::undefined(Undefined::ZeroBaseline);
+    }
+    let terms: Vec<Term<'a>> = cells
+        .into_iter()
+        .filter_map(|cell| {
+            Some(Term {
+                part: cell.share * (cell.errors.mean()? / baseline),
+                errors: cell.errors,
+            })
+        })
+        .collect();
+    if terms.is_empty() {
+        return Estimate::undefined(Undefined::NoSeverity);
+    }
+    let value: f64 = terms.iter().map(|term| term.part).sum();
+    Estimate::new(value, interval(value, &terms, clean))
+}
+
+/// A cell, and its share in a mean.
+#[derive(Clone, Copy)]
+pub(crate) struct Share<'a> {
+    pub(crate) errors: &'a Errors,
+    pub(crate) share: f64,
+}
+
+/// Part of a cell in the value of a mean.
+struct Term<'a> {
+    part: f64,
+    errors: &'a Errors,
+}
+
+fn interval(value: f64, terms: &[Term<'_>], clean: &Errors) -> Result<[f64; 2], Undefined> {
+    let clusters = clean.clusters.as_deref().ok_or(Undefined::NoClusters)?;
+    if clusters.len() < LEAST_CLUSTERS {
+        return Err(Undefined::TooFewClusters);
+    }
+    let count = clusters.len() as f64;
+    let moved = |left: usize| {
+        let baseline = clean.change(left);
+        let moves = terms
+            .iter()
+            .map(|term| term.part / value * (term.errors.change(left) - baseline));
+        moves.sum::<f64>()
+    };
+    let shares = clusters
+        .iter()
+        .map(|own| clean.count as f64 / own.count as f64);
+    let pseudo: Vec<[f64; 2]> = shares
+        .enumerate()
+        .map(|(left, share)| [share - 1.0, (1.0 - share) * moved(left)])
+        .collect();
+    let mean = pseudo.iter().map(|[_, value]| value).sum::<f64>() / count;
+    let squares = pseudo
+        .iter()
+        .map(|[weight, value]| (value - mean) * (value - mean) / weight);
+    let variance = squares.sum::<f64>() / count;
+    let half = student_t::quantile(UPPER, count - 1.0) * variance.sqrt();
+    let ends = [value * exponential(-half), value * exponential(half)];
+    match ends.iter().all(|end| end.is_finite() && *end > 0.0) {
+        true => Ok(ends),
+        false => Err(Undefined::NoInterval),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn errors(of: impl Fn(u32) -> f64) -> Errors {
+        let names: Vec<String> = (0..30).map(|row| format!("p{}", row / 5)).collect();
+        let errors: Vec<Option<f64>> = (0..30).map(|row| Some(of(row))).collect();
+        Errors::of(&errors, Some(&names))
+    }
+
+    fn ratio(of: &Errors, clean: &Errors) -> Estimate {
+        let cell = Share {
+            errors: of,
+            share: 1.0,
+        };
+        mean_ratio([cell], clean)
+    }
+
+    #[test]
+    fn equal_errors_have_a_ratio_of_exactly_one_without_width() {
+        let clean = errors(|row| 0.1 + f64::from(row % 7));
+        let found = ratio(&clean, &clean);
+        assert_eq!((found.value, found.ci95), (Some(1.0), Some([1.0, 1.0])));
+    }
+
+    #[test]
+    fn a_common_factor_is_the_ratio_and_other_errors_widen_it() {
+        let clean = errors(|row| 1.0 + f64::from(row % 3));
+        let found = ratio(&errors(|row| 4.0 + 4.0 * f64::from(row % 3)), &clean);
+        assert_eq!(found.value, Some(4.0));
+        let [low, high] = found.ci95.expect("six clusters");
+        assert!((low - 4.0).abs() < 1e-12 && (high - 4.0).abs() < 1e-12);
+        let found = ratio(&errors(|row| 1.0 + f64::from(row / 5)), &clean);
+        let [low, high] = found.ci95.expect("six clusters");
+        let value = found.value.expect("a ratio");
+        assert!(low < 0.8 * value && value < 0.8 * high, "{found:?}");
+    }
+
+    #[test]
+    fn a_perfect_model_has_no_ratio_and_few_clusters_no_interval() {
+        let found = ratio(&errors(|_| 1.0), &errors(|_| 0.0));
+        assert_eq!(found, Estimate::undefined(Undefined::ZeroBaseline));
+        let unnamed = Errors::of(&[Some(1.0), Some(3.0), None], None);
+        let found = ratio(&unnamed, &unnamed);
+        let expected = (Some(1.0), None, Some(Undefined::NoClusters));
+        assert_eq!((found.value, found.ci95, found.reason), expected);
+        let names = ["a", "b", "b"].map(str::to_owned);
+        let two = Errors::of(&[Some(1.0), Some(3.0), None], Some(&names));
+        assert_eq!(ratio(&two, &two).reason, Some(Undefined::TooFewClusters));
+    }
+}

@@ -1,0 +1,141 @@
+//! Result of a stress test.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use taceva_results::{Provenance, Subject};
+
+use crate::estimate::Estimate;
+use crate::severity::{By, Unreached};
+
+/// Schema of the result.
+pub const STRESS_SCHEMA: &str = "taceva.stress/1";
+
+/// Numbers by the name of a channel or plane.
+pub type ByChannel<T> = BTreeMap<String, T>;
+
+/// Errors of a model on pictures with faults.
+#[derive(Clone, Debug, Serialize)]
+pub struct StressReport {
+    /// Schema of the result.
+    pub schema: &'static str,
+    /// The sensor.
+    pub subject: Subject,
+    /// Statement on samples that were not measured; `None` if all were.
+    pub not_measured: Option<String>,
+    /// Quantity that sets severity.
+    pub by: By,
+    /// The list of faults.
+    pub list: FaultList,
+    /// Seed of all faults.
+    pub seed: u64,
+    /// Number of scored samples.
+    pub samples: usize,
+    /// Number of samples of the part that have no picture.
+    pub left_out: usize,
+    /// Untouched picture: `reference`, `least load`, or `none`.
+    pub untouched: &'static str,
+    /// Mean change of a picture by contact, a share of full scale.
+    pub contact: Option<f64>,
+    /// Unit of each channel.
+    pub units: ByChannel<&'static str>,
+    /// Errors without a fault.
+    pub clean: ByChannel<CleanScore>,
+    /// Faults, in the order of the list.
+    pub faults: Vec<FaultReport>,
+    /// Mean degradation over all faults.
+    #[serde(rename = "mD")]
+    pub mean: ByChannel<Estimate>,
+    /// Faults that at least double an error, and of which the check of untouched pictures finds nothing. `None` without a reference.
+    pub unnoticed: Option<Vec<&'static str>>,
+    /// Skipped faults, with reasons.
+    pub skipped: Vec<SkippedFault>,
+    /// Origin of the numbers.
+    pub provenance: Provenance,
+}
+
+/// List of faults. Scores by different lists are not compared.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct FaultList {
+    /// Name with version, such as `gel-12/1`; the names of the faults if only some were wanted.
+    pub name: String,
+    /// Digest of faults, severities and the quantity that sets them.
+    pub digest: String,
+}
+
+/// Errors of a channel without a fault.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct CleanScore {
+    /// Mean absolute error.
+    pub mae: Estimate,
+    /// Skill over a constant prediction.
+    pub skill: Estimate,
+    /// Mean absolute error of the constant prediction.
+    pub constant: Option<f64>,
+}
+
+/// Errors of a channel with a fault.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct CellScore {
+    /// Mean absolute error of predictions as the model gives them.
+    pub mae: Estimate,
+    /// Skill over a constant prediction.
+    pub skill: Estimate,
+    /// Error divided by the error without the fault.
+    pub degradation: Estimate,
+    /// The error, or that of the constant prediction if it is less.
+    pub capped: Option<f64>,
+}
+
+/// Numbers of one fault.
+#[derive(Clone, Debug, Serialize)]
+pub struct FaultReport {
+    /// Name of the fault.
+    pub id: &'static str,
+    /// Cause and appearance.
+    pub title: &'static str,
+    /// Meaning and unit of the parameter.
+    pub parameter: &'static str,
+    /// Limit of what the numbers show.
+    pub note: Option<&'static str>,
+    /// Severities that were tested.
+    pub severities: Vec<SeverityReport>,
+    /// Severities that the fault cannot have on this sensor.
+    pub unreached: Vec<Unreached>,
+    /// Mean degradation over the tested severities, with an untouched picture from before the fault.
+    #[serde(rename = "D")]
+    pub mean: ByChannel<Estimate>,
+    /// Share of the excess error, in logarithms, that a new untouched picture removes.
+    pub recovers: ByChannel<Estimate>,
+    /// Least severity whose skill is no longer shown to be above 0; 6 if there is none, `None` if that is unknown.
+    pub breaks_at: ByChannel<Option<u8>>,
+}
+
+/// Numbers of one fault at one severity.
+#[derive(Clone, Debug, Serialize)]
+pub struct SeverityReport {
+    /// The severity.
+    pub severity: u8,
+    /// Parameter of the fault.
+    pub parameter: f64,
+    /// Mean change of the scored pictures, as a share of the change by contact.
+    pub stimulus: Option<f64>,
+    /// True if the stimulus is below 0.05, so that the fault is hardly there.
+    pub low_stimulus: bool,
+    /// Codes of the checks of untouched pictures that find the fault.
+    pub check: Vec<&'static str>,
+    /// Scores with an untouched picture from before the fault.
+    pub stale: ByChannel<CellScore>,
+    /// Scores with an untouched picture from after the fault; `None` without.
+    pub fresh: Option<ByChannel<CellScore>>,
+}
+
+/// A skipped fault.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SkippedFault {
+    /// Name of the fault.
+    pub fault: &'static str,
+    /// Reason for the skip.
+    pub reason: &'static str,
+}

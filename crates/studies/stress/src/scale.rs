@@ -1,0 +1,158 @@
+//! Change of pictures by contact: the unit of the strength of faults.
+
+use taceva_core::{Frame, Unit};
+use taceva_dataset::Dataset;
+use taceva_evaluate::EvaluateError;
+
+/// Pictures of contact that are compared with the untouched picture.
+const PICTURES: usize = 32;
+/// Share of the greatest load above which a picture shows contact to `check`.
+const PRESSED: f64 = 0.5;
+
+/// Untouched picture, and the change of pictures by contact.
+///
+/// # Units
+/// Changes are shares of full scale, means over all numbers of a picture.
+pub(crate) struct Scale {
+    /// The untouched picture; that of the least load without a reference.
+    pub(crate) untouched: Option<Frame>,
+    /// True if the untouched picture is the reference of the recording.
+    pub(crate) is_reference: bool,
+    /// Mean change by contact; `None` if it is unknown or zero.
+    pub(crate) contact: Option<f64>,
+    /// Mean change from one picture to the next among those compared.
+    pub(crate) successive: f64,
+    /// Pictures with a great load.
+    pub(crate) pressed: Vec<Frame>,
+    /// Number of decoded pictures.
+    pub(crate) decoded: u64,
+}
+
+impl Scale {
+    /// The scale of `rows` of `dataset`, which have pictures. Decodes at most 32 of them.
+    pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Result<Scale, EvaluateError> {
+        let loads = Loads::of(dataset, rows);
+        let picked = loads.picked();
+        let mut frames = Vec::new();
+        for load in &picked {
+            if let Some(frame) = dataset.frame(load.row)? {
+                frames.push((load.load, frame));
+            }
+        }
+        let mut decoded = frames.len() as u64;
+        let reference = dataset.reference()?;
+        let is_reference = reference.is_some();
+        let untouched = match (reference, loads.least()) {
+            (Some(reference), _) => Some(reference),
+            (None, Some(row)) => {
+                decoded += 1;
+                dataset.frame(row)?
+            }
+            (None, None) => None,
+        };
+        let changes = untouched.iter().flat_map(|untouched| {
+            let frames = frames.iter();
+            frames.map(move |(_, frame)| difference(frame, untouched))
+        });
+        let contact = mean(changes).filter(|change| *change > 0.0);
+        let pairs = frames.windows(2);
+        let successive = mean(pairs.map(|pair| difference(&pair[0].1, &pair[1].1)));
+        let greatest = frames.iter().map(|(load, _)| *load).fold(0.0, f64::max);
+        let pressed = frames
+            .into_iter()
+            .filter(|(load, _)| greatest > 0.0 && *load >= PRESSED * greatest)
+            .map(|(_, frame)| frame)
+            .collect();
+        Ok(Scale {
+            untouched,
+            is_reference,
+            contact,
+            successive: successive.unwrap_or(0.0),
+            pressed,
+            decoded,
+        })
+    }
+}
+
+/// Mean absolute difference of two pictures, a share of full scale; 0 for pictures of different kinds.
+pub(crate) fn difference(one: &Frame, other: &Frame) -> f64 {
+    if one.info() != other.info() || one.bytes().is_empty() {
+        return 0.0;
+    }
+    let pairs = one.samples().zip(other.samples());
+    let sum: u64 = pairs
+        .map(|(one, other)| u64::from(one.abs_diff(other)))
+        .sum();
+    let format = one.info().format;
+    let numbers = one.bytes().len() / format.bytes_per_sample();
+    sum as f64 / (numbers as f64 * f64::from(format.full_scale()))
+}
+
+/// Mean; `None` for no numbers.
+fn mean(numbers: impl Iterator<Item = f64>) -> Option<f64> {
+    let (sum, count) = numbers.fold((0.0, 0.0), |(sum, count), number| {
+        (sum + number, count + 1.0)
+    });
+    (count > 0.0).then_some(sum / count)
+}
+
+/// A row with its load.
+struct Load {
+    row: usize,
+    load: f64,
+}
+
+/// Loads of rows: the absolute force, otherwise the depth.
+struct Loads {
+    /// Rows with a load, in order; every row with a load of 0 if there is no channel of loads.
+    rows: Vec<Load>,
+    /// Load up to which a picture shows no contact; `None` without a channel of loads.
+    untouched_to: Option<f64>,
+}
+
+impl Loads {
+    fn of(dataset: &Dataset, rows: &[usize]) -> Loads {
+        let channels = dataset.table().channels();
+        let position = |name| channels.position(name);
+        let Some(position) = ["Fz", "Pz"].into_iter().find_map(position) else {
+            let rows = rows.iter().map(|&row| Load { row, load: 0.0 });
+            return Loads {
+                rows: rows.collect(),
+                untouched_to: None,
+            };
+        };
+        let truth = dataset.table().truth(position);
+        let load = |&row: &usize| {
+            Some(Load {
+                row,
+                load: truth.get(row)?.abs(),
+            })
+        };
+        let untouched_to = match channels.as_slice()[position].unit() {
+            Unit::Millimetre => 0.01,
+            _ => 0.02,
+        };
+        Loads {
+            rows: rows.iter().filter_map(load).collect(),
+            untouched_to: Some(untouched_to),
+        }
+    }
+
+    /// Loads of contact, evenly spaced; at most [`PICTURES`].
+    fn picked(&self) -> Vec<&Load> {
+        let least = self.untouched_to.unwrap_or(-1.0);
+        let contact: Vec<&Load> = self.rows.iter().filter(|load| load.load > least).collect();
+        let every = contact.len().div_ceil(PICTURES).max(1);
+        contact.into_iter().step_by(every).collect()
+    }
+
+    /// Row of the least load, if loads are known.
+    fn least(&self) -> Option<usize> {
+        self.untouched_to?;
+        let least = self
+            .rows
+            .iter()
+            .min_by(|one, other| one.load.total_cmp(&other.load));
+        least.map(|load| load.row)
+    }
+}

@@ -1,0 +1,277 @@
+//! Scores of predictions with and without faults.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+
+use taceva_core::{Channel, Channels, Column, Field};
+use taceva_dataset::Dataset;
+use taceva_evaluate::{Columns, EvaluateError, Target, accumulate};
+use taceva_metrics::{
+    Interval, MetricPlan, PLANES, Score, UndefinedReason, Value, catalogue, plane_axes,
+};
+use taceva_models::Model;
+
+use crate::estimate::{Estimate, Undefined};
+use crate::ratio::{Errors, Share, mean_ratio};
+use crate::report::{ByChannel, CellScore, CleanScore};
+
+const MAE: &str = "mae";
+const SKILL: &str = "skill";
+
+/// Scorer of predictions of the same rows.
+pub(crate) struct Scorer<'a> {
+    dataset: &'a Dataset,
+    rows: &'a [usize],
+    plan: MetricPlan,
+    /// Positions of the scored channels in a row of predictions, and the length of that row.
+    positions: Vec<usize>,
+    width: usize,
+    truth: Vec<Column>,
+    groups: Option<&'a [String]>,
+    /// Cluster of each row, if every row has one.
+    clusters: Option<Vec<String>>,
+    jobs: NonZeroUsize,
+}
+
+/// Scores of some predictions.
+pub(crate) struct Scored {
+    mae: ByChannel<Estimate>,
+    skill: ByChannel<Estimate>,
+    errors: ByChannel<Errors>,
+}
+
+impl<'a> Scorer<'a> {
+    /// Scorer of `rows` by the channels of `model` that are no angles: the difference of two angles is not their error.
+    pub(crate) fn new(
+        dataset: &'a Dataset,
+        model: &Model,
+        target: &'a Target,
+        rows: &'a [usize],
+        jobs: NonZeroUsize,
+    ) -> Result<Scorer<'a>, EvaluateError> {
+        let asked = model.channels().iter().enumerate();
+        let scored = asked.filter(|(_, channel)| channel.period().is_none());
+        let (positions, channels): (Vec<usize>, Vec<Channel>) =
+            scored.map(|(at, channel)| (at, *channel)).unzip();
+        let truth = channels.iter();
+        let truth = truth.map(|channel| taceva_evaluate::truth(dataset, channel, rows));
+        let truth = truth.collect::<Result<Vec<Column>, _>>()?;
+        let channels = Channels::new(channels).expect("some of distinct channels are distinct");
+        if channels.is_empty() {
+            return Err(EvaluateError::Request(
+                "the model predicts angles alone, and a fault is scored by other channels"
+                    .to_owned(),
+            ));
+        }
+        let constants: BTreeMap<String, f64> = model
+            .constants()
+            .map(|(name, constant)| (name.to_owned(), constant))
+            .collect();
+        let metrics = catalogue::select([MAE, SKILL])?;
+        let available = dataset.fields().with(Field::Prediction);
+        let plan = MetricPlan::new(&metrics, channels, available).with_constants(constants)?;
+        let divided = target.divided.as_ref();
+        let is_independent = divided.is_some_and(|divided| divided.are_independent);
+        let groups = divided.and_then(|divided| divided.groups.as_deref());
+        let table = dataset.table();
+        let (plan, clusters): (MetricPlan, Option<Vec<String>>) = match (is_independent, groups) {
+            (true, _) => {
+                let samples = rows.iter().map(|row| Some(table.samples()[*row].clone()));
+                (plan.independent_samples(), samples.collect())
+            }
+            (false, Some(groups)) => {
+                let names = rows.iter().map(|row| Some(groups[*row].clone()));
+                (plan.by_group(), names.collect())
+            }
+            (false, None) => {
+                let points = rows.iter().map(|row| table.point_id()[*row].clone());
+                (plan, points.collect())
+            }
+        };
+        Ok(Scorer {
+            dataset,
+            rows,
+            plan,
+            width: model.channels().len(),
+            positions,
+            truth,
+            groups,
+            clusters,
+            jobs,
+        })
+    }
+
+    /// Scores of `predictions`.
+    ///
+    /// # Shapes
+    /// `[rows, channels of the model]`.
+    pub(crate) fn score(&self, predictions: &[f64]) -> Result<Scored, EvaluateError> {
+        let columns = self.positions.iter().map(|position| {
+            let own = predictions.iter().skip(*position).step_by(self.width);
+            Column::full(own.copied().collect())
+        });
+        let columns: Vec<Column> = columns.collect();
+        let source = Columns {
+            truth: &self.truth,
+            prediction: &columns,
+            dataset: self.dataset,
+            rows: self.rows,
+            groups: self.groups,
+        };
+        let evaluation = accumulate(&source, &self.plan, self.jobs)?.finish()?;
+        let of_metric = |id: &str| -> ByChannel<Estimate> {
+            let scores = evaluation.scores().filter(|(metric, ..)| metric.id == id);
+            let scores = scores.map(|(_, name, score)| (name.to_owned(), estimate(score)));
+            scores.collect()
+        };
+        let mae = of_metric(MAE);
+        let errors = mae.keys();
+        let errors = errors.map(|name| (name.clone(), self.errors(name, &columns)));
+        Ok(Scored {
+            errors: errors.collect(),
+            skill: of_metric(SKILL),
+            mae,
+        })
+    }
+
+    /// Unit of each scored channel and plane.
+    pub(crate) fn units(&self, of: &Scored) -> ByChannel<&'static str> {
+        let unit = |name: &String| {
+            let axis = plane_axes(name).map_or(name.as_str(), |[axis, _]| axis);
+            let channel = self.plan.channels().by_name(axis);
+            let unit = channel.map_or("", |channel| channel.unit().symbol());
+            (name.clone(), unit)
+        };
+        of.mae.keys().map(unit).collect()
+    }
+
+    /// Mean absolute errors of the constant prediction: the mean of the training labels, or of the truth.
+    fn constants(&self) -> ByChannel<f64> {
+        let channels = self.plan.channels().iter().zip(&self.truth);
+        let columns = channels.map(|(channel, truth)| {
+            let known: Vec<f64> = (0..truth.len()).filter_map(|row| truth.get(row)).collect();
+            let mean = known.iter().sum::<f64>() / known.len().max(1) as f64;
+            let constant = self.plan.constants().get(channel.name());
+            Column::full(vec![constant.copied().unwrap_or(mean); truth.len()])
+        });
+        let columns: Vec<Column> = columns.collect();
+        let names = self.plan.channels().iter().map(|channel| channel.name());
+        let planes = PLANES.into_iter().map(|(plane, ..)| plane);
+        let errors = names
+            .chain(planes)
+            .filter_map(|name| Some((name.to_owned(), self.errors(name, &columns).mean()?)));
+        errors.collect()
+    }
+
+    /// Absolute errors of a channel, or means over both axes of a plane.
+    fn errors(&self, name: &str, predicted: &[Column]) -> Errors {
+        let channels = self.plan.channels();
+        let positions: Option<Vec<usize>> = match plane_axes(name) {
+            Some(axes) => axes.iter().map(|axis| channels.position(axis)).collect(),
+            None => channels.position(name).map(|position| vec![position]),
+        };
+        let positions = positions.unwrap_or_default();
+        let error = |row: usize| -> Option<f64> {
+            let mut sum = 0.0;
+            for &position in &positions {
+                let label = self.truth[position].get(row)?;
+                sum += (predicted[position].get(row)? - label).abs();
+            }
+            (!positions.is_empty()).then_some(sum / positions.len() as f64)
+        };
+        let errors: Vec<Option<f64>> = (0..self.rows.len()).map(error).collect();
+        Errors::of(&errors, self.clusters.as_deref())
+    }
+
+    /// Scores without a fault, for readers.
+    pub(crate) fn clean(&self, of: &Scored) -> ByChannel<CleanScore> {
+        let constants = self.constants();
+        let scores = of.mae.iter().map(|(name, mae)| {
+            let score = CleanScore {
+                mae: *mae,
+                skill: of.skill_of(name),
+                constant: constants.get(name).copied(),
+            };
+            (name.clone(), score)
+        });
+        scores.collect()
+    }
+}
+
+impl Scored {
+    /// Scores with a fault, beside those of `clean`.
+    pub(crate) fn beside(
+        &self,
+        baseline: &Scored,
+        clean: &ByChannel<CleanScore>,
+    ) -> ByChannel<CellScore> {
+        let scores = self.mae.iter().map(|(name, mae)| {
+            let constant = clean.get(name).and_then(|clean| clean.constant);
+            let capped = mae.value.zip(constant);
+            let score = CellScore {
+                mae: *mae,
+                skill: self.skill_of(name),
+                degradation: degradation(name, [self], baseline),
+                capped: capped.map(|(error, constant)| error.min(constant)),
+            };
+            (name.clone(), score)
+        });
+        scores.collect()
+    }
+
+    /// Names of the scored channels and planes.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &String> {
+        self.mae.keys()
+    }
+
+    fn skill_of(&self, name: &str) -> Estimate {
+        let known = self.skill.get(name).copied();
+        known.unwrap_or(Estimate::undefined(Undefined::Empty))
+    }
+}
+
+/// Mean degradation of a channel over some cells.
+pub(crate) fn degradation<'s>(
+    name: &str,
+    cells: impl IntoIterator<Item = &'s Scored>,
+    baseline: &'s Scored,
+) -> Estimate {
+    mean_degradation(name, [cells.into_iter().collect()], baseline)
+}
+
+/// Mean over faults of the mean degradation over the cells of each. Faults without a cell do not count.
+pub(crate) fn mean_degradation<'s>(
+    name: &str,
+    faults: impl IntoIterator<Item = Vec<&'s Scored>>,
+    baseline: &'s Scored,
+) -> Estimate {
+    let faults: Vec<Vec<&Scored>> = faults.into_iter().filter(|of| !of.is_empty()).collect();
+    let count = faults.len() as f64;
+    let shares = faults.iter().flat_map(|cells| {
+        let share = 1.0 / (count * cells.len() as f64);
+        let errors = cells.iter().filter_map(|cell| cell.errors.get(name));
+        errors.map(move |errors| Share { errors, share })
+    });
+    match baseline.errors.get(name) {
+        Some(clean) => mean_ratio(shares, clean),
+        None => Estimate::undefined(Undefined::Empty),
+    }
+}
+
+/// A score as a number with its interval.
+fn estimate(score: &Score) -> Estimate {
+    let Some(value) = score.value.scalar() else {
+        return Estimate::undefined(match score.value {
+            Value::Undefined(UndefinedReason::ConstantTruth { .. }) => Undefined::ConstantTruth,
+            _ => Undefined::Empty,
+        });
+    };
+    let interval = match (score.interval.ends(), &score.interval) {
+        (Some(ends), _) => Ok(ends),
+        (None, Interval::Undefined(UndefinedReason::TooFewClusters { .. })) => {
+            Err(Undefined::TooFewClusters)
+        }
+        (None, _) => Err(Undefined::NoInterval),
+    };
+    Estimate::new(value, interval)
+}

@@ -1,0 +1,173 @@
+//! Choice of samples and faults, checked before any picture is read.
+
+use taceva_core::{counted, shown};
+use taceva_dataset::Dataset;
+use taceva_evaluate::{DataPart, EvaluateError, Need, Plan, Target, subject_of, usable};
+use taceva_models::Model;
+use taceva_results::not_measured;
+
+use crate::fault::{Fault, Scope};
+use crate::faults::{LIST, select};
+use crate::report::SkippedFault;
+use crate::severity::By;
+use crate::stress::Stress;
+
+/// Most pictures that the change by contact is taken from, with the untouched picture.
+const COMPARED: usize = 33;
+
+/// Choice of faults and samples.
+#[derive(Clone, Debug)]
+pub struct StressRequest {
+    /// Names of faults, or of their list.
+    pub faults: Vec<String>,
+    /// Severities from 1 to 5, ascending.
+    pub severities: Vec<u8>,
+    /// Quantity that sets severity.
+    pub by: By,
+    /// Seed of all faults.
+    pub seed: u64,
+    /// Part to score; `None` for the samples that the model has not seen.
+    pub part: Option<DataPart>,
+}
+
+impl Default for StressRequest {
+    fn default() -> StressRequest {
+        StressRequest {
+            faults: vec![LIST.to_owned()],
+            severities: (1..=5).collect(),
+            by: By::default(),
+            seed: 0,
+            part: None,
+        }
+    }
+}
+
+/// Samples and faults of a test, checked before any picture is read.
+pub(crate) struct Setup {
+    pub(crate) target: Target,
+    /// Samples with a picture, ascending.
+    pub(crate) rows: Vec<usize>,
+    pub(crate) faults: Vec<&'static Fault>,
+    pub(crate) skipped: Vec<SkippedFault>,
+}
+
+impl Setup {
+    pub(crate) fn new(
+        dataset: &Dataset,
+        model: &Model,
+        request: &StressRequest,
+    ) -> Result<Setup, EvaluateError> {
+        let refused = |words: String| Err(EvaluateError::Request(words));
+        let chosen = select(&request.faults)?;
+        if request.severities.is_empty()
+            || !request.severities.iter().all(|of| (1..=5).contains(of))
+        {
+            return refused("severities: expected some numbers from 1 to 5".to_owned());
+        }
+        if !dataset.recordings().is_empty() {
+            return refused("several recordings: expected one, because each has its own untouched picture; test them one by one".to_owned());
+        }
+        if model.reads_features() && !model.reads_frames() {
+            return refused("the model reads signals, and all faults change pictures: fit a model on pictures by `taceva fit --set input=frame`".to_owned());
+        }
+        dataset.require_view()?;
+        if dataset.header().frames.is_none() {
+            return refused(format!(
+                "{}: the recording has no pictures, expected some: all faults change pictures",
+                shown(dataset.path())
+            ));
+        }
+        let target = Target::new(dataset, model, request.part)?;
+        let is_fitted = target
+            .divided
+            .as_ref()
+            .is_some_and(|divided| !divided.rows(DataPart::Train).is_empty());
+        if is_fitted && target.part != DataPart::Test {
+            return refused(format!(
+                "part `{}`: the model was fitted on these samples, so its errors without a fault are too small; use --part test, or another \
+                 recording",
+                target.part.name()
+            ));
+        }
+        let need = Need {
+            frame: true,
+            labels: None,
+        };
+        let rows = usable(dataset, &target.rows, need);
+        if rows.is_empty() {
+            return refused(format!(
+                "the part `{}` has no sample with a picture",
+                target.part.name()
+            ));
+        }
+        let (faults, orderless): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|&fault| {
+            let stress = Stress::new(fault, 0.0, request.seed);
+            !stress.repeats() || rows.len() > 1
+        });
+        let skipped = orderless.into_iter().map(|fault| SkippedFault {
+            fault: fault.id,
+            reason: "there is no picture before the only one",
+        });
+        Ok(Setup {
+            skipped: skipped.collect(),
+            target,
+            rows,
+            faults,
+        })
+    }
+}
+
+/// Steps of [`stress`](fn@crate::stress). Reads no picture.
+///
+/// # Errors
+/// [`EvaluateError`] if the request is not valid, or the model does not suit the recording.
+pub fn stress_plan(
+    dataset: &Dataset,
+    model: &Model,
+    request: &StressRequest,
+) -> Result<Plan, EvaluateError> {
+    let setup = Setup::new(dataset, model, request)?;
+    let mut plan = Plan::default();
+    let rows = counted(dataset.table().rows(), "row");
+    plan.step("read", format!("{rows} of {}", shown(dataset.path())));
+    let scored = setup.rows.len();
+    plan.step(
+        "decode",
+        format!(
+            "{} of the part `{}`, each once for all faults; before, {} at most for the change by contact",
+            counted(scored, "frame"),
+            setup.target.part.name(),
+            counted(COMPARED.min(scored + 1), "frame")
+        ),
+    );
+    let cells = setup.faults.len() * request.severities.len();
+    for fault in &setup.faults {
+        plan.step("fault", format!("{}: {}", fault.id, fault.title));
+    }
+    for skipped in &setup.skipped {
+        plan.step("skip", format!("{}: {}", skipped.fault, skipped.reason));
+    }
+    let fresh = setup.faults.iter();
+    let fresh = fresh.filter(|fault| compares(model) && fault.scope == Scope::Fixed);
+    let fresh = fresh.count() * request.severities.len();
+    plan.step(
+        "predict",
+        format!(
+            "{} without a fault, in {} and beside {} from after the fault",
+            counted(scored, "sample"),
+            counted(cells, "cell"),
+            counted(fresh, "untouched picture")
+        ),
+    );
+    plan.step("score", "mae, skill");
+    let subject = subject_of(dataset);
+    if let Some(words) = not_measured([subject.source.as_str()]) {
+        plan.step("note", words);
+    }
+    Ok(plan)
+}
+
+/// True if predictions depend on an untouched picture.
+pub(crate) fn compares(model: &Model) -> bool {
+    model.reads_features() && model.card().features.asks_for_reference().is_some()
+}

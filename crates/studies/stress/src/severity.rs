@@ -1,0 +1,194 @@
+//! Severities of a fault: the parameter of each, solved on the untouched picture or taken from the table.
+
+use serde::Serialize;
+
+use taceva_core::{Frame, shown};
+use taceva_evaluate::EvaluateError;
+
+use crate::fault::{Fault, Scope};
+use crate::scale::{Scale, difference};
+use crate::stress::Stress;
+
+/// Change of the untouched picture at severities 1 to 5, as a share of the change by contact.
+pub const TARGETS: [f64; 5] = [0.03, 0.1, 0.3, 1.0, 3.0];
+/// Severity above all others: that of a fault which breaks nothing.
+pub const NEVER: u8 = 6;
+
+/// Least parameter of a search, as a share of the greatest.
+const LEAST: f64 = 1e-7;
+/// Accepted excess of a solved stimulus, as a ratio.
+const ACCURACY: f64 = 1.02;
+/// Bisections of a search.
+const STEPS: usize = 28;
+/// Lines of the pictures over which the stimulus of a fault is averaged that is drawn for each picture.
+const LINES: u32 = 512;
+/// Most of these pictures.
+const DRAWN: u32 = 32;
+
+/// Quantity that sets severity.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum By {
+    /// The change of the untouched picture, beside that by contact: equal for all faults and sensors.
+    #[default]
+    Stimulus,
+    /// The parameter of the fault, from a table.
+    Parameter,
+}
+
+/// A severity with its parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Level {
+    pub(crate) severity: u8,
+    pub(crate) parameter: f64,
+}
+
+/// A severity that the fault cannot have on this sensor.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Unreached {
+    /// The severity.
+    pub severity: u8,
+    /// Wanted stimulus.
+    pub target: f64,
+    /// Greatest stimulus of the fault, or the stimulus of the next possible parameter.
+    pub most: f64,
+    /// Parameter of that stimulus.
+    pub parameter: f64,
+}
+
+/// Severities of a fault.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Levels {
+    pub(crate) reached: Vec<Level>,
+    pub(crate) unreached: Vec<Unreached>,
+}
+
+/// Severities that `text` names, such as `1-5`, `3` or `1,3,5`.
+///
+/// # Errors
+/// [`EvaluateError::Request`] for other text.
+pub fn severities(text: &str) -> Result<Vec<u8>, EvaluateError> {
+    let one = |text: &str| {
+        let number = text.trim().parse::<u8>().ok();
+        number.filter(|number| (1..NEVER).contains(number))
+    };
+    let range = |text: &str| match text.split_once('-') {
+        None => one(text).map(|only| only..=only),
+        Some((first, last)) => Some(one(first)?..=one(last)?).filter(|range| !range.is_empty()),
+    };
+    let ranges: Option<Vec<_>> = text.split(',').map(range).collect();
+    let Some(ranges) = ranges else {
+        return Err(EvaluateError::Request(format!(
+            "severity `{}`: expected numbers from 1 to 5, such as 3, 1,3,5 or 1-5",
+            shown(&text)
+        )));
+    };
+    let mut severities: Vec<u8> = ranges.into_iter().flatten().collect();
+    severities.sort_unstable();
+    severities.dedup();
+    Ok(severities)
+}
+
+impl Levels {
+    /// Parameters of `severities` from the table of `fault`.
+    pub(crate) fn by_parameter(fault: &Fault, severities: &[u8]) -> Levels {
+        let level = |severity: &u8| Level {
+            severity: *severity,
+            parameter: fault.table[usize::from(*severity) - 1],
+        };
+        Levels {
+            reached: severities.iter().map(level).collect(),
+            unreached: Vec::new(),
+        }
+    }
+
+    /// Parameters of `severities` at which the untouched picture changes by the targets.
+    pub(crate) fn by_stimulus(
+        fault: &'static Fault,
+        severities: &[u8],
+        reference: &Reference<'_>,
+    ) -> Levels {
+        let stimulus = |parameter: f64| reference.stimulus(fault, parameter);
+        let greatest = stimulus(fault.most);
+        let mut levels = Levels::default();
+        let mut before = 0.0;
+        for &severity in severities {
+            let target = TARGETS[usize::from(severity) - 1];
+            let solved = match greatest < target {
+                true => None,
+                false => Some(solve(target, before, fault.most, stimulus)),
+            };
+            match solved {
+                Some(parameter) if parameter > before => {
+                    levels.reached.push(Level {
+                        severity,
+                        parameter,
+                    });
+                    before = parameter;
+                }
+                Some(parameter) => levels.unreached.push(Unreached {
+                    severity,
+                    target,
+                    most: stimulus(parameter),
+                    parameter,
+                }),
+                None => levels.unreached.push(Unreached {
+                    severity,
+                    target,
+                    most: greatest,
+                    parameter: fault.most,
+                }),
+            }
+        }
+        levels
+    }
+}
+
+/// Least known parameter above `before` with a stimulus of at least `target`, by bisection of its logarithm; `before` if that is one.
+fn solve(target: f64, before: f64, most: f64, stimulus: impl Fn(f64) -> f64) -> f64 {
+    let mut low = before.max(LEAST * most);
+    let mut high = most;
+    if stimulus(low) >= target {
+        return low;
+    }
+    for _ in 0..STEPS {
+        let middle = (low * high).sqrt();
+        let found = stimulus(middle);
+        if found < target {
+            low = middle;
+            continue;
+        }
+        high = middle;
+        if found <= ACCURACY * target {
+            break;
+        }
+    }
+    high
+}
+
+/// Untouched picture on which severities are solved.
+pub(crate) struct Reference<'a> {
+    pub(crate) scale: &'a Scale,
+    pub(crate) untouched: &'a Frame,
+    pub(crate) contact: f64,
+    pub(crate) seed: u64,
+}
+
+impl Reference<'_> {
+    /// Change of the untouched picture by the fault, as a share of that by contact.
+    fn stimulus(&self, fault: &'static Fault, parameter: f64) -> f64 {
+        let stress = Stress::new(fault, parameter, self.seed);
+        if stress.repeats() {
+            return parameter * self.scale.successive / self.contact;
+        }
+        let drawn = match fault.scope {
+            Scope::Fixed => 1,
+            Scope::Each => (LINES / self.untouched.info().height.max(1)).clamp(1, DRAWN),
+        };
+        let changes = (0..drawn).map(|number| {
+            let sample = format!("untouched {number}");
+            difference(&stress.apply(self.untouched, &sample, None), self.untouched)
+        });
+        changes.sum::<f64>() / (f64::from(drawn) * self.contact)
+    }
+}

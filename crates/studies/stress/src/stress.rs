@@ -1,0 +1,92 @@
+//! A fault of one strength, applied to pictures.
+
+use taceva_core::Frame;
+use taceva_core::random::{Draws, fnv_1a, mix};
+
+use crate::canvas::{Canvas, Realisation, single};
+use crate::fault::{Effect, Fault, Scope};
+
+/// A fault of one strength, with its random numbers.
+///
+/// A picture with the fault depends only on the picture, the fault, its parameter, the seed and the name of the sample. The order of the pictures
+/// and the number of threads change no bit.
+///
+/// ```
+/// use taceva_core::{Frame, FrameInfo, PixelFormat};
+/// use taceva_stress::{FAULTS, Stress};
+/// let info = FrameInfo { width: 2, height: 1, format: PixelFormat::Gray8 };
+/// let frame = Frame::new(info, vec![100, 200])?;
+/// let darker = FAULTS.into_iter().find(|fault| fault.id == "exposure_low").expect("in the list");
+/// let dark = Stress::new(darker, 0.5, 1).apply(&frame, "press-7", None);
+/// assert_eq!(dark.bytes(), [50, 100]);
+/// assert_eq!(Stress::new(darker, 0.0, 1).apply(&frame, "press-7", None), frame);
+/// # Ok::<(), taceva_core::FrameError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Stress {
+    fault: &'static Fault,
+    parameter: f64,
+    seed: u64,
+}
+
+impl Stress {
+    /// The fault with this parameter. Without a positive parameter there is no fault.
+    pub fn new(fault: &'static Fault, parameter: f64, seed: u64) -> Stress {
+        Stress {
+            fault,
+            parameter,
+            seed,
+        }
+    }
+
+    /// The fault.
+    pub fn fault(&self) -> &'static Fault {
+        self.fault
+    }
+
+    /// The parameter.
+    pub fn parameter(&self) -> f64 {
+        self.parameter
+    }
+
+    /// True if the fault repeats pictures, so that it needs the one before.
+    pub fn repeats(&self) -> bool {
+        matches!(self.fault.effect, Effect::Before)
+    }
+
+    /// The picture `frame` of `sample` with the fault. `before` is the picture before it, if there is one.
+    pub fn apply(&self, frame: &Frame, sample: &str, before: Option<&Frame>) -> Frame {
+        if self.parameter <= 0.0 || frame.bytes().is_empty() {
+            return frame.clone();
+        }
+        match self.fault.effect {
+            Effect::Numbers(change) => {
+                let drawn = Realisation {
+                    parameter: single(self.parameter),
+                    draws: self.draws(sample),
+                };
+                let mut canvas = Canvas::of(frame);
+                change(&mut canvas, &drawn);
+                canvas.into_frame()
+            }
+            Effect::Before => match before.filter(|_| self.is_repeated(sample)) {
+                Some(before) => before.clone(),
+                None => frame.clone(),
+            },
+        }
+    }
+
+    /// True if the picture before stands in the place of the picture of `sample`.
+    pub(crate) fn is_repeated(&self, sample: &str) -> bool {
+        self.repeats() && self.draws(sample).unit(0) < self.parameter
+    }
+
+    /// Random numbers of the fault in the picture of `sample`.
+    fn draws(&self, sample: &str) -> Draws {
+        let of_fault = Draws::new(mix(mix(self.seed) ^ fnv_1a(self.fault.id.as_bytes())));
+        match self.fault.scope {
+            Scope::Fixed => of_fault,
+            Scope::Each => of_fault.of(fnv_1a(sample.as_bytes())),
+        }
+    }
+}

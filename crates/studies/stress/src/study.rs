@@ -1,0 +1,286 @@
+//! A stress test: faults of the pictures of a recording, scored with a fitted model.
+
+use taceva_check::{FrameFacts, RestChange, Tiles};
+use taceva_core::Frame;
+use taceva_dataset::{Dataset, Digest};
+use taceva_evaluate::{EvaluateError, Work, model_provenance, provenance_of, subject_of};
+use taceva_models::Model;
+use taceva_results::{Provenance, not_measured};
+
+use crate::estimate::{Estimate, Undefined};
+use crate::fault::{Fault, Scope};
+use crate::faults::{FAULTS, LIST, LIST_VERSION};
+use crate::findings::{breaks_at, recovers, unnoticed};
+use crate::pass::{Cell, CellPredictions, UNTOUCHED, predictions};
+use crate::report::{
+    ByChannel, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport, StressReport,
+};
+use crate::scale::Scale;
+use crate::score::{Scored, Scorer, degradation, mean_degradation};
+use crate::setup::{Setup, StressRequest, compares};
+use crate::severity::{By, Levels, Reference};
+use crate::stress::Stress;
+
+/// Stimulus below which a fault is hardly there.
+const LOW: f64 = 0.05;
+/// Check of untouched pictures.
+const CHANGED_REST: &str = "TAC034";
+
+/// Errors of `model` on the pictures of `dataset` with faults. Nothing is fitted.
+///
+/// # Errors
+/// [`EvaluateError`] if the request is not valid, the model does not suit the recording, or a picture cannot be read.
+pub fn stress(
+    dataset: &Dataset,
+    model: &Model,
+    request: &StressRequest,
+    work: Work<'_>,
+) -> Result<StressReport, EvaluateError> {
+    let setup = Setup::new(dataset, model, request)?;
+    let scale = Scale::of(dataset, &setup.rows)?;
+    let levels = levels(&setup, &scale, request)?;
+    let cells = cells(&setup, &scale, &levels, model, request);
+    let found = predictions(dataset, model, &setup.rows, &cells, work)?;
+    let scorer = Scorer::new(dataset, model, &setup.target, &setup.rows, work.jobs)?;
+    let baseline = scorer.score(&found.clean)?;
+    let scored = found.cells.iter().map(|of| ScoredCell::of(&scorer, of));
+    let scored: Vec<ScoredCell> = scored.collect::<Result<_, EvaluateError>>()?;
+    let clean = scorer.clean(&baseline);
+    let results = Results {
+        scale: &scale,
+        clean: &clean,
+        cells: &cells,
+        predicted: &found.cells,
+        scored: &scored,
+        baseline: &baseline,
+        rows: setup.rows.len(),
+    };
+    let faults: Vec<FaultReport> = (0..setup.faults.len())
+        .map(|fault| results.of_fault(fault, setup.faults[fault], &levels[fault]))
+        .collect();
+    let mean = results.mean(setup.faults.len());
+    let subject = subject_of(dataset);
+    let divided = setup.target.divided.as_ref();
+    let provenance = Provenance {
+        model: Some(model_provenance(model)?),
+        split: divided.map(|divided| divided.spec.to_string()),
+        seed: divided.map(|divided| divided.seed),
+        part: Some(setup.target.part.name().to_owned()),
+        samples: divided.map(|of| of.counts()).unwrap_or_default(),
+        frames_decoded: scale.decoded + setup.rows.len() as u64,
+        ..provenance_of(dataset)
+    };
+    Ok(StressReport {
+        schema: STRESS_SCHEMA,
+        not_measured: not_measured([subject.source.as_str()]),
+        subject,
+        by: request.by,
+        list: list(&setup.faults, request),
+        seed: request.seed,
+        samples: setup.rows.len(),
+        left_out: setup.target.left_out + setup.target.rows.len() - setup.rows.len(),
+        untouched: match (&scale.untouched, scale.is_reference) {
+            (Some(_), true) => "reference",
+            (Some(_), false) => "least load",
+            (None, _) => "none",
+        },
+        contact: scale.contact,
+        units: scorer.units(&baseline),
+        clean,
+        mean,
+        unnoticed: scale.is_reference.then(|| unnoticed(&faults)),
+        faults,
+        skipped: setup.skipped,
+        provenance,
+    })
+}
+
+/// Severities of each fault.
+fn levels(
+    setup: &Setup,
+    scale: &Scale,
+    request: &StressRequest,
+) -> Result<Vec<Levels>, EvaluateError> {
+    let faults = setup.faults.iter();
+    if request.by == By::Parameter {
+        let levels = faults.map(|fault| Levels::by_parameter(fault, &request.severities));
+        return Ok(levels.collect());
+    }
+    let (Some(untouched), Some(contact)) = (&scale.untouched, scale.contact) else {
+        return Err(EvaluateError::Request(
+            "severity by stimulus: expected an untouched picture or labels of Fz or Pz, and pictures of contact that differ from the untouched \
+             one; use --by parameter"
+                .to_owned(),
+        ));
+    };
+    let reference = Reference {
+        scale,
+        untouched,
+        contact,
+        seed: request.seed,
+    };
+    let levels = faults.map(|&fault| Levels::by_stimulus(fault, &request.severities, &reference));
+    Ok(levels.collect())
+}
+
+/// Every fault at every severity.
+fn cells(
+    setup: &Setup,
+    scale: &Scale,
+    levels: &[Levels],
+    model: &Model,
+    request: &StressRequest,
+) -> Vec<Cell> {
+    let reference = scale.untouched.as_ref();
+    let reference = reference.filter(|_| scale.is_reference && compares(model));
+    let mut cells = Vec::new();
+    for (position, &fault) in setup.faults.iter().enumerate() {
+        let untouched = reference.filter(|_| fault.scope == Scope::Fixed);
+        for level in &levels[position].reached {
+            let stress = Stress::new(fault, level.parameter, request.seed);
+            cells.push(Cell::new(position, *level, stress, model, untouched));
+        }
+    }
+    cells
+}
+
+/// Name and digest of the faults with their severities.
+fn list(faults: &[&'static Fault], request: &StressRequest) -> FaultList {
+    let ids: Vec<&str> = faults.iter().map(|fault| fault.id).collect();
+    let severities: Vec<String> = request.severities.iter().map(u8::to_string).collect();
+    let is_whole = faults.len() == FAULTS.len() && request.severities.len() == 5;
+    let text = format!(
+        "{LIST_VERSION}\n{:?}\n{}\n{}\n",
+        request.by,
+        severities.join(","),
+        ids.join(",")
+    );
+    FaultList {
+        name: match is_whole {
+            true => format!("{LIST}/{LIST_VERSION}"),
+            false => ids.join(","),
+        },
+        digest: Digest::of(text.as_bytes()).to_string(),
+    }
+}
+
+/// Scores of one cell.
+struct ScoredCell {
+    stale: Scored,
+    fresh: Option<Scored>,
+}
+
+impl ScoredCell {
+    fn of(scorer: &Scorer<'_>, of: &CellPredictions) -> Result<ScoredCell, EvaluateError> {
+        let fresh = (!of.fresh.is_empty()).then(|| scorer.score(&of.fresh));
+        Ok(ScoredCell {
+            stale: scorer.score(&of.stale)?,
+            fresh: fresh.transpose()?,
+        })
+    }
+}
+
+/// Scores of all cells.
+struct Results<'a> {
+    scale: &'a Scale,
+    clean: &'a ByChannel<CleanScore>,
+    cells: &'a [Cell],
+    predicted: &'a [CellPredictions],
+    scored: &'a [ScoredCell],
+    baseline: &'a Scored,
+    rows: usize,
+}
+
+impl Results<'_> {
+    /// Positions of the cells of a fault.
+    fn positions(&self, fault: usize) -> impl Iterator<Item = usize> {
+        let positions = 0..self.cells.len();
+        positions.filter(move |position| self.cells[*position].fault == fault)
+    }
+
+    fn of_fault(&self, fault: usize, of: &'static Fault, levels: &Levels) -> FaultReport {
+        let scored: Vec<&ScoredCell> = self.positions(fault).map(|at| &self.scored[at]).collect();
+        let severities: Vec<SeverityReport> =
+            self.positions(fault).map(|at| self.of_cell(at)).collect();
+        let stale = |name: &str| {
+            let cells = scored.iter().map(|cell| &cell.stale);
+            degradation(name, cells, self.baseline)
+        };
+        let by_channel = |value: &dyn Fn(&str) -> Estimate| -> ByChannel<Estimate> {
+            let names = self.baseline.names();
+            names.map(|name| (name.clone(), value(name))).collect()
+        };
+        let has_fresh = scored.iter().all(|cell| cell.fresh.is_some()) && !scored.is_empty();
+        FaultReport {
+            id: of.id,
+            title: of.title,
+            parameter: of.parameter,
+            note: of.note,
+            mean: by_channel(&stale),
+            recovers: by_channel(&|name: &str| match has_fresh {
+                true => recovers(&severities, name, &stale(name)),
+                false => Estimate::undefined(Undefined::NoFreshReference),
+            }),
+            breaks_at: {
+                let names = self.baseline.names();
+                let breaks = names.map(|name| (name.clone(), breaks_at(&severities, name)));
+                breaks.collect()
+            },
+            severities,
+            unreached: levels.unreached.clone(),
+        }
+    }
+
+    fn of_cell(&self, at: usize) -> SeverityReport {
+        let (cell, scored) = (&self.cells[at], &self.scored[at]);
+        let contact = self.scale.contact;
+        let stimulus = contact.map(|contact| self.predicted[at].change(self.rows) / contact);
+        SeverityReport {
+            severity: cell.level.severity,
+            parameter: cell.level.parameter,
+            stimulus,
+            low_stimulus: stimulus.is_some_and(|stimulus| stimulus < LOW),
+            check: match self.is_noticed(&cell.stress) {
+                true => vec![CHANGED_REST],
+                false => Vec::new(),
+            },
+            stale: scored.stale.beside(self.baseline, self.clean),
+            fresh: scored
+                .fresh
+                .as_ref()
+                .map(|fresh| fresh.beside(self.baseline, self.clean)),
+        }
+    }
+
+    /// True if the check of untouched pictures finds the fault, which is in the pictures of contact too.
+    fn is_noticed(&self, stress: &Stress) -> bool {
+        let untouched = self.scale.untouched.as_ref();
+        let Some(reference) = untouched.filter(|_| self.scale.is_reference) else {
+            return false;
+        };
+        let tiles = |frame: &Frame| FrameFacts::of(frame, None).tiles;
+        let rest = tiles(&stress.apply(reference, UNTOUCHED, None));
+        let pressed = self.scale.pressed.iter().enumerate();
+        let pressed = pressed.map(|(number, frame)| {
+            let sample = format!("pressed {number}");
+            tiles(&stress.apply(frame, &sample, None))
+        });
+        let pressed: Vec<Tiles> = pressed.collect();
+        let pressed: Vec<&Tiles> = pressed.iter().collect();
+        let change = RestChange::of(&tiles(reference), &rest, &pressed);
+        change.is_some_and(|change| change.is_overall() || change.is_local())
+    }
+
+    /// Mean degradation over all faults.
+    fn mean(&self, faults: usize) -> ByChannel<Estimate> {
+        let mean = |name: &String| {
+            let of_fault = |fault| {
+                let cells = self.positions(fault).map(|at| &self.scored[at].stale);
+                cells.collect::<Vec<&Scored>>()
+            };
+            mean_degradation(name, (0..faults).map(of_fault), self.baseline)
+        };
+        let names = self.baseline.names();
+        names.map(|name| (name.clone(), mean(name))).collect()
+    }
+}

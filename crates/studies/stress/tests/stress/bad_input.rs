@@ -1,0 +1,94 @@
+//! Requests that are refused by name.
+
+use taceva_core::PixelFormat;
+use taceva_dataset::Dataset;
+use taceva_evaluate::DataPart;
+use taceva_models::Model;
+use taceva_stress::{StressRequest, stress};
+
+use crate::drawing::{WORK, fitted, picture, record, record_with, unseen};
+
+/// Words of the refusal, which is a wrong request.
+fn refused(dataset: &Dataset, model: &Model, request: &StressRequest) -> String {
+    let error = stress(dataset, model, request, WORK).expect_err("refused");
+    assert!(error.is_usage(), "{error}");
+    error.to_string()
+}
+
+#[test]
+fn a_misspelt_fault_is_refused_with_the_nearest_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    let request = |name: &str| StressRequest {
+        faults: vec!["tear".to_owned(), name.to_owned()],
+        ..StressRequest::default()
+    };
+    let said = refused(&dataset, &model, &request("defocsu"));
+    assert_eq!(said, "fault `defocsu`: unknown, did you mean `defocus`?");
+    let said = refused(&dataset, &model, &request("gel_softening"));
+    assert!(
+        said.contains("expected one of `gel-12`, `defocus`"),
+        "{said}"
+    );
+    let none = StressRequest {
+        faults: Vec::new(),
+        ..StressRequest::default()
+    };
+    assert!(refused(&dataset, &model, &none).contains("no fault is named"));
+}
+
+#[test]
+fn severities_outside_of_one_to_five_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    for severities in [vec![], vec![0], vec![1, 6]] {
+        let request = StressRequest {
+            severities,
+            ..StressRequest::default()
+        };
+        let said = refused(&dataset, &model, &request);
+        assert!(said.contains("expected some numbers from 1 to 5"), "{said}");
+    }
+}
+
+#[test]
+fn samples_that_the_model_was_fitted_on_are_refused_and_its_test_part_is_not() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let seen = record(&folder.path().join("seen"), 1);
+    let model = fitted(&seen, "ridge", &["size=8x8"]);
+    let request = |part| StressRequest {
+        faults: vec!["dust".to_owned()],
+        severities: vec![1],
+        part,
+        ..StressRequest::default()
+    };
+    for part in [DataPart::All, DataPart::Train, DataPart::Validation] {
+        let said = refused(&seen, &model, &request(Some(part)));
+        let expected = format!("part `{}`: the model was fitted on these", part.name());
+        assert!(said.contains(&expected), "{said}");
+    }
+    let report = stress(&seen, &model, &request(None), WORK).expect("its test part");
+    assert_eq!(report.provenance.part.as_deref(), Some("test"));
+    assert!(report.samples < 60);
+}
+
+#[test]
+fn severity_by_stimulus_needs_contact_that_is_seen() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (_, model) = unseen(folder.path());
+    let flat = || picture([24, 16], PixelFormat::Gray8, |_, _| 0.5);
+    let dataset = record_with(&folder.path().join("flat"), Some(flat()), |_, _, _| flat());
+    let said = refused(&dataset, &model, &StressRequest::default());
+    assert!(said.contains("use --by parameter"), "{said}");
+}
+
+#[test]
+fn several_recordings_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (_, model) = unseen(folder.path());
+    let one = record(&folder.path().join("one"), 3);
+    let other = record(&folder.path().join("other"), 4);
+    let both = Dataset::joined(vec![one, other]).expect("joined");
+    let said = refused(&both, &model, &StressRequest::default());
+    assert!(said.contains("several recordings: expected one"), "{said}");
+}

@@ -1,0 +1,77 @@
+//! Severities by stimulus and by parameter.
+
+use taceva_stress::{By, FAULTS, StressRequest, TARGETS, severities, stress};
+
+use crate::drawing::{WORK, unseen};
+
+#[test]
+fn a_higher_severity_changes_pictures_more() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    let report = stress(&dataset, &model, &StressRequest::default(), WORK).expect("tested");
+    assert_eq!(report.faults.len(), FAULTS.len());
+    for fault in &report.faults {
+        let tested = &fault.severities;
+        assert!(!tested.is_empty(), "{}", fault.id);
+        let all = tested.len() + fault.unreached.len();
+        assert_eq!(all, 5, "{}", fault.id);
+        for pair in tested.windows(2) {
+            assert!(pair[0].parameter < pair[1].parameter, "{}", fault.id);
+            let stimuli = [&pair[0], &pair[1]].map(|of| of.stimulus.expect("known"));
+            assert!(stimuli[0] < stimuli[1], "{}: {stimuli:?}", fault.id);
+        }
+    }
+}
+
+#[test]
+fn the_stimulus_of_a_darker_picture_is_the_target() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    let request = StressRequest {
+        faults: vec!["exposure_low".to_owned()],
+        ..StressRequest::default()
+    };
+    let report = stress(&dataset, &model, &request, WORK).expect("tested");
+    for of in &report.faults[0].severities {
+        let target = TARGETS[usize::from(of.severity) - 1];
+        let stimulus = of.stimulus.expect("known");
+        // Numbers of pixels are whole, so that a small change of all of them comes in steps.
+        assert!(
+            stimulus > 0.5 * target && stimulus < 2.5 * target + 0.05,
+            "{of:?}"
+        );
+        assert_eq!(of.low_stimulus, stimulus < 0.05);
+    }
+}
+
+#[test]
+fn severities_by_parameter_are_those_of_the_table() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    let request = StressRequest {
+        by: By::Parameter,
+        severities: vec![1, 4],
+        ..StressRequest::default()
+    };
+    let report = stress(&dataset, &model, &request, WORK).expect("tested");
+    for (fault, of) in FAULTS.into_iter().zip(&report.faults) {
+        let found: Vec<f64> = of.severities.iter().map(|of| of.parameter).collect();
+        assert_eq!(found, [fault.table[0], fault.table[3]], "{}", fault.id);
+        assert!(fault.table.is_sorted() && fault.table[4] <= fault.most);
+    }
+    assert!(report.list.name.starts_with("defocus,dead_pixels,"));
+}
+
+#[test]
+fn severities_are_read_as_numbers_and_ranges() {
+    let read = |text: &str| severities(text).expect(text);
+    assert_eq!(read("1-5"), [1, 2, 3, 4, 5]);
+    assert_eq!(read("5,1,3-4"), [1, 3, 4, 5]);
+    for wrong in ["0", "6", "high", "", "4-2", "1-", "1-9"] {
+        let refused = severities(wrong).expect_err(wrong).to_string();
+        assert!(
+            refused.contains("expected numbers from 1 to 5"),
+            "{refused}"
+        );
+    }
+}

@@ -1,0 +1,56 @@
+//! Arguments of `taceva stress`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::{ExplainArgs, Output, PartArgs, SeedArgs, ViewArgs};
+
+/// Faults are applied to the pictures of the recording, and the model predicts them without being fitted again. Severities 1 to 5 change the
+/// untouched picture by 0.03, 0.1, 0.3, 1 and 3 of the mean change by contact. Faults that stay are scored with an untouched picture from before and
+/// from after the fault. A fitted model is scored on samples that it has not seen.
+///
+/// Faults: defocus, dead_pixels, exposure_low, exposure_high, sensor_noise, cable_noise, camera_shift, led_loss, scratches, tear, dust, stale_frames.
+#[derive(Debug, Args)]
+pub(crate) struct Stress {
+    /// The recording
+    #[arg(value_name = "DATASET")]
+    pub(crate) dataset: PathBuf,
+    /// A fitted model file
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) model: PathBuf,
+    #[command(flatten)]
+    pub(crate) view: ViewArgs,
+    /// Faults, separated by commas; gel-12 is the list of all
+    #[arg(
+        long,
+        value_name = "FAULTS",
+        value_delimiter = ',',
+        default_value = "gel-12"
+    )]
+    pub(crate) faults: Vec<String>,
+    /// Severities, such as 3, 1,3,5 or 1-5
+    #[arg(long, value_name = "SEVERITIES", default_value = "1-5")]
+    pub(crate) severity: String,
+    /// The quantity that sets severity
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) by: StressBy,
+    #[command(flatten)]
+    pub(crate) seed: SeedArgs,
+    #[command(flatten)]
+    pub(crate) part: PartArgs,
+    #[command(flatten)]
+    pub(crate) explain: ExplainArgs,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+/// Quantity that sets severity.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StressBy {
+    /// The change of the untouched picture, beside that by contact
+    #[default]
+    Stimulus,
+    /// The parameter of the fault, from a table
+    Parameter,
+}

@@ -1,0 +1,51 @@
+//! `taceva stress`.
+
+use anyhow::Context as _;
+use taceva_core::shown;
+use taceva_evaluate::DataPart;
+use taceva_stress::{By, StressRequest, severities, stress, stress_plan};
+
+use super::{Context, Usage, open_seen, results};
+use crate::args::{Format, Stress, StressBy};
+use crate::report::stress::{numbers, table};
+use crate::{exit, output};
+
+pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
+    if let Some(path) = &args.output.path {
+        output::check_free(path, args.output.force)?;
+    }
+    if !args.model.is_file() {
+        return Err(Usage::error(format!(
+            "--model {}: no such file, expected a fitted model; `taceva fit DATASET --model fast --out m.taceva` writes one",
+            shown(&args.model)
+        )));
+    }
+    let request = StressRequest {
+        faults: args.faults.clone(),
+        severities: severities(&args.severity)?,
+        by: match args.by {
+            StressBy::Stimulus => By::Stimulus,
+            StressBy::Parameter => By::Parameter,
+        },
+        seed: args.seed.value,
+        part: args.part.name.map(DataPart::from),
+    };
+    let model = context.models()?.open(&args.model)?;
+    let recordings = [args.dataset.clone()];
+    let dataset = open_seen(&recordings, &args.view, Some(&model))?;
+    let applied = || super::applied(&args.model, &recordings);
+    if args.explain.is_wanted {
+        let plan = stress_plan(&dataset, &model, &request).with_context(applied)?;
+        output::write(None, |out| write!(out, "{plan}"))?;
+        return Ok(exit::DONE);
+    }
+    context.print_plan(|| stress_plan(&dataset, &model, &request))?;
+    let found = stress(&dataset, &model, &request, context.work(None)).with_context(applied)?;
+    let written = match args.output.format {
+        Format::Csv => numbers(&found),
+        _ => table(&found),
+    };
+    let json = serde_json::to_string_pretty(&found)?;
+    results::write(&written, &args.output, || format!("{json}\n"))?;
+    Ok(exit::DONE)
+}

@@ -1,0 +1,297 @@
+//! Tables of errors with faults.
+
+use taceva_core::counted;
+use taceva_metrics::plane_of;
+use taceva_report::{Cell, Column, FormattedValue, Table};
+use taceva_stress::{By, CellScore, Estimate, FaultReport, NEVER, SeverityReport, StressReport};
+
+/// Table for readers: a row for each fault and severity, with the ratio of the error to that without the fault.
+pub(crate) fn table(report: &StressReport) -> Table {
+    let channels = main_channels(report);
+    let mut columns = vec![
+        Column::new("fault"),
+        Column::new("severity"),
+        Column::new("parameter"),
+        Column::new("stimulus"),
+    ];
+    columns.extend(channels.iter().map(|name| Column::new(*name)));
+    columns.push(Column::new("check finds"));
+    let mut table = Table::new(caption(report), columns);
+    for fault in &report.faults {
+        for of in &fault.severities {
+            let mut cells = vec![
+                Cell::text(fault.id),
+                Cell::Number(of.severity.to_string()),
+                Cell::Number(short(of.parameter)),
+                Cell::Number(of.stimulus.map_or_else(|| "–".to_owned(), short)),
+            ];
+            let ratios = channels.iter().map(|name| {
+                let score = of.stale.get(*name);
+                score.map_or_else(|| Cell::text("–"), |score| cell(&score.degradation))
+            });
+            cells.extend(ratios);
+            cells.push(Cell::text(of.check.join(" ")));
+            table.push(cells);
+        }
+    }
+    for words in notes(report, &channels) {
+        table.note(words);
+    }
+    table
+}
+
+fn caption(report: &StressReport) -> String {
+    let by = match report.by {
+        By::Stimulus => "stimulus",
+        By::Parameter => "parameter",
+    };
+    format!(
+        "Mean absolute errors with faults, divided by those without, with 95 % intervals: faults {}, severity by {by}, seed {}, {} samples of the part {}",
+        report.list.name,
+        report.seed,
+        report.samples,
+        report.provenance.part.as_deref().unwrap_or("all")
+    )
+}
+
+/// Remarks below the table, whole sentences.
+fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
+    let mut notes = Vec::new();
+    let clean = channels.iter().filter_map(|name| {
+        let mae = phrase(&report.clean.get(*name)?.mae, report.units.get(*name)?);
+        Some(format!("{name} {mae}"))
+    });
+    let clean: Vec<String> = clean.collect();
+    notes.push(format!("Error without a fault: {}.", clean.join(", ")));
+    notes.extend(report.faults.iter().map(|fault| of_fault(fault, channels)));
+    let mean = by_channel(channels, |name| Some(phrase(report.mean.get(name)?, "")));
+    notes.push(format!("Mean degradation over all faults: {mean}."));
+    if let Some(unnoticed) = &report.unnoticed {
+        let names = match unnoticed.is_empty() {
+            true => "none".to_owned(),
+            false => unnoticed.join(", "),
+        };
+        notes.push(format!(
+            "Faults that at least double an error, unnoticed by the check of untouched pictures (TAC034): {names}."
+        ));
+    }
+    notes.extend(report.faults.iter().filter_map(|fault| {
+        let words = fault.note?;
+        Some(format!("{}: {words}.", fault.id))
+    }));
+    if report.untouched != "reference" {
+        notes.push(format!(
+            "The recording has no untouched picture; the change by faults and contact is measured from: {}.",
+            report.untouched
+        ));
+    }
+    if report.left_out > 0 {
+        let left_out = counted(report.left_out, "sample");
+        notes.push(format!("{left_out} left out, without a picture."));
+    }
+    let skipped = report.skipped.iter();
+    notes.extend(skipped.map(|of| format!("Skipped: {}: {}.", of.fault, of.reason)));
+    notes.extend(report.not_measured.clone());
+    notes
+}
+
+/// Summary of a fault in one line.
+fn of_fault(fault: &FaultReport, channels: &[&str]) -> String {
+    let breaks = by_channel(channels, |name| {
+        Some(match fault.breaks_at.get(name)? {
+            Some(NEVER) => "never".to_owned(),
+            Some(severity) => severity.to_string(),
+            None => "unknown".to_owned(),
+        })
+    });
+    let recovers = by_channel(channels, |name| {
+        let share = fault.recovers.get(name)?.value?;
+        Some(format!("{:.0} %", 100.0 * share))
+    });
+    let mut line = format!("{}: skill ends at severity: {breaks}", fault.id);
+    if !recovers.is_empty() {
+        line.push_str(&format!(
+            "; a new untouched picture removes of the excess error: {recovers}"
+        ));
+    }
+    for of in &fault.unreached {
+        line.push_str(&format!(
+            "; severity {} is not possible: {} of a contact at the parameter {}, expected {}",
+            of.severity,
+            short(of.most),
+            short(of.parameter),
+            of.target
+        ));
+    }
+    line.push('.');
+    line
+}
+
+/// Words for each channel that has some: `Fz 3, Pxy never`.
+fn by_channel(channels: &[&str], words: impl Fn(&str) -> Option<String>) -> String {
+    let known = channels
+        .iter()
+        .filter_map(|name| Some(format!("{name} {}", words(name)?)));
+    known.collect::<Vec<String>>().join(", ")
+}
+
+/// Planes, and channels that are no axis of one.
+fn main_channels(report: &StressReport) -> Vec<&str> {
+    let names = report.clean.keys().map(String::as_str);
+    let is_main = |name: &&str| {
+        let plane = plane_of(name);
+        plane.is_none_or(|plane| !report.clean.contains_key(plane))
+    };
+    names.filter(is_main).collect()
+}
+
+/// A number with four digits.
+fn short(number: f64) -> String {
+    FormattedValue::number(number, None).value
+}
+
+fn formatted(of: &Estimate) -> FormattedValue {
+    match of.value {
+        Some(value) => FormattedValue::number(value, of.ci95),
+        None => FormattedValue {
+            reason: of.reason.map(|reason| reason.to_string()),
+            ..FormattedValue::default()
+        },
+    }
+}
+
+fn phrase(of: &Estimate, unit: &str) -> String {
+    let unit = match unit {
+        "" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    formatted(of).phrase(&unit)
+}
+
+fn cell(of: &Estimate) -> Cell {
+    Cell::Estimate(taceva_report::Estimate {
+        formatted: formatted(of),
+        ..taceva_report::Estimate::default()
+    })
+}
+
+/// Table for programs: one row for each number, in shortest round-trip form.
+pub(crate) fn numbers(report: &StressReport) -> Table {
+    let columns = [
+        "fault",
+        "severity",
+        "parameter",
+        "stimulus",
+        "untouched",
+        "channel",
+        "quantity",
+        "value",
+        "unit",
+        "ci95_low",
+        "ci95_high",
+        "reason",
+        "source",
+    ];
+    let mut rows = Rows {
+        table: Table::new("Errors with faults", columns),
+        report,
+    };
+    for (channel, score) in &report.clean {
+        let unit = rows.unit(channel);
+        rows.push(&Place::default(), channel, "mae", &score.mae, unit);
+        rows.push(&Place::default(), channel, "skill", &score.skill, "1");
+    }
+    for (channel, mean) in &report.mean {
+        rows.push(&Place::default(), channel, "mD", mean, "1");
+    }
+    for fault in &report.faults {
+        let whole = Place {
+            fault: fault.id,
+            ..Place::default()
+        };
+        for (channel, mean) in &fault.mean {
+            rows.push(&whole, channel, "D", mean, "1");
+        }
+        for (channel, share) in &fault.recovers {
+            rows.push(&whole, channel, "recovers", share, "1");
+        }
+        for (channel, severity) in &fault.breaks_at {
+            let severity = Estimate::of_known(severity.map(f64::from));
+            rows.push(&whole, channel, "breaks_at", &severity, "1");
+        }
+        for of in &fault.severities {
+            let sides = [("before", Some(&of.stale)), ("after", of.fresh.as_ref())];
+            for (untouched, scores) in sides {
+                for (channel, score) in scores.into_iter().flatten() {
+                    let place = Place {
+                        fault: fault.id,
+                        severity: Some(of),
+                        untouched,
+                    };
+                    rows.push_cell(&place, channel, score);
+                }
+            }
+        }
+    }
+    rows.table
+}
+
+/// Fault, severity and untouched picture of a number.
+#[derive(Clone, Copy, Default)]
+struct Place<'a> {
+    fault: &'a str,
+    severity: Option<&'a SeverityReport>,
+    untouched: &'a str,
+}
+
+/// Rows of the table for programs.
+struct Rows<'a> {
+    table: Table,
+    report: &'a StressReport,
+}
+
+impl<'a> Rows<'a> {
+    fn unit(&self, channel: &str) -> &'a str {
+        self.report.units.get(channel).copied().unwrap_or("")
+    }
+
+    fn push_cell(&mut self, place: &Place<'_>, channel: &str, score: &CellScore) {
+        let unit = self.unit(channel);
+        self.push(place, channel, "mae", &score.mae, unit);
+        self.push(place, channel, "skill", &score.skill, "1");
+        self.push(place, channel, "degradation", &score.degradation, "1");
+        let capped = Estimate::of_known(score.capped);
+        self.push(place, channel, "capped", &capped, unit);
+    }
+
+    fn push(
+        &mut self,
+        place: &Place<'_>,
+        channel: &str,
+        quantity: &str,
+        of: &Estimate,
+        unit: &str,
+    ) {
+        let number = |value: Option<f64>| {
+            Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
+        };
+        let severity = place.severity;
+        let level = severity.map_or_else(String::new, |of| of.severity.to_string());
+        let reason = of.reason.map_or_else(String::new, |of| of.to_string());
+        self.table.push([
+            Cell::text(place.fault),
+            Cell::Number(level),
+            number(severity.map(|of| of.parameter)),
+            number(severity.and_then(|of| of.stimulus)),
+            Cell::text(place.untouched),
+            Cell::text(channel),
+            Cell::text(quantity),
+            number(of.value),
+            Cell::text(unit),
+            number(of.ci95.map(|[low, _]| low)),
+            number(of.ci95.map(|[_, high]| high)),
+            Cell::text(reason),
+            Cell::text(self.report.subject.source.as_str()),
+        ]);
+    }
+}

@@ -1,0 +1,99 @@
+//! Faults of pictures, scored with a fitted model.
+
+use std::fs;
+
+use crate::support::Bench;
+
+/// A model of the recording `seen`, and the recording `unseen`.
+fn bench() -> Bench {
+    let bench = Bench::new();
+    bench.record_with_noise("seen", 24, 0);
+    bench.record_with_noise("unseen", 24, 3);
+    bench.ok("fit seen --model ridge --set size=8x8 --out m.taceva -q");
+    bench
+}
+
+const STRESS: &str = "stress unseen --model m.taceva --faults defocus,stale_frames --severity 1,4";
+
+#[test]
+fn json_has_the_published_form_and_says_that_nothing_was_measured() {
+    let bench = bench();
+    let report = bench.json(STRESS);
+    crate::schema::check("stress", &report);
+    assert_eq!(report["list"]["name"], "defocus,stale_frames");
+    let said = report["not_measured"].as_str().expect("drawn pictures");
+    assert!(said.contains("synthetic"), "{said}");
+    // The drawn recording has no reference frame.
+    assert_eq!(report["untouched"], "least load");
+    assert!(report["unnoticed"].is_null());
+    let whole = bench.json("stress unseen --model m.taceva --by parameter");
+    crate::schema::check("stress", &whole);
+    assert_eq!(whole["list"]["name"], "gel-12/1");
+    assert_eq!(whole["faults"].as_array().map(Vec::len), Some(12));
+}
+
+#[test]
+fn the_table_has_a_row_for_each_severity_and_states_where_skill_ends() {
+    let bench = bench();
+    let words = STRESS.replace("1,4", "1,4 --by parameter");
+    for format in ["text", "md"] {
+        let said = bench.ok(&format!("{words} --format {format} -q"));
+        let rows = said.lines().filter(|line| line.contains("defocus "));
+        assert!(rows.count() >= 2, "{said}");
+        assert!(said.contains("skill ends at severity"), "{said}");
+        assert!(said.contains("Nothing here was measured"), "{said}");
+    }
+    let csv = bench.ok(&format!("{words} --format csv -q"));
+    assert!(csv.starts_with("fault,severity,parameter,stimulus,untouched,channel,quantity,value"));
+    let rows = csv.lines().skip(1);
+    assert!(rows.clone().all(|row| row.ends_with(",synthetic")), "{csv}");
+    assert!(
+        rows.clone().any(|row| row.starts_with("defocus,4,0.016,")),
+        "{csv}"
+    );
+    assert!(rows.clone().any(|row| row.contains(",breaks_at,")), "{csv}");
+}
+
+#[test]
+fn a_result_is_written_to_a_file_once() {
+    let bench = bench();
+    let words = format!("{STRESS} --format json --out stress.json");
+    bench.ok(&format!("{words} -q"));
+    let text = fs::read_to_string(bench.path("stress.json")).expect("written");
+    assert!(text.contains("taceva.stress/1"), "{text}");
+    bench.refused(&words, 3, "stress.json exists already; --force replaces it");
+}
+
+#[test]
+fn explain_names_faults_and_pictures_and_the_origin() {
+    let said = bench().ok(&format!("{STRESS} --explain"));
+    assert!(said.contains("60 frames of the part `all`"), "{said}");
+    assert!(said.contains("fault    defocus: the lens"), "{said}");
+    assert!(said.contains("synthetic"), "{said}");
+}
+
+#[test]
+fn wrong_faults_severities_models_and_seen_samples_are_refused_by_name() {
+    let bench = bench();
+    let stress = "stress unseen --model m.taceva";
+    bench.refused(
+        &format!("{stress} --faults defocsu"),
+        2,
+        "fault `defocsu`: unknown, did you mean `defocus`?",
+    );
+    for severity in ["0", "6", "high"] {
+        let expected = format!("severity `{severity}`: expected numbers from 1 to 5");
+        bench.refused(&format!("{stress} --severity {severity}"), 2, &expected);
+    }
+    bench.refused(
+        "stress unseen --model ridge",
+        2,
+        "--model ridge: no such file",
+    );
+    bench.refused(
+        "stress seen --model m.taceva --part all",
+        2,
+        "part `all`: the model was fitted on these samples",
+    );
+    bench.refused("stress nowhere --model m.taceva", 3, "nowhere");
+}
