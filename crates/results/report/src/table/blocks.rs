@@ -40,13 +40,13 @@ impl Table {
         let parts = values.chunks(each);
         let parts = parts.map(|part| {
             let columns: Vec<usize> = (0..names).chain(part.iter().copied()).collect();
-            self.part(&columns)
+            self.of_columns(&columns)
         });
         parts.collect()
     }
 
     /// These columns alone.
-    fn part(&self, columns: &[usize]) -> Table {
+    pub(super) fn of_columns(&self, columns: &[usize]) -> Table {
         let rows = self.rows.iter().map(|row| Row {
             cells: columns.iter().map(|at| row.cells[*at].clone()).collect(),
             ..row.clone()

@@ -82,14 +82,11 @@ impl Table {
 
     /// The first column and some others, without caption and notes.
     fn part(&self, columns: &[usize]) -> Table {
-        let shown = || [0].into_iter().chain(columns.iter().copied());
-        let row = |row: &Row| Row {
-            cells: shown().map(|column| row.cells[column].clone()).collect(),
-            ..row.clone()
-        };
+        let shown: Vec<usize> = [0].into_iter().chain(columns.iter().copied()).collect();
+        let Table { columns, rows, .. } = self.of_columns(&shown);
         Table {
-            columns: shown().map(|column| self.columns[column].clone()).collect(),
-            rows: self.rows.iter().map(row).collect(),
+            columns,
+            rows,
             ..Table::default()
         }
     }
