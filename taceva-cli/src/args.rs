@@ -4,6 +4,7 @@ mod bench;
 mod budget;
 mod bundle;
 mod cache;
+mod common_options;
 mod curve;
 mod dataset;
 mod examples;
@@ -15,7 +16,6 @@ mod model;
 mod plugin;
 mod results;
 mod rig;
-mod shared;
 mod study;
 mod sweep;
 
@@ -29,6 +29,11 @@ pub(crate) use self::bundle::{
     Bundle, BundleDiff, BundleMake, BundleSubject, BundleVerify, WithoutPart,
 };
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
+pub(crate) use self::common_options::{
+    CacheArgs, ExplainArgs, Format, ListFormat, ModelArgs, OptionalModelArgs, Output, PageArgs,
+    PartArg, PartArgs, ScoringArgs, SeedArgs, SettingArgs, SplitArgs, SplitOutArgs, TableArgs,
+    TableScores, ViewArgs,
+};
 pub(crate) use self::curve::Curve;
 pub(crate) use self::dataset::{Check, Export, Import, Reseal};
 pub(crate) use self::figure::FigureArgs;
@@ -46,11 +51,6 @@ pub(crate) use self::results::{
     Conditional, Like, ReportArgs,
 };
 pub(crate) use self::rig::{RigCheckArgs, RigCommand, RigSubject, RigTapArgs, RigTeachArgs};
-pub(crate) use self::shared::{
-    CacheArgs, ExplainArgs, Format, ListFormat, ModelArgs, OptionalModelArgs, Output, PageArgs,
-    PartArg, PartArgs, ScoringArgs, SeedArgs, SettingArgs, SplitArgs, SplitOutArgs, TableArgs,
-    TableScores, ViewArgs,
-};
 pub(crate) use self::study::{PlanArgs, Run, SceneArgs};
 pub(crate) use self::sweep::{
     Sweep, SweepCollect, SweepEngine, SweepRun, SweepShow, SweepSubject, SweepTask,

@@ -1,7 +1,7 @@
 //! `taceva bench`.
 
+mod bench_recording;
 mod models;
-mod pressed;
 
 use taceva_study::bench::{KernelRequest, kernels};
 

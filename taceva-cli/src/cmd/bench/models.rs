@@ -12,7 +12,7 @@ use taceva_report::{
 use taceva_study::bench::{Machine, ModelRace, ModelTrial, ModelTrials, TrialError, models};
 
 use super::super::{Context, open, results};
-use super::pressed::Pressed;
+use super::bench_recording::Pressed;
 use crate::args::{BenchModels, SplitArgs};
 use crate::{exit, output};
 

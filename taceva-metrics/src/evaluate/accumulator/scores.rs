@@ -7,9 +7,9 @@ use crate::evaluate::entry::Entry;
 use crate::evaluate::family::{Details, Numbers, Output};
 use crate::evaluate::metric::Metric;
 use crate::score::flag::Flag;
-use crate::score::standing::Standing;
 use crate::score::value::{UndefinedReason, Value};
 use crate::score::verdict_rule::VerdictRule;
+use crate::score::verdict_standing::Standing;
 use crate::score::{Interval, Score, Variant};
 use crate::stats::IntervalMethod;
 
