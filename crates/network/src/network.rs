@@ -15,7 +15,7 @@ use crate::error::NetworkError;
 use crate::head::Head;
 use crate::machine::Machine;
 use crate::normalised_convolution::{Back, Normed};
-use crate::planes::Planes;
+use crate::planes::{Pictures, Planes};
 use crate::scratch::Scratch;
 use crate::stage::{Stage, StageSpace, Standing};
 use crate::update::Update;
@@ -202,7 +202,11 @@ impl Network {
             let (before, rest) = space.stages.split_at_mut(position);
             let input = before.last().map_or(&space.input, StageSpace::output);
             let (stage, scratch) = (&mut self.stages[position], &mut space.scratch);
-            stage.forward(self.machine, &mut rest[0], (input, count), scratch);
+            let pictures = Pictures {
+                planes: input,
+                count,
+            };
+            stage.forward(self.machine, &mut rest[0], pictures, scratch);
         }
         let last = space.stages.last().expect("an architecture has stages");
         self.head.see(last.output(), count, &mut space.features);

@@ -6,7 +6,7 @@ use super::Moments;
 use super::sums::{ChannelSums, PIXELS_AT_ONCE};
 use crate::machine::Machine;
 use crate::panel::{Aligned, PANEL};
-use crate::planes::{Layout, Planes};
+use crate::planes::{Layout, Pictures, Planes};
 use crate::simd::{Job, Vector};
 
 /// Mask of a gradient by ReLU. The gradient passes where the output was positive.
@@ -104,12 +104,14 @@ impl GradientSums {
 /// scale · (g − Σg/n − (x − mean) · inverse² · Σ(g · (x − mean))/n), for the first `count` pictures.
 pub(crate) fn input_gradient(
     machine: Machine,
-    (raw, count): (&Planes, usize),
-    (moments, sums): (&Moments, &GradientSums),
+    raw: Pictures<'_>,
+    moments: &Moments,
+    sums: &GradientSums,
     gate: Gate<'_>,
     gradient: &Planes,
     into: &mut Planes,
 ) {
+    let Pictures { planes: raw, count } = raw;
     let length = raw.layout().len();
     let raws = raw.first(count).par_chunks_exact(length);
     let gradients = gradient.first(count).par_chunks_exact(length);
