@@ -7,6 +7,7 @@ mod registration;
 mod sensor;
 mod teach;
 
+pub(crate) use axes::Along;
 pub use axes::SignedAxes;
 pub use changers::RigChangers;
 pub use latency::{Latency, RigLatencies};

@@ -130,9 +130,10 @@ impl Accumulator {
                     let finish = |sums: &ErasedSums| self.resampled(metric, output, sums);
                     let counts = cells.iter();
                     let counts = counts.map(|(_, cell)| self.samples(metric, output, cell));
-                    let total = (&request.numbers, counts.fold(0, u64::saturating_add));
+                    let samples = counts.fold(0, u64::saturating_add);
                     let (empty, resampling) = (&self.clustering.empty, &mut request.resampling);
-                    resampling.weigh(bootstrap, empty, &cells, total, &finish);
+                    let numbers = &request.numbers;
+                    resampling.weigh(bootstrap, empty, &cells, numbers, samples, &finish);
                 }
             }
         }

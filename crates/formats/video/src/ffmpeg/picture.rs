@@ -79,8 +79,8 @@ impl RawFrame {
             Layout::Planar { shifts, bits, .. } => {
                 let bytes = of_8_bits(bytes, bits);
                 let (luma, chroma) = bytes.split_at(pixels);
-                let each = chroma_side(self.width as usize, shifts.0)
-                    * chroma_side(self.height as usize, shifts.1);
+                let each = chroma_side(self.width as usize, shifts[0])
+                    * chroma_side(self.height as usize, shifts[1]);
                 let (blue, red) = chroma.split_at(each);
                 planes(luma, Some([blue, red]), shifts)
             }
