@@ -85,10 +85,6 @@ impl Stamp {
 }
 
 fn seconds(time: Duration) -> f64 {
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "exact for a hundred days, to the microsecond for ever"
-    )]
     let count = time.as_nanos() as f64;
     count / NANOSECONDS
 }

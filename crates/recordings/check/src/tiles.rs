@@ -51,7 +51,6 @@ impl Tiles {
         let top = u64::from(info.format.full_scale());
         let means = sums.iter().zip(&counts).map(|(sum, count)| {
             #[expect(
-                clippy::cast_precision_loss,
                 clippy::cast_possible_truncation,
                 reason = "a share of the full scale, of which seven digits are plenty"
             )]

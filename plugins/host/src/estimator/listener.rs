@@ -21,7 +21,6 @@ pub(super) unsafe extern "C" fn progress(context: *mut c_void, done: f64) -> i32
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
-        clippy::cast_precision_loss,
         reason = "clamped to the number of steps; NaN becomes 0"
     )]
     let reached = (done.clamp(0.0, 1.0) * STEPS as f64) as u64;

@@ -44,7 +44,6 @@ impl Scale {
 
     /// Standard deviation of a response for unit pixel noise: from the squared weights of both averages, without the surroundings.
     pub(super) fn noise_gain(self) -> f32 {
-        #[expect(clippy::cast_precision_loss, reason = "a few pixels")]
         let side = (2 * self.near() + 1) as f32;
         (2.0 * side * side + 1.0) / (3.0 * side * side * side)
     }

@@ -143,7 +143,6 @@ fn histogram(values: &[f64], [low, high]: [f64; 2]) -> Vec<f64> {
         .collect()
 }
 
-#[expect(clippy::cast_precision_loss, reason = "counts of samples")]
 fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole as f64
 }
