@@ -12,6 +12,7 @@ use crate::panel::{Aligned, PANEL};
 use crate::planes::{Layout, Pictures, Planes};
 use crate::scratch::Scratch;
 use crate::update::Update;
+use taceva_core::single;
 
 /// A convolution and its normalisation.
 #[derive(Clone, Debug)]
@@ -171,10 +172,6 @@ impl Normed {
     }
 
     /// Weights with the running moments folded in, and the remaining bias.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "products are formed in double precision and kept in single"
-    )]
     pub(crate) fn fold(&self) -> (ConvolutionWeights, Aligned) {
         let mut weights = self.weights.clone();
         let channels = self.convolution().outputs;
@@ -182,10 +179,10 @@ impl Normed {
         let mut bias = Aligned::zeros(channels);
         for channel in 0..channels {
             let (scale, shift) = self.norm.frozen(channel);
-            bias[channel] = shift as f32;
+            bias[channel] = single(shift);
             let panel = &mut weights.values_mut()[channel / PANEL * rows * PANEL..][..rows * PANEL];
             for weight in panel[channel % PANEL..].iter_mut().step_by(PANEL) {
-                *weight = (f64::from(*weight) * scale) as f32;
+                *weight = single(f64::from(*weight) * scale);
             }
         }
         (weights, bias)
