@@ -74,7 +74,7 @@ pub use orientation::Orientation;
 pub use outcome::{Limit, PressOutcome};
 pub use panic::{caught, contained};
 pub use phase::Phase;
-pub use precision::single;
+pub use precision::{single, whole_count, whole_size};
 pub use printable::{Shown, is_obeyed, markdown, shown, shown_lines};
 pub use progress::{Progress, SilentProgress};
 pub use quantity::{Degree, Hertz, Lux, Millimetre, Newton, NewtonMillimetre};

@@ -1,6 +1,6 @@
 //! Distance of a sample from the training part.
 
-use taceva_core::{FeatureShape, Features, ModelError, Progress, single};
+use taceva_core::{FeatureShape, Features, ModelError, Progress, single, whole_size};
 
 use super::pca::Pca;
 use crate::linalg::invalid;
@@ -280,12 +280,7 @@ fn halves(chosen: &[usize], groups: Option<&[u32]>) -> [Vec<usize>; 2] {
 /// 99 % quantile.
 fn quantile(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a place among at most 256"
-    )]
-    let rank = (values.len() as f64 * WITHIN).ceil() as usize;
+    let rank = whole_size((values.len() as f64 * WITHIN).ceil());
     values[rank.clamp(1, values.len()) - 1]
 }
 

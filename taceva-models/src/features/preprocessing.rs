@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use taceva_core::{FeatureShape, single};
+use taceva_core::{FeatureShape, single, whole_size};
 
 /// Preprocessing of each picture.
 ///
@@ -48,15 +48,10 @@ impl Preprocessing {
     }
 
     /// Weights of a pixel's neighbours at distance 0, 1, …
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "three standard deviations of at most a hundred pixels"
-    )]
     fn kernel(&self) -> Option<Vec<f64>> {
         let sigma = self.local_mean_px;
         (sigma > 0.0).then(|| {
-            let reach = (REACH * sigma).ceil() as usize;
+            let reach = whole_size((REACH * sigma).ceil());
             let weight = |distance: usize| (-0.5 * (distance as f64 / sigma).powi(2)).exp();
             (0..=reach).map(weight).collect()
         })

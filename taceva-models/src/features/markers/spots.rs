@@ -1,6 +1,7 @@
 //! Subpixel detection of spots darker or brighter than their surroundings.
 
 use super::plane::Plane;
+use taceva_core::whole_size;
 
 /// Contrast of markers with the gel: darker or brighter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,13 +50,8 @@ impl Scale {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "some pixels of a frame"
-)]
 fn whole(pixels: f64) -> usize {
-    pixels.round().max(1.0) as usize
+    whole_size(pixels.round().max(1.0))
 }
 
 /// Detects spots of `picture` with a contrast above `least`, highest contrast first.

@@ -9,7 +9,7 @@ use smartcore::ensemble::random_forest_regressor::{
     RandomForestRegressor, RandomForestRegressorParameters,
 };
 use smartcore::linalg::basic::matrix::DenseMatrix;
-use taceva_core::{ErrorKind, ModelError};
+use taceva_core::{ErrorKind, ModelError, whole_size};
 
 use super::{RELEASE, records};
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
@@ -196,11 +196,6 @@ fn node(node: &Value) -> Option<Node> {
     })
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a share of the number of features"
-)]
 fn fit(
     adapter: &Adapter,
     grow: Grow,
@@ -211,7 +206,7 @@ fn fit(
     let records = records(name, task)?;
     let one = |target: usize| {
         interrupted(task.progress)?;
-        let among = (task.values[target] * task.sizes.features as f64).ceil() as usize;
+        let among = whole_size((task.values[target] * task.sizes.features as f64).ceil());
         let labels = task.target(target);
         let grown = guarded(name, || grow(set, &records, &labels, among.max(1)))?;
         let trees = trees(&grown).ok_or_else(|| {
