@@ -179,9 +179,6 @@ fn hostile(subject: &Subject) -> Result<(), Unmet> {
 struct Cancelled;
 
 impl Progress for Cancelled {
-    fn begin(&self, _: &str, _: Option<u64>) {}
-    fn advance(&self, _: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         true
     }
