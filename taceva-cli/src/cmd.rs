@@ -138,9 +138,7 @@ pub(crate) fn open_seen(
 fn check_free(scoring: &ScoringArgs, output: &Output) -> anyhow::Result<()> {
     let files = output.path.iter().chain(&scoring.state_out);
     let files = files.chain(&scoring.page.path).chain(&scoring.samples_out);
-    for path in files {
-        output::check_free(path, output.force)?;
-    }
+    output::check_all_free(files, output.force)?;
     if scoring.figure.is_set() && scoring.figures.is_none() {
         return Err(Usage::error(
             "--figure-width, --figure-font and --figure-size apply to figure files: add --figures FOLDER",
