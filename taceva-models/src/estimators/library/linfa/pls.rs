@@ -52,11 +52,10 @@ pub(super) static ADAPTER: Adapter = Adapter {
             |settings| ADAPTER.estimator(settings),
         ),
         release: RELEASE,
-        work: |LibrarySizes {
-                   samples, features, ..
-               }| {
+        work: |sizes| {
+            let [samples, features, _] = sizes.real();
             // About a hundred power iterations for each of 114 + 30 components.
-            Some(144.0 * 100.0 * samples as f64 * features as f64)
+            Some(144.0 * 100.0 * samples * features)
         },
         load: Linear::load,
     },

@@ -122,14 +122,9 @@ pub(super) static EXTRA_TREES: Adapter = Adapter {
 /// Work of a hundred trees, grown four times: for each of three shares, and for the chosen one. Every tree sorts every feature at
 /// every depth.
 fn work(sizes: LibrarySizes) -> Option<f64> {
-    let LibrarySizes {
-        samples,
-        features,
-        targets,
-    } = sizes;
-    let samples = samples as f64;
+    let [samples, features, targets] = sizes.real();
     let depth = 2.0 * samples.log2().max(1.0);
-    Some(4.0 * 100.0 * 2.0 * targets as f64 * samples * features as f64 * depth)
+    Some(4.0 * 100.0 * 2.0 * targets * samples * features * depth)
 }
 
 /// Grows the trees of one target with a number of features per split. Returns them serialised by the library, or the library's error.
