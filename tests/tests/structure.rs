@@ -16,7 +16,7 @@ const MOST_LINES: (usize, usize) = (230_400, 441_200);
 const MOST_LINES_OF_A_FILE: usize = 400;
 
 /// Most tuple parameters.
-const MOST_TUPLES: usize = 5;
+const MOST_TUPLES: usize = 4;
 
 /// Most files named by participles.
 const MOST_PARTICIPLES: usize = 4;
