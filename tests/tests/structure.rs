@@ -10,7 +10,7 @@ use taceva_tests::structure::{
 /// them, gauge studies, budgets, curves and their distributions 9,000 and 13,000, agreement and tolerance intervals of predictions 750 and
 /// 1,400, certificates 1,300 and 2,700, `taceva budget`, decision rules, settings of boxes and remedies 3,350 and 7,800,
 /// bundles 4,700 and 8,200.
-const MOST_LINES: (usize, usize) = (230_400, 441_200);
+const MOST_LINES: (usize, usize) = (230_350, 441_120);
 
 /// Most lines of one file, with its comments and tests.
 const MOST_LINES_OF_A_FILE: usize = 400;
