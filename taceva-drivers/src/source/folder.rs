@@ -133,6 +133,7 @@ fn is_picture(path: &Path) -> bool {
 }
 
 fn steady(names: Vec<String>, rate: Hertz) -> (Vec<String>, Vec<f64>) {
+    #[expect(clippy::cast_precision_loss, reason = "at most 2^20 frames")]
     let times_s = (0..names.len()).map(|position| position as f64 / rate.0);
     let times_s = times_s.collect();
     (names, times_s)

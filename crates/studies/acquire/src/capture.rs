@@ -301,6 +301,10 @@ impl Recording<'_> {
         let first_s = *self.first_s.get_or_insert(stamp_s);
         let state = &mut self.state;
         let number = self.labels.frames();
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "a count of frames, for display only"
+        )]
         if number > 1 && stamp_s > first_s {
             state.rate_hz = (number - 1) as f64 / (stamp_s - first_s);
         }

@@ -31,6 +31,10 @@ impl Timeline {
     /// Due time of frame number `frame`, s; `None` after the end.
     pub(super) fn time_s(&self, frame: usize) -> Option<f64> {
         let round = frame / self.times_s.len();
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "a replay never reaches 2^53 rounds"
+        )]
         let begins_s = self.shift_s + round as f64 * self.round_s();
         (self.repeat || round == 0).then(|| begins_s + self.times_s[self.position(frame)])
     }

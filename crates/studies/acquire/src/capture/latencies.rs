@@ -45,10 +45,12 @@ impl Latencies {
 
     /// Least whole number of milliseconds that covers `share` (0 to 1) of the latencies; `None` without latencies, or beyond 2 s.
     pub fn within_ms(&self, share: f64) -> Option<u64> {
+        #[expect(clippy::cast_precision_loss, reason = "a count, far below 2^53")]
         let wanted = share * self.total as f64;
         let mut sum = 0;
         for (bin, count) in self.counts.iter().enumerate().take(MOST_MS) {
             sum += count;
+            #[expect(clippy::cast_precision_loss, reason = "a count, far below 2^53")]
             let is_reached = sum > 0 && sum as f64 >= wanted;
             if is_reached {
                 return Some(bin as u64 + 1);
@@ -60,6 +62,7 @@ impl Latencies {
     /// Share (0 to 1) of the latencies up to `milliseconds`; `None` without latencies.
     pub fn share_within(&self, milliseconds: usize) -> Option<f64> {
         let within: u64 = self.counts.iter().take(milliseconds.min(MOST_MS)).sum();
+        #[expect(clippy::cast_precision_loss, reason = "counts, far below 2^53")]
         let share = within as f64 / self.total as f64;
         (self.total > 0).then_some(share)
     }
