@@ -100,8 +100,7 @@ impl Frame {
         if pixels == 0 {
             return 0.0;
         }
-        let mean = sum as f64 / (pixels as u64 * 1000 * steps) as f64;
-        mean
+        sum as f64 / (pixels as u64 * 1000 * steps) as f64
     }
 }
 

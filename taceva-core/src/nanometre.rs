@@ -40,8 +40,7 @@ impl Nanometre {
 
     /// The number of nanometres, exact up to 2⁵³.
     pub fn to_f64(self) -> f64 {
-        let nanometres = self.0 as f64;
-        nanometres
+        self.0 as f64
     }
 }
 

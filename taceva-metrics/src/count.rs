@@ -1,6 +1,5 @@
 //! Counts as numbers of double precision.
 
 pub(crate) fn as_f64(count: u64) -> f64 {
-    let count = count as f64;
-    count
+    count as f64
 }

@@ -385,8 +385,7 @@ fn count(of: usize) -> u64 {
 }
 
 fn number(count: u64) -> f64 {
-    let number = count as f64;
-    number
+    count as f64
 }
 
 #[cfg(test)]

@@ -30,7 +30,7 @@ pub(super) const CHECKS: &[Check] = &[
     OF.check("library/unknown-rig-extension", unknown_rig_extension),
     OF.check("library/keeps-surroundings", keeps_surroundings),
     OF.check("library/keeps-signals", keeps_signals),
-    check(QUIET, quiet),
+    OF.check(QUIET, quiet),
 ];
 
 fn load(subject: &Subject) -> Result<std::sync::Arc<Library>, Unmet> {

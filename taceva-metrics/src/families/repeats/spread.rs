@@ -163,8 +163,7 @@ impl SpreadSums {
 }
 
 fn whole(count: u64) -> f64 {
-    let count = count as f64;
-    count
+    count as f64
 }
 
 /// RN of the mean of exact values.

@@ -62,8 +62,7 @@ impl Grid {
 }
 
 fn as_f64(value: i64) -> f64 {
-    let value = value as f64;
-    value
+    value as f64
 }
 
 #[cfg(test)]

@@ -210,6 +210,5 @@ impl Squares {
 }
 
 pub(super) fn real(count: u64) -> f64 {
-    let real = count as f64;
-    real
+    count as f64
 }

@@ -130,8 +130,7 @@ pub(super) fn assemble(study: &Balanced, settings: &GaugeSettings) -> GaugeRepor
 }
 
 fn whole(value: f64) -> u64 {
-    let whole = whole_count(value.floor());
-    whole
+    whole_count(value.floor())
 }
 
 /// Components of an analysis of variance; negative values become 0.
