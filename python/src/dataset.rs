@@ -16,7 +16,7 @@ use crate::buffer::{Buffer, Number};
 use crate::errors::{
     dataset_error, dataset_error_at, dataset_error_of, import_error, study_error, value_error,
 };
-use crate::watched;
+use crate::worker;
 
 /// A recording on disk. Its rows are samples: labels, and optionally a frame or signals.
 #[pyclass(module = "taceva._taceva", frozen)]
@@ -164,7 +164,7 @@ impl Recording {
             .checked_mul(rows.len())
             .ok_or_else(|| value_error("the array is larger than memory"))?;
         bytes.try_reserve_exact(length).map_err(value_error)?;
-        let decoded = watched::run(py, bar, |progress| {
+        let decoded = worker::run(py, bar, |progress| {
             let pass = Pass::new(&rows, jobs_of(jobs), progress);
             let take = |_, frame: taceva_core::Frame| {
                 bytes.extend_from_slice(frame.bytes());
@@ -257,7 +257,7 @@ impl Recording {
                 let names: Vec<&str> = known.map(ExportForm::name).collect();
                 value_error(format_args!("form {form:?}: expected {}", names.join(", ")))
             })?;
-        let exported = watched::run(py, bar, |progress| {
+        let exported = worker::run(py, bar, |progress| {
             ExportPlan::new(&self.dataset, known)?.run(&out, jobs_of(jobs), progress)
         })?;
         exported
@@ -273,7 +273,7 @@ impl Recording {
         jobs: usize,
         bar: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let checked = watched::run(py, bar, |progress| {
+        let checked = worker::run(py, bar, |progress| {
             let request = CheckRequest {
                 only: Vec::new(),
                 split: None,

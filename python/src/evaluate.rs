@@ -12,7 +12,7 @@ use taceva_models::{ModelSettings, Models};
 use crate::dataset::{Recording, jobs_of, models};
 use crate::errors::{ModelError, study_error, value_error};
 use crate::inventory::host;
-use crate::{results, watched};
+use crate::{results, worker};
 
 /// Results file of two tables, with the content that `taceva score` writes, and the table of their samples if they are kept.
 #[pyfunction]
@@ -41,7 +41,7 @@ pub(crate) fn score_tables(
         allow_invalid,
         jobs: jobs_of(jobs),
     };
-    let scored = watched::run(py, bar, |progress| -> Result<_, EvaluateError> {
+    let scored = worker::run(py, bar, |progress| -> Result<_, EvaluateError> {
         let scoring = Scoring::read(request)?;
         let mut report = scoring.run(progress)?.report;
         let rows = report.scores.iter().map(|score| score.n + score.n_invalid);
@@ -124,7 +124,7 @@ pub(crate) fn evaluate_named(
         };
         taceva_evaluate::evaluate(&recording.dataset, &request, work)
     };
-    let evaluated: Result<_, EvaluateError> = watched::run(py, bar, work)?;
+    let evaluated: Result<_, EvaluateError> = worker::run(py, bar, work)?;
     results::sealed_with_samples(&evaluated.map_err(|error| study_error(&error))?.report)
 }
 

@@ -10,14 +10,14 @@ mod columns;
 mod dataset;
 mod errors;
 mod evaluate;
-mod given;
 mod inventory;
 mod metrics;
 mod metrology;
 mod plugin;
+mod python_model;
 mod record;
 mod results;
-mod watched;
+mod worker;
 
 use pyo3::prelude::*;
 
@@ -36,8 +36,6 @@ mod _taceva {
     #[pymodule_export]
     use super::evaluate::{evaluate_named, score_tables};
     #[pymodule_export]
-    use super::given::{Given, features};
-    #[pymodule_export]
     use super::inventory::{found_plugins, metric_titles, model_names};
     #[pymodule_export]
     use super::metrics::{Sums, channel_order, unit_of};
@@ -47,6 +45,8 @@ mod _taceva {
     use super::plugin::{Deadline, Interrupted, Training};
     #[pymodule_export]
     use super::plugin::{plugin_log, plugin_manifest, serve_plugin, wire};
+    #[pymodule_export]
+    use super::python_model::{Given, features};
     #[pymodule_export]
     use super::record::{import_recording, record};
     #[pymodule_export]

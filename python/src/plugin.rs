@@ -10,7 +10,7 @@ mod failure;
 mod force;
 mod lighting;
 mod objects;
-mod offered;
+mod offer;
 mod poses;
 mod robot;
 mod sensor;
@@ -25,7 +25,7 @@ use taceva_conformance::serve_as_child;
 use taceva_host::{Linked, ModuleToImport, run_within};
 use taceva_plugin::Level;
 
-use self::offered::Offered;
+use self::offer::Offered;
 use crate::errors::value_error;
 
 pub(crate) use self::training::Training;

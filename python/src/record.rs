@@ -15,7 +15,7 @@ use crate::buffer::Pixels;
 use crate::dataset::jobs_of;
 use crate::errors::{dataset_error, import_error, value_error};
 use crate::metrics::channels_of;
-use crate::watched;
+use crate::worker;
 
 /// Facts of a recording, parsed by the Python side.
 #[derive(FromPyObject)]
@@ -121,7 +121,7 @@ pub(crate) fn record(
         let bytes = Python::attach(|py| frames.bytes(py, row));
         Frame::new(info, bytes).map(Some).map_err(value_error)
     };
-    watched::run(py, bar, |progress| -> PyResult<()> {
+    worker::run(py, bar, |progress| -> PyResult<()> {
         let mut recorder = Recorder::create(&path, &spec).map_err(|error| dataset_error(&error))?;
         let done = (|| {
             if let Some(reference) = &reference {
@@ -206,7 +206,7 @@ pub(crate) fn import_recording(
     jobs: usize,
     bar: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<()> {
-    let imported = watched::run(py, bar, |progress: &dyn Progress| {
+    let imported = worker::run(py, bar, |progress: &dyn Progress| {
         // Recovers an interrupted replacement first, which restores the earlier dataset.
         settle(&out)?;
         let decoders = Decoders { ffmpeg, av1: None };

@@ -8,7 +8,6 @@ pub(crate) fn bytes(count: u64) -> String {
     if count < 1000 {
         return format!("{count} B");
     }
-    #[expect(clippy::cast_precision_loss, reason = "three digits of it are shown")]
     let mut number = count as f64 / 1e3;
     let mut unit = 0;
     while number >= 999.5 && unit + 1 < units.len() {

@@ -5,6 +5,7 @@ mod budget;
 mod bundle;
 mod cache;
 mod catalogue;
+mod common_options;
 mod curve;
 mod dataset;
 mod examples;
@@ -16,7 +17,6 @@ mod model;
 mod plugin;
 mod results;
 mod rig;
-mod shared;
 mod stress;
 mod study;
 mod sweep;
@@ -34,6 +34,11 @@ pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
 pub(crate) use self::catalogue::{
     CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueShow, CatalogueSite, CatalogueSubject,
 };
+pub(crate) use self::common_options::{
+    CacheArgs, ExplainArgs, Format, ListFormat, ModelArgs, OptionalModelArgs, Output, PageArgs,
+    PartArg, PartArgs, ScoringArgs, SeedArgs, SettingArgs, SplitArgs, SplitOutArgs, TableArgs,
+    TableScores, ViewArgs,
+};
 pub(crate) use self::curve::Curve;
 pub(crate) use self::dataset::{Check, Export, Import, Reseal};
 pub(crate) use self::figure::FigureArgs;
@@ -48,11 +53,6 @@ pub(crate) use self::plugin::{
 };
 pub(crate) use self::results::{Accept, Choose, Compare, Conditional, Like, ReportArgs};
 pub(crate) use self::rig::{RigCheckArgs, RigCommand, RigSubject, RigTapArgs, RigTeachArgs};
-pub(crate) use self::shared::{
-    CacheArgs, ExplainArgs, Format, ListFormat, ModelArgs, OptionalModelArgs, Output, PageArgs,
-    PartArg, PartArgs, ScoringArgs, SeedArgs, SettingArgs, SplitArgs, SplitOutArgs, TableArgs,
-    TableScores, ViewArgs,
-};
 pub(crate) use self::stress::{Stress, StressBy};
 pub(crate) use self::study::{PlanArgs, Run, SceneArgs};
 pub(crate) use self::sweep::{

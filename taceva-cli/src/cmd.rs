@@ -2,7 +2,7 @@
 
 pub(crate) mod accept;
 mod attachments;
-mod attended;
+mod attendance;
 pub(crate) mod bench;
 pub(crate) mod budget;
 pub(crate) mod bundle;
@@ -14,6 +14,7 @@ pub(crate) mod choose;
 pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod curve;
+mod device_page;
 pub(crate) mod devices;
 pub(crate) mod doctor;
 mod effort;
@@ -26,7 +27,6 @@ pub(crate) mod init;
 mod live_predictions;
 pub(crate) mod man;
 pub(crate) mod merge;
-mod on_page;
 mod operator;
 mod origin;
 pub(crate) mod plan;
@@ -139,9 +139,7 @@ pub(crate) fn open_seen(
 fn check_free(scoring: &ScoringArgs, output: &Output) -> anyhow::Result<()> {
     let files = output.path.iter().chain(&scoring.state_out);
     let files = files.chain(&scoring.page.path).chain(&scoring.samples_out);
-    for path in files {
-        output::check_free(path, output.force)?;
-    }
+    output::check_all_free(files, output.force)?;
     if scoring.figure.is_set() && scoring.figures.is_none() {
         return Err(Usage::error(
             "--figure-width, --figure-font and --figure-size apply to figure files: add --figures FOLDER",

@@ -4,7 +4,7 @@ mod guard;
 
 use std::fs::File;
 use std::io::{self, BufWriter, IsTerminal, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use taceva_core::shown;
 
 use anyhow::{Context as _, bail};
@@ -39,6 +39,15 @@ pub(crate) fn check_free(path: &Path, force: bool) -> anyhow::Result<()> {
         bail!("{} exists already; --force replaces it", shown(path));
     }
     Ok(())
+}
+
+/// Rejects overwriting any of `paths` without `force`, before any work.
+pub(crate) fn check_all_free<'p>(
+    paths: impl IntoIterator<Item = &'p PathBuf>,
+    force: bool,
+) -> anyhow::Result<()> {
+    let mut paths = paths.into_iter();
+    paths.try_for_each(|path| check_free(path, force))
 }
 
 /// Width of the terminal that shows standard output, in characters; `None` if it is no terminal.

@@ -110,10 +110,6 @@ fn left(done: u64, all: u64, elapsed: Duration) -> Option<Duration> {
     if done == 0 || done > all || elapsed < Duration::from_secs(1) {
         return None;
     }
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "a ratio of counts; nothing is decided by it"
-    )]
     let share = (all - done) as f64 / done as f64;
     Duration::try_from_secs_f64(elapsed.as_secs_f64() * share).ok()
 }

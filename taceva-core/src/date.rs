@@ -44,6 +44,34 @@ impl Date {
             day,
         }
     }
+
+    /// The date of these numbers; `None` if the calendar has no such day. Months and days count from 1.
+    ///
+    /// ```
+    /// use taceva_core::Date;
+    /// assert_eq!(Date::new(2024, 2, 29).map(|day| day.days_since_1970()), Some(19_782));
+    /// assert_eq!(Date::new(2023, 2, 29), None);
+    /// ```
+    pub fn new(year: u64, month: u64, day: u64) -> Option<Date> {
+        let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+        let length = match month {
+            2 => 28 + u64::from(is_leap),
+            4 | 6 | 9 | 11 => 30,
+            1..=12 => 31,
+            _ => return None,
+        };
+        let is_there = year <= 9_999 && (1..=length).contains(&day);
+        is_there.then_some(Date { year, month, day })
+    }
+
+    /// Days from 1 January 1970, negative before.
+    pub fn days_since_1970(self) -> i64 {
+        // Years that begin in March have the leap day at their end. 400 years more keep the numbers positive.
+        let year = self.year + 400 - u64::from(self.month <= 2);
+        let of_year = (153 * ((self.month + 9) % 12) + 2) / 5 + self.day - 1;
+        let days = 365 * year + year / 4 - year / 100 + year / 400 + of_year;
+        days.cast_signed() - 146_097 - 719_468
+    }
 }
 
 impl fmt::Display for Date {
@@ -76,19 +104,9 @@ impl FromStr for Date {
         });
         let mut next = || parts.next().flatten().ok_or(DateError);
         let (year, month, day) = (next()?, next()?, next()?);
-        let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
-        let length = match month {
-            2 => 28 + u64::from(is_leap),
-            4 | 6 | 9 | 11 => 30,
-            1..=12 => 31,
-            _ => return Err(DateError),
-        };
-        let date = Date { year, month, day };
-        let is_written_so = year <= 9_999 && date.to_string() == text;
-        match (1..=length).contains(&day) && is_written_so {
-            true => Ok(date),
-            false => Err(DateError),
-        }
+        let date = Date::new(year, month, day);
+        date.filter(|date| date.to_string() == text)
+            .ok_or(DateError)
     }
 }
 
@@ -124,7 +142,9 @@ mod tests {
             (47_540, "2100-02-28"),
             (47_541, "2100-03-01"),
         ] {
-            assert_eq!(Date::of_unix_s(day * 86_400).to_string(), date);
+            let found = Date::of_unix_s(day * 86_400);
+            assert_eq!(found.to_string(), date);
+            assert_eq!(found.days_since_1970(), day.cast_signed());
             assert_eq!(date.parse(), Ok(Date::of_unix_s(day * 86_400 + 86_399)));
         }
     }

@@ -100,12 +100,7 @@ impl Frame {
         if pixels == 0 {
             return 0.0;
         }
-        #[expect(
-            clippy::cast_precision_loss,
-            reason = "exact up to 2^53, which 35 thousand million 8-bit pixels do not reach"
-        )]
-        let mean = sum as f64 / (pixels as u64 * 1000 * steps) as f64;
-        mean
+        sum as f64 / (pixels as u64 * 1000 * steps) as f64
     }
 }
 

@@ -102,7 +102,6 @@ mod tests {
     #[test]
     fn poses_on_the_grid_survive_the_way_through_metres() {
         for steps in [0, 1, -1, 300_001, 12_345_678, -40_000_000_001_i64] {
-            #[expect(clippy::cast_precision_loss, reason = "small")]
             let mm = steps as f64 / 1e6;
             let there = mm / 1e3;
             assert_eq!(nearest(there * 1e3, 1e6).to_bits(), mm.to_bits());

@@ -28,7 +28,6 @@ impl Nanometre {
         let nanometres = (millimetres * PER_MILLIMETRE).round_ties_even();
         #[expect(
             clippy::cast_possible_truncation,
-            clippy::cast_precision_loss,
             reason = "2^53 is exact, and whole numbers up to it are exact in i64"
         )]
         (nanometres.abs() <= GREATEST as f64).then_some(Nanometre(nanometres as i64))
@@ -41,12 +40,7 @@ impl Nanometre {
 
     /// The number of nanometres, exact up to 2⁵³.
     pub fn to_f64(self) -> f64 {
-        #[expect(
-            clippy::cast_precision_loss,
-            reason = "lengths up to 2^53 nm are exact"
-        )]
-        let nanometres = self.0 as f64;
-        nanometres
+        self.0 as f64
     }
 }
 

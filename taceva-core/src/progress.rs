@@ -11,11 +11,9 @@
 /// struct Ten(AtomicU64);
 ///
 /// impl Progress for Ten {
-///     fn begin(&self, _stage: &str, _steps: Option<u64>) {}
 ///     fn advance(&self, steps: u64) {
 ///         self.0.fetch_add(steps, Ordering::Relaxed);
 ///     }
-///     fn end(&self) {}
 ///     fn is_cancelled(&self) -> bool {
 ///         self.0.load(Ordering::Relaxed) >= 10
 ///     }
@@ -29,12 +27,16 @@
 /// assert_eq!(progress.0.into_inner(), 12);
 /// ```
 pub trait Progress: Send + Sync {
-    /// Begins a stage: its name, and its number of steps if that is known.
-    fn begin(&self, stage: &str, steps: Option<u64>);
-    /// Reports `steps` more done in the current stage.
-    fn advance(&self, steps: u64);
-    /// Ends the current stage.
-    fn end(&self);
+    /// Begins a stage: its name, and its number of steps if that is known. Does nothing by default.
+    fn begin(&self, stage: &str, steps: Option<u64>) {
+        let _ = (stage, steps);
+    }
+    /// Reports `steps` more done in the current stage. Does nothing by default.
+    fn advance(&self, steps: u64) {
+        let _ = steps;
+    }
+    /// Ends the current stage. Does nothing by default.
+    fn end(&self) {}
     /// True if the work should stop at the next safe place.
     fn is_cancelled(&self) -> bool;
     /// True after a second request to stop: a moving robot halts where it is, without retracting first.
@@ -58,9 +60,6 @@ pub trait Progress: Send + Sync {
 pub struct SilentProgress;
 
 impl Progress for SilentProgress {
-    fn begin(&self, _stage: &str, _steps: Option<u64>) {}
-    fn advance(&self, _steps: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         false
     }

@@ -73,10 +73,6 @@ pub const fn mix(word: u64) -> u64 {
 /// ```
 #[inline]
 #[must_use]
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "a whole number below 2^53 is exact"
-)]
 pub const fn unit(bits: u64) -> f64 {
     (bits >> 11) as f64 * UNIT_STEP
 }
@@ -90,10 +86,6 @@ pub const fn unit(bits: u64) -> f64 {
 /// ```
 #[inline]
 #[must_use]
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "a whole number below 2^53 is exact"
-)]
 pub const fn open_unit(bits: u64) -> f64 {
     let number = ((bits >> 11) as f64 + 0.5) * UNIT_STEP;
     if number < 1.0 {

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::time::Duration;
 
+use crate::precision::whole_count;
+
 /// Clock from which a time was read.
 ///
 /// ```
@@ -85,21 +87,12 @@ impl Stamp {
 }
 
 fn seconds(time: Duration) -> f64 {
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "exact for a hundred days, to the microsecond for ever"
-    )]
     let count = time.as_nanos() as f64;
     count / NANOSECONDS
 }
 
 fn nanoseconds(time_s: f64) -> Duration {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a cast saturates, and NaN becomes 0"
-    )]
-    let count = (time_s * NANOSECONDS).round() as u64;
+    let count = whole_count((time_s * NANOSECONDS).round());
     Duration::from_nanos(count)
 }
 

@@ -90,13 +90,11 @@ fn main() -> Result<(), Error> {
 /// Best and median time, ns per pair, to four places.
 fn best_and_median(mut seconds: Vec<f64>, pairs: usize) -> [String; 2] {
     seconds.sort_by(f64::total_cmp);
-    #[expect(clippy::cast_precision_loss, reason = "a count of rows")]
     let pairs = pairs as f64;
     [0, seconds.len() / 2].map(|at| format!("{:.4}", seconds[at] * 1e9 / pairs))
 }
 
 /// Processor time of this thread, s.
-#[expect(clippy::cast_precision_loss, reason = "seconds of one run")]
 fn thread_seconds() -> f64 {
     let time = clock_gettime(ClockId::ThreadCPUTime);
     time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9

@@ -24,14 +24,14 @@ mod compensation;
 mod digits;
 mod kernel;
 mod numbers;
+mod permutation;
 mod reference;
 mod scores;
-mod shuffled;
 mod textbook;
 
 pub use bandwidth::stream_sum;
 pub use case::{Case, Kind, Order, nasty_inputs};
 pub use digits::{ALL_DIGITS, digits};
 pub use kernel::Kernel;
+pub use permutation::shuffled;
 pub use scores::Scores;
-pub use shuffled::shuffled;

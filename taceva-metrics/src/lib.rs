@@ -34,9 +34,9 @@ pub use score::least::LEAST_CLUSTERS;
 pub use score::map::Map;
 pub use score::matrix::Matrix;
 pub use score::range::Range;
-pub use score::standing::Standing;
 pub use score::theme::Theme;
 pub use score::value::{InapplicableReason, UndefinedReason, Value};
+pub use score::verdict_standing::Standing;
 pub use score::{
     BootstrapEnds, ClusteredBy, Count, Fact, Interval, Parameter, Scale, Score, SensorFacts,
     Variant,

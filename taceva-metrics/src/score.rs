@@ -12,10 +12,10 @@ pub(crate) mod matrix;
 pub(crate) mod range;
 mod scale;
 pub(crate) mod sensor_facts;
-pub(crate) mod standing;
 pub(crate) mod theme;
 pub(crate) mod value;
 pub(crate) mod verdict_rule;
+pub(crate) mod verdict_standing;
 
 pub use bootstrap_ends::BootstrapEnds;
 pub use interval::{ClusteredBy, Interval};
@@ -28,8 +28,8 @@ use taceva_core::Unit;
 
 use crate::score::flag::Flag;
 use crate::score::range::Range;
-use crate::score::standing::Standing;
 use crate::score::value::Value;
+use crate::score::verdict_standing::Standing;
 
 /// Nominal coverage of intervals: the share that should contain the truth.
 pub(crate) const COVERAGE: f64 = 0.95;

@@ -76,8 +76,6 @@ impl Progress for Patience {
         }
     }
 
-    fn end(&self) {}
-
     fn is_cancelled(&self) -> bool {
         self.left.load(Ordering::Relaxed) == 0
     }

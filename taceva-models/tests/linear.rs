@@ -251,9 +251,6 @@ struct Cancel {
 }
 
 impl Progress for Cancel {
-    fn begin(&self, _stage: &str, _steps: Option<u64>) {}
-    fn advance(&self, _steps: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         self.asked.fetch_add(1, Ordering::Relaxed) >= self.after
     }

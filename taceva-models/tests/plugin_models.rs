@@ -68,7 +68,6 @@ impl EstimatorFactory for First {
             Way::OtherChannels => Channels::new([Channel::PX]).expect("one"),
             _ => training.targets.channels.clone(),
         };
-        #[expect(clippy::cast_precision_loss, reason = "a small number")]
         let add = request.settings.whole("add") as f64;
         Ok(Box::new(Constant {
             way: self.way,

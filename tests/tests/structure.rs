@@ -16,10 +16,10 @@ const MOST_LINES: (usize, usize) = (239_000, 456_000);
 const MOST_LINES_OF_A_FILE: usize = 400;
 
 /// Most tuple parameters.
-const MOST_TUPLES: usize = 74;
+const MOST_TUPLES: usize = 4;
 
 /// Most files named by participles.
-const MOST_PARTICIPLES: usize = 25;
+const MOST_PARTICIPLES: usize = 4;
 
 /// Most stops of one value from entry to end, and most returns to a file that it left.
 const MOST_STOPS: (usize, usize) = (12, 3);

@@ -9,6 +9,7 @@ pub(crate) use backward::{Gate, GradientSums, gradient_sums, input_gradient};
 pub(crate) use sums::ChannelSums;
 
 use crate::panel::Aligned;
+use taceva_core::single;
 
 /// Epsilon added to a variance before its square root, as in PyTorch.
 pub(crate) const EPSILON: f64 = 1e-5;
@@ -63,10 +64,6 @@ impl BatchNorm {
     }
 
     /// Writes the moments of a batch, from sums over `samples` values per channel, to `into`. Updates the running moments.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "moments are summed in double precision and used in single"
-    )]
     pub(crate) fn update(&mut self, sums: &[ChannelSums], samples: usize, into: &mut Moments) {
         let samples = samples as f64;
         for channel in 0..self.gain.len() {
@@ -80,12 +77,12 @@ impl BatchNorm {
             let unbiased = variance * samples / (samples - 1.0);
             let inverse = 1.0 / (variance + EPSILON).sqrt();
             let scale = f64::from(self.gain[channel]) * inverse;
-            into.mean[channel] = mean as f32;
-            into.inverse[channel] = inverse as f32;
-            into.scale[channel] = scale as f32;
-            into.shift[channel] = (f64::from(self.bias[channel]) - mean * scale) as f32;
+            into.mean[channel] = single(mean);
+            into.inverse[channel] = single(inverse);
+            into.scale[channel] = single(scale);
+            into.shift[channel] = single(f64::from(self.bias[channel]) - mean * scale);
             let follow = |running: &mut f32, newest: f64| {
-                *running = (f64::from(*running) * (1.0 - MOMENTUM) + MOMENTUM * newest) as f32;
+                *running = single(f64::from(*running) * (1.0 - MOMENTUM) + MOMENTUM * newest);
             };
             follow(&mut self.running_mean[channel], mean);
             follow(&mut self.running_variance[channel], unbiased);

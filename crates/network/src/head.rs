@@ -5,6 +5,7 @@ use crate::panel::Aligned;
 use crate::picture::Picture;
 use crate::planes::{Layout, Planes};
 use crate::update::Update;
+use taceva_core::single;
 
 /// Linear outputs of pooled features.
 #[derive(Clone, Debug)]
@@ -45,10 +46,6 @@ impl Head {
     ///
     /// # Shapes
     /// `into`: `[pictures, features]`.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "means are summed in double precision and kept in single"
-    )]
     pub(crate) fn see(&self, pictures: &Planes, count: usize, into: &mut Vec<f32>) {
         let layout = pictures.layout();
         into.clear();
@@ -64,7 +61,7 @@ impl Head {
                         places.for_each(|(sum, value)| *sum += f64::from(*value));
                     }
                     let pixels = layout.picture.pixels() as f64;
-                    into.extend(sums.iter().map(|sum| (sum / pixels) as f32));
+                    into.extend(sums.iter().map(|sum| single(sum / pixels)));
                 }
             }
         }
@@ -99,10 +96,6 @@ impl Head {
     ///
     /// # Shapes
     /// `gradient`: `[samples, outputs]`, the output gradient; `into`: without a border.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "gradients are formed in double precision and kept in single"
-    )]
     pub(crate) fn backward(
         &mut self,
         features: &[f32],
@@ -136,29 +129,23 @@ impl Head {
                 places.for_each(|(sum, feature)| *sum += gradient * f64::from(*feature));
             }
         }
-        let single = |values: Vec<f64>| -> Vec<f32> {
-            values.into_iter().map(|value| value as f32).collect()
-        };
-        update.update(self.slot, &mut self.weights, &single(sums));
-        update.update(self.slot + 1, &mut self.bias, &single(bias));
+        let narrow = |values: Vec<f64>| -> Vec<f32> { values.into_iter().map(single).collect() };
+        update.update(self.slot, &mut self.weights, &narrow(sums));
+        update.update(self.slot + 1, &mut self.bias, &narrow(bias));
     }
 
     /// Distributes the gradient of features over the pixels of a picture.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "gradients are formed in double precision and kept in single"
-    )]
     fn spread(&self, passed: &[f64], layout: Layout, into: &mut [f32]) {
         match self.pooling {
             Pooling::Flatten => {
                 let places = into.iter_mut().zip(passed);
-                places.for_each(|(place, value)| *place = *value as f32);
+                places.for_each(|(place, value)| *place = single(*value));
             }
             Pooling::Average => {
                 let share = 1.0 / layout.picture.pixels() as f64;
                 for pixel in into.chunks_exact_mut(passed.len()) {
                     let places = pixel.iter_mut().zip(passed);
-                    places.for_each(|(place, value)| *place = (value * share) as f32);
+                    places.for_each(|(place, value)| *place = single(value * share));
                 }
             }
         }

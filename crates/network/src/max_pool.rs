@@ -38,17 +38,33 @@ fn window(position: usize, length: usize) -> [usize; KERNEL] {
     ]
 }
 
+/// Window that contains a row (or column), with the position of the row in it.
+#[derive(Clone, Copy)]
+struct CoveringWindow {
+    place: u32,
+    window: usize,
+}
+
+impl CoveringWindow {
+    /// True if the window exists.
+    #[inline(always)]
+    fn is_there(&self) -> bool {
+        self.place != NOWHERE
+    }
+}
+
 /// Windows that contain row (or column) `at`, each with the position of `at` in it, in a picture with `windows` windows. A missing second window has
 /// position [`NOWHERE`] and an arbitrary valid index.
 #[inline(always)]
-fn windows(at: usize, windows: usize) -> [(u32, usize); 2] {
+fn windows(at: usize, windows: usize) -> [CoveringWindow; 2] {
+    let covering = |place, window| CoveringWindow { place, window };
     let before = at / STRIDE;
     if at.is_multiple_of(STRIDE) {
-        [(1, before), (NOWHERE, before)]
+        [covering(1, before), covering(NOWHERE, before)]
     } else {
         let after = before + 1;
         let first = if after < windows { 0 } else { NOWHERE };
-        [(first, after.min(windows - 1)), (2, before)]
+        [covering(first, after.min(windows - 1)), covering(2, before)]
     }
 }
 

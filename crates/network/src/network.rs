@@ -6,7 +6,7 @@ mod tensors;
 pub use gradients::Gradients;
 pub use tensors::NamedTensor;
 
-use taceva_core::Isa;
+use taceva_core::{Isa, single};
 
 use crate::architecture::{Architecture, StagePlan};
 use crate::batch_norm;
@@ -15,7 +15,7 @@ use crate::error::NetworkError;
 use crate::head::Head;
 use crate::machine::Machine;
 use crate::normalised_convolution::{Back, Normed};
-use crate::planes::Planes;
+use crate::planes::{Pictures, Planes};
 use crate::scratch::Scratch;
 use crate::stage::{Stage, StageSpace, Standing};
 use crate::update::Update;
@@ -54,10 +54,6 @@ impl Network {
     /// [`NetworkError::Architecture`] if the architecture is invalid.
     /// # Reference
     /// K. He, X. Zhang, S. Ren, J. Sun, "Delving deep into rectifiers", ICCV 2015.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "drawn in double precision and kept in single"
-    )]
     pub fn new(architecture: &Architecture, seed: u64) -> Result<Network, NetworkError> {
         let mut network = Network::zeros(architecture)?;
         let stages = network.stages.iter_mut();
@@ -67,7 +63,7 @@ impl Network {
             let draws = Draws::new(seed).of(normed.slot as u64);
             let mut plain = normed.weights.to_plain();
             for (position, weight) in plain.iter_mut().enumerate() {
-                *weight = (draws.normal(position as u64) * (2.0 / fan).sqrt()) as f32;
+                *weight = single(draws.normal(position as u64) * (2.0 / fan).sqrt());
             }
             normed.weights.set_plain(&plain);
         }
@@ -79,7 +75,7 @@ impl Network {
         ] {
             let draws = Draws::new(seed).of(slot as u64);
             for (position, value) in values.iter_mut().enumerate() {
-                *value = ((2.0 * draws.unit(position as u64) - 1.0) * bound) as f32;
+                *value = single((2.0 * draws.unit(position as u64) - 1.0) * bound);
             }
         }
         Ok(network)
@@ -202,7 +198,11 @@ impl Network {
             let (before, rest) = space.stages.split_at_mut(position);
             let input = before.last().map_or(&space.input, StageSpace::output);
             let (stage, scratch) = (&mut self.stages[position], &mut space.scratch);
-            stage.forward(self.machine, &mut rest[0], (input, count), scratch);
+            let pictures = Pictures {
+                planes: input,
+                count,
+            };
+            stage.forward(self.machine, &mut rest[0], pictures, scratch);
         }
         let last = space.stages.last().expect("an architecture has stages");
         self.head.see(last.output(), count, &mut space.features);

@@ -4,14 +4,15 @@ use crate::batch_norm::{
     BatchNorm, ChannelSums, Gate, GradientSums, Moments, gradient_sums, input_gradient,
 };
 use crate::convolution::{
-    Convolution, ConvolutionForm, ConvolutionWeights, Epilogue, Forward, InputGradient, Onto,
-    Rooms, Source, WeightGradient,
+    Convolution, ConvolutionForm, ConvolutionWeights, Epilogue, Forward, GradientTarget,
+    InputGradient, Rooms, Source, Target, WeightGradient,
 };
 use crate::machine::Machine;
 use crate::panel::{Aligned, PANEL};
-use crate::planes::{Layout, Planes};
+use crate::planes::{Layout, Pictures, Planes};
 use crate::scratch::Scratch;
 use crate::update::Update;
+use taceva_core::single;
 
 /// A convolution and its normalisation.
 #[derive(Clone, Debug)]
@@ -67,22 +68,26 @@ impl Normed {
         &mut self,
         machine: Machine,
         space: &mut NormedSpace,
-        (input, count): (&Planes, usize),
+        input: Pictures<'_>,
         scratch: &mut Scratch,
     ) {
+        let count = input.count;
         let room = &mut scratch.transformed;
         let source = Source {
             weights: space.forward.weights(machine, &self.weights, room),
-            input,
+            input: input.planes,
             first: 0,
             count,
         };
         let measure = |sums: &mut ChannelSums, raw: &[f32]| sums.measure(machine, raw);
-        let each = (&mut space.sums[..count], measure);
-        let into = (&mut space.raw, Epilogue::Raw);
+        let each = &mut space.sums[..count];
+        let target = Target {
+            pictures: &mut space.raw,
+            epilogue: Epilogue::Raw,
+        };
         space
             .forward
-            .run(machine, source, into, each, &scratch.tiles);
+            .run(machine, source, target, each, measure, &scratch.tiles);
         let samples = count * space.raw.layout().picture.pixels();
         self.norm
             .update(&space.sums[..count], samples, &mut space.moments);
@@ -116,8 +121,12 @@ impl Normed {
         let mut into = back.scratch.take(space.gradient, back.count);
         input_gradient(
             machine,
-            (&space.raw, back.count),
-            (&space.moments, &sums),
+            Pictures {
+                planes: &space.raw,
+                count: back.count,
+            },
+            &space.moments,
+            &sums,
             gate,
             gradient,
             &mut into,
@@ -132,7 +141,7 @@ impl Normed {
         space: &NormedSpace,
         input: &Planes,
         gradient: &Planes,
-        into: Option<(&mut Planes, Onto)>,
+        into: Option<GradientTarget<'_>>,
         back: &mut Back<'_>,
     ) {
         let Back {
@@ -149,21 +158,20 @@ impl Normed {
         } = &mut **scratch;
         let room = &mut weights[..self.weights.values().len()];
         if let (Some(pass), Some(into)) = (&space.input_gradient, into) {
-            let exchanged = (&self.weights, &mut *room);
+            let pictures = Pictures {
+                planes: gradient,
+                count: *count,
+            };
             let rooms = Rooms { transformed, tiles };
-            pass.run(*machine, exchanged, (gradient, *count), into, rooms);
+            pass.run(*machine, &self.weights, room, pictures, into, rooms);
         }
         let rooms = Rooms { transformed, tiles };
         let pass = &space.weight_gradient;
-        pass.run(*machine, (input, gradient), *count, room, rooms);
+        pass.run(*machine, input, gradient, *count, room, rooms);
         update.update(self.slot, self.weights.values_mut(), room);
     }
 
     /// Weights with the running moments folded in, and the remaining bias.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "products are formed in double precision and kept in single"
-    )]
     pub(crate) fn fold(&self) -> (ConvolutionWeights, Aligned) {
         let mut weights = self.weights.clone();
         let channels = self.convolution().outputs;
@@ -171,10 +179,10 @@ impl Normed {
         let mut bias = Aligned::zeros(channels);
         for channel in 0..channels {
             let (scale, shift) = self.norm.frozen(channel);
-            bias[channel] = shift as f32;
+            bias[channel] = single(shift);
             let panel = &mut weights.values_mut()[channel / PANEL * rows * PANEL..][..rows * PANEL];
             for weight in panel[channel % PANEL..].iter_mut().step_by(PANEL) {
-                *weight = (f64::from(*weight) * scale) as f32;
+                *weight = single(f64::from(*weight) * scale);
             }
         }
         (weights, bias)
@@ -184,7 +192,8 @@ impl Normed {
 impl NormedSpace {
     /// Allocates buffers for `batch` pictures of layout `input`.
     pub(crate) fn new(
-        (convolution, form): (Convolution, ConvolutionForm),
+        convolution: Convolution,
+        form: ConvolutionForm,
         input: Layout,
         batch: usize,
         asks_for_input_gradient: bool,

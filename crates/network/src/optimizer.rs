@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use taceva_core::single;
 
 use crate::machine::Machine;
 use crate::panel::{Aligned, PANEL};
@@ -159,19 +160,15 @@ pub struct Adam {
 
 impl Rule {
     /// Coefficients of step `steps`, counted from 1, at learning rate `rate`.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "factors are formed in double precision and applied in single"
-    )]
     pub fn new(optimizer: Optimizer, rate: f64, steps: u64) -> Rule {
         match optimizer {
             Optimizer::Sgd {
                 momentum,
                 weight_decay,
             } => Rule::Momentum(Momentum {
-                momentum: momentum as f32,
-                decay: weight_decay as f32,
-                rate: rate as f32,
+                momentum: single(momentum),
+                decay: single(weight_decay),
+                rate: single(rate),
             }),
             Optimizer::AdamW {
                 betas,
@@ -180,12 +177,12 @@ impl Rule {
             } => {
                 let left = |beta: f64| 1.0 - (steps as f64 * beta.ln()).exp();
                 Rule::Adam(Adam {
-                    keep: (1.0 - rate * weight_decay) as f32,
-                    betas: (betas.0 as f32, betas.1 as f32),
-                    news: ((1.0 - betas.0) as f32, (1.0 - betas.1) as f32),
-                    correction: (1.0 / left(betas.1).sqrt()) as f32,
-                    epsilon: epsilon as f32,
-                    step: (rate / left(betas.0)) as f32,
+                    keep: single(1.0 - rate * weight_decay),
+                    betas: (single(betas.0), single(betas.1)),
+                    news: (single(1.0 - betas.0), single(1.0 - betas.1)),
+                    correction: single(1.0 / left(betas.1).sqrt()),
+                    epsilon: single(epsilon),
+                    step: single(rate / left(betas.0)),
                 })
             }
         }

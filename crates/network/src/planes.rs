@@ -90,6 +90,14 @@ pub(crate) struct Planes {
     values: Aligned,
 }
 
+/// The first pictures of a batch.
+#[derive(Clone, Copy)]
+pub(crate) struct Pictures<'a> {
+    pub(crate) planes: &'a Planes,
+    /// Number of pictures.
+    pub(crate) count: usize,
+}
+
 impl Planes {
     /// `batch` pictures of zeros.
     pub(crate) fn zeros(picture: Picture, border: usize, batch: usize) -> Planes {

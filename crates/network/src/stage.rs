@@ -12,7 +12,7 @@ use crate::architecture::StagePlan;
 use crate::convolution::ConvolutionForm;
 use crate::machine::Machine;
 use crate::normalised_convolution::{Back, Normed};
-use crate::planes::{Layout, Planes};
+use crate::planes::{Layout, Pictures, Planes};
 use crate::scratch::Scratch;
 
 /// Weights of a stage.
@@ -87,7 +87,7 @@ impl Stage {
         &mut self,
         machine: Machine,
         space: &mut StageSpace,
-        input: (&Planes, usize),
+        input: Pictures<'_>,
         scratch: &mut Scratch,
     ) {
         match (self, space) {

@@ -61,6 +61,17 @@ pub(crate) enum Of {
     Estimator,
 }
 
+impl Of {
+    /// Check of the bare table of this subject.
+    const fn check(self, name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
+        Check {
+            name,
+            of: self,
+            test: Test::Table(run),
+        }
+    }
+}
+
 /// Test of a check: on a bare table, or on a device like any driver of its kind.
 #[derive(Clone, Copy)]
 pub(crate) enum Test {

@@ -1,8 +1,8 @@
 //! Manifest of a plugin, with all data for listing and planning. Reading it runs no code of the plugin.
 
 mod argument;
+mod device_facts;
 mod error;
-mod facts;
 mod library;
 mod need;
 mod program;

@@ -11,10 +11,6 @@ pub(crate) fn narrow(value: f64) -> f32 {
 }
 
 /// Converts a count to a number.
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "counts of pixels stay far below 2^53"
-)]
 #[inline]
 pub(crate) fn count(things: usize) -> f64 {
     things as f64

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use clap::{ArgGroup, Args, Subcommand, ValueEnum};
+use taceva_core::whole_count;
 use taceva_evaluate::CachedStage;
 
 use super::{ExplainArgs, Output};
@@ -135,12 +136,7 @@ fn size(text: &str) -> Result<u64, String> {
     if !(0.0..9e15).contains(&bytes) {
         return Err(expected());
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a whole number between 0 and 9e15"
-    )]
-    Ok(bytes as u64)
+    Ok(whole_count(bytes))
 }
 
 #[cfg(test)]

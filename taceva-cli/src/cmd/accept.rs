@@ -16,9 +16,8 @@ use crate::report::triple::triple;
 use crate::{date, exit, output};
 
 pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
-    for path in args.output.path.iter().chain(&args.html) {
-        output::check_free(path, args.output.force)?;
-    }
+    let files = args.output.path.iter().chain(&args.html);
+    output::check_all_free(files, args.output.force)?;
     if let Some(result) = &args.template {
         let text = limits_template(&study_of(result)?);
         output::write(args.output.path.as_deref(), |out| {

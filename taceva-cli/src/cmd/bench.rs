@@ -1,7 +1,7 @@
 //! `taceva bench`.
 
+mod bench_recording;
 mod models;
-mod pressed;
 
 use taceva_study::bench::{KernelRequest, kernels};
 
@@ -17,9 +17,8 @@ pub(crate) fn run(args: &Bench, context: &Context) -> anyhow::Result<u8> {
 }
 
 fn run_kernels(args: &BenchKernels, context: &Context) -> anyhow::Result<u8> {
-    for path in args.output.path.iter().chain(&args.figure.svg) {
-        output::check_free(path, args.output.force)?;
-    }
+    let files = args.output.path.iter().chain(&args.figure.svg);
+    output::check_all_free(files, args.output.force)?;
     let request = KernelRequest {
         rows: args.rows,
         rounds: args.rounds,

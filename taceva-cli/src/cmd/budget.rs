@@ -19,9 +19,8 @@ use crate::{exit, output};
 use evidence::{Channel, Measured};
 
 pub(crate) fn run(args: &Budget) -> anyhow::Result<u8> {
-    for path in args.output.path.iter().chain(&args.page.path) {
-        output::check_free(path, args.output.force)?;
-    }
+    let files = args.output.path.iter().chain(&args.page.path);
+    output::check_all_free(files, args.output.force)?;
     if let Some(result) = &args.template {
         let text = template(args, result)?;
         output::write(args.output.path.as_deref(), |out| {

@@ -10,8 +10,8 @@ use taceva_core::{Axis, by_count, counted, shown};
 use taceva_dataset::{Header, SensorFacts};
 
 use super::Context;
+use super::device_page::OnPage;
 use super::live_predictions::{LivePredictions, read_model};
-use super::on_page::OnPage;
 use crate::args::{Capture, LiveArgs};
 use crate::progress::{self, StatusLine, spoken};
 use crate::{exit, stderr};

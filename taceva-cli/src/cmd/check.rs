@@ -13,9 +13,7 @@ use crate::output::Form;
 use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Check, context: &Context) -> anyhow::Result<u8> {
-    if let Some(path) = args.output.path.as_deref() {
-        output::check_free(path, args.output.force)?;
-    }
+    output::check_all_free(&args.output.path, args.output.force)?;
     let is_table = matches!(args.output.format, Format::Csv | Format::Tex);
     if is_table && args.datasets.len() > 1 {
         return Err(Usage::error(

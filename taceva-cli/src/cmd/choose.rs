@@ -13,9 +13,8 @@ use crate::args::{Choose, Format};
 use crate::{exit, output};
 
 pub(crate) fn run(args: &Choose) -> anyhow::Result<u8> {
-    for path in args.output.path.iter().chain(&args.page.path) {
-        output::check_free(path, args.output.force)?;
-    }
+    let files = args.output.path.iter().chain(&args.page.path);
+    output::check_all_free(files, args.output.force)?;
     results::check_distinct(&args.results)?;
     let needs = match &args.needs {
         Some(path) => {

@@ -12,9 +12,8 @@ use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
     let table = super::table_scores(&args.table, args.output.format)?;
-    for path in args.output.path.iter().chain(&args.page.path) {
-        output::check_free(path, args.output.force)?;
-    }
+    let files = args.output.path.iter().chain(&args.page.path);
+    output::check_all_free(files, args.output.force)?;
     results::check_distinct(&args.results)?;
     let folder = args.catalogue.as_deref();
     let sensors = folder.map(|folder| super::catalogue::sensors(Some(folder)));

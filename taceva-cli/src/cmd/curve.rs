@@ -26,9 +26,7 @@ const LEAST_SHARE: f64 = 0.2;
 const BANDS: u8 = 5;
 
 pub(crate) fn run(args: &Curve, context: &Context) -> anyhow::Result<u8> {
-    if let Some(path) = &args.output.path {
-        output::check_free(path, args.output.force)?;
-    }
+    output::check_all_free(&args.output.path, args.output.force)?;
     let found = fitted(args, context.jobs)?;
     let written = match args.output.format {
         Format::Csv => found.numbers(),

@@ -7,9 +7,7 @@ use crate::args::{ListFormat, Output};
 use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Output<ListFormat>, context: &Context) -> anyhow::Result<u8> {
-    if let Some(path) = args.path.as_deref() {
-        output::check_free(path, args.force)?;
-    }
+    output::check_all_free(&args.path, args.force)?;
     let listed = devices(&context.drivers(None)?);
     output::write_as(args.format, args.path.as_deref(), |out| {
         report::devices::list(&listed, args.format, out)

@@ -9,9 +9,7 @@ use crate::args::{ListFormat, Output};
 use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Output<ListFormat>, context: &Context) -> anyhow::Result<u8> {
-    if let Some(path) = args.path.as_deref() {
-        output::check_free(path, args.force)?;
-    }
+    output::check_all_free(&args.path, args.force)?;
     let host = context.plugins(None)?;
     let drivers = Drivers::builtin()?.with_plugins(&host)?;
     let mut findings = examine(&drivers, &Machine::this());

@@ -15,9 +15,7 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     let scoring = &args.scoring;
     let table = super::table_scores(&args.table, args.output.format)?;
     super::check_free(scoring, &args.output)?;
-    if let Some(path) = &args.split_out.path {
-        output::check_free(path, args.output.force)?;
-    }
+    output::check_all_free(&args.split_out.path, args.output.force)?;
     check_folders(&args.datasets)?;
     let models = context.models()?;
     let fitted = args

@@ -16,9 +16,7 @@ use crate::{exit, output};
 
 pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     output::check_free(&args.out, args.force)?;
-    if let Some(path) = &args.split_out.path {
-        output::check_free(path, args.force)?;
-    }
+    output::check_all_free(&args.split_out.path, args.force)?;
     let dataset = open_seen(&args.datasets, &args.view, None)?;
     let models = context.models()?;
     let request = fit_request(&args.model.name, &args.model.settings, &args.split, &models)?;

@@ -20,9 +20,7 @@ use factor::Factors;
 use response::Response;
 
 pub(crate) fn run(args: &Gauge, context: &Context) -> anyhow::Result<u8> {
-    if let Some(path) = &args.output.path {
-        output::check_free(path, args.output.force)?;
-    }
+    output::check_all_free(&args.output.path, args.output.force)?;
     let studies = studies(args, context.jobs)?;
     let written = match args.output.format {
         Format::Csv => studies.numbers(),

@@ -134,7 +134,6 @@ fn summary(model: &LiveModel, counts: &PredictionCounts, sent: &Latencies) -> Ve
             soon(sent)
         )),
     }
-    #[expect(clippy::cast_precision_loss, reason = "counts, for people to read")]
     let share = |outside: u64| 100.0 * outside as f64 / counts.predicted.max(1) as f64;
     lines.push(match counts.outside {
         Some(outside) => format!(

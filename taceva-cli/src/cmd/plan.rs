@@ -13,9 +13,7 @@ use crate::{exit, output, report, stderr};
 
 pub(crate) fn run(args: &PlanArgs, context: &Context) -> anyhow::Result<u8> {
     let to = &args.output;
-    if let Some(path) = to.path.as_deref() {
-        output::check_free(path, to.force)?;
-    }
+    output::check_all_free(&to.path, to.force)?;
     let host = context.plugins(Some(Path::new(&args.scene.scene)))?;
     let drivers = Drivers::builtin()?.with_plugins(&host)?;
     let planned = scene::planned(&args.scene, &drivers)?;

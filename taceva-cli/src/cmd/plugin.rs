@@ -31,9 +31,7 @@ pub(crate) fn run(which: &Plugin, context: &Context) -> anyhow::Result<u8> {
 
 fn list(args: &PluginList, context: &Context) -> anyhow::Result<u8> {
     let to = &args.output;
-    if let Some(path) = to.path.as_deref() {
-        output::check_free(path, to.force)?;
-    }
+    output::check_all_free(&to.path, to.force)?;
     let host = context.plugins(None)?;
     output::write_as(to.format, to.path.as_deref(), |out| {
         report::plugin::list(&host, args.all, to.format, out)
@@ -43,9 +41,7 @@ fn list(args: &PluginList, context: &Context) -> anyhow::Result<u8> {
 
 fn info(args: &PluginInfo, context: &Context) -> anyhow::Result<u8> {
     let to = &args.output;
-    if let Some(path) = to.path.as_deref() {
-        output::check_free(path, to.force)?;
-    }
+    output::check_all_free(&to.path, to.force)?;
     let host = context.plugins(None)?;
     let plugin = host.plugins().get(&args.id)?;
     output::write_as(to.format, to.path.as_deref(), |out| {

@@ -25,9 +25,8 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
             "two of --out, --truth-out and --deviations-out name one file",
         ));
     }
-    for path in args.truth_out.iter().chain(&args.deviations_out) {
-        output::check_free(path, args.force)?;
-    }
+    let files = args.truth_out.iter().chain(&args.deviations_out);
+    output::check_all_free(files, args.force)?;
     let model = context.models()?.open(&args.with)?;
     let dataset = open_seen(&args.datasets, &args.view, Some(&model))?;
     if args.deviations_out.is_some() && !model.regressor().knows_deviations() {

@@ -6,8 +6,8 @@ use taceva_live::Limits;
 
 use super::Context;
 use super::capture::open;
+use super::device_page::OnPage;
 use super::live_predictions::{LivePredictions, read_model};
-use super::on_page::OnPage;
 use crate::args::Preview;
 use crate::progress::StatusLine;
 use crate::{exit, stderr};

@@ -13,7 +13,7 @@ use taceva_drivers::Drivers;
 use taceva_results::EvaluationReport;
 use taceva_study::{Existing, RunFolder, RunSetup, check_models, run_scene};
 
-use super::attended::Attended;
+use super::attendance::Attended;
 use super::{Context, Usage, cache, scene};
 use crate::args::{Format, Run, TableScores};
 use crate::{exit, output, progress, report};

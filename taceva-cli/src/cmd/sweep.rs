@@ -1,10 +1,10 @@
 //! `taceva sweep`.
 
 mod jobs;
-mod planned;
 mod run;
 mod scenes;
 mod summary;
+mod sweep_plan;
 mod tasks;
 
 use taceva_sweep::{TaskList, collect, show};

@@ -53,9 +53,6 @@ pub(super) fn every_number(report: &EvaluationReport) -> Table {
 }
 
 fn numbers(line: &Line<'_>, source: &str) -> [Cell; 15] {
-    let number = |value: Option<f64>| {
-        Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
-    };
     let ends = line.interval.and_then(Interval::ends);
     let why = match line.value.number() {
         None => formatted(line).reason.unwrap_or_default(),
@@ -68,12 +65,12 @@ fn numbers(line: &Line<'_>, source: &str) -> [Cell; 15] {
     [
         Cell::text(line.name.as_str()),
         Cell::text(line.channel),
-        number(line.value.number()),
+        Cell::exact(line.value.number()),
         Cell::text(line.unit.symbol()),
-        number(ends.map(|ends| ends[0])),
-        number(ends.map(|ends| ends[1])),
+        Cell::exact(ends.map(|ends| ends[0])),
+        Cell::exact(ends.map(|ends| ends[1])),
         Cell::text(method.unwrap_or_default()),
-        number(line.interval.and_then(Interval::degrees_of_freedom)),
+        Cell::exact(line.interval.and_then(Interval::degrees_of_freedom)),
         Cell::Number(line.score.n.to_string()),
         Cell::Number(line.score.n_invalid.to_string()),
         Cell::text(line.score.definition.as_str()),
@@ -82,7 +79,7 @@ fn numbers(line: &Line<'_>, source: &str) -> [Cell; 15] {
             true => "",
             false => line.score.standing.words().unwrap_or_default(),
         }),
-        number(line.score.bounded_share),
+        Cell::exact(line.score.bounded_share),
         Cell::text(source),
     ]
 }

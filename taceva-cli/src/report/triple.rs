@@ -81,7 +81,6 @@ fn stretched(mean: i64, [low, high]: [i64; 2]) -> i64 {
 }
 
 /// Pressed minus untouched in the scale of both, amplified up to eight times without clipping.
-#[expect(clippy::cast_precision_loss, reason = "a factor from 1 to 8")]
 fn difference(
     pressed: &Small,
     untouched: &Small,

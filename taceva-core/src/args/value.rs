@@ -34,10 +34,6 @@ impl ArgValue {
     /// The number, if it is one, whole or not.
     pub fn as_number(&self) -> Option<f64> {
         match self {
-            #[expect(
-                clippy::cast_precision_loss,
-                reason = "callers that need all digits use `Whole`"
-            )]
             ArgValue::Whole(value) => Some(*value as f64),
             ArgValue::Number(value) => Some(*value),
             _ => None,

@@ -179,10 +179,6 @@ fn ratio(above: &Whole, below: &Whole, unit: i32) -> Option<f64> {
     }
     let is_left = (0..places_left).any(|place| raised[place / 32] >> (place % 32) & 1 == 1);
     let sticky = u128::from(is_left || !rest.is_empty());
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "the only rounding of a score; the last bit marks a remainder"
-    )]
     let rounded = ((quotient << 1) | sticky) as f64;
     let power = unit - 1 - i32::try_from(up).ok()? + i32::try_from(places_left).ok()?;
     // In two steps, each of which is exact unless the score is denormal.

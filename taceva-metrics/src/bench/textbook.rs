@@ -96,10 +96,6 @@ pub(super) fn mean_error<S: RunningSum>(pairs: Paired<&[f64]>) -> Option<f64> {
     number(absolute.total() / length(pairs))
 }
 
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "no column has 2^53 rows, and these kernels round anyway"
-)]
 pub(super) fn length(pairs: Paired<&[f64]>) -> f64 {
     pairs.estimate.len() as f64
 }

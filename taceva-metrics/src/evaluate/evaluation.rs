@@ -14,7 +14,7 @@ use crate::evaluate::entry::Entry;
 use crate::evaluate::metric::Metric;
 use crate::evaluate::verdicts;
 use crate::score::Score;
-use crate::score::standing::Standing;
+use crate::score::verdict_standing::Standing;
 
 /// Scores of an evaluation, in the order of reports, and the skipped metrics. `{}` prints one line per channel, `{:#}` every score.
 ///

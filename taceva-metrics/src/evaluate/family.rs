@@ -60,8 +60,10 @@ pub(crate) trait Family: Send + 'static {
     /// Sums of one part: a channel, a plane, a kind of grating, or everything at once.
     type Sums: Merge + Clone + Send + 'static;
 
-    /// Parameters that must be equal in states that merge.
-    fn parameters(&self) -> BTreeMap<String, String>;
+    /// Parameters that must be equal in states that merge; none unless the family overrides it.
+    fn parameters(&self) -> BTreeMap<String, String> {
+        BTreeMap::new()
+    }
     /// Empty sums of each part.
     fn empty(&self) -> Vec<Self::Sums>;
     /// Adds the ascending `rows` of `batch`; all rows for `None`.

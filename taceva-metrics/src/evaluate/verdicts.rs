@@ -9,9 +9,9 @@ use taceva_core::Field;
 use crate::evaluate::entry::Entry;
 use crate::evaluate::metric::Metric;
 use crate::score::flag::Flag;
-use crate::score::standing::Standing;
 use crate::score::value::UndefinedReason;
 use crate::score::verdict_rule::{OF_CONSTANT, VerdictRule};
+use crate::score::verdict_standing::Standing;
 use crate::score::{Interval, Score};
 
 impl Standing {

@@ -98,7 +98,7 @@ impl<K: Ord, V> SortedMap<K, V> {
     pub(crate) fn insert(&mut self, key: K, value: V) -> bool {
         let place = self.place(&key);
         if !place.is_taken {
-            self.put(&place, (key, value));
+            self.put(&place, key, value);
         }
         !place.is_taken
     }
@@ -114,14 +114,15 @@ impl<K: Ord, V> SortedMap<K, V> {
             is_taken,
         } = self.place(&key);
         if !is_taken {
-            [run, at] = self.put(&Place { run, at, is_taken }, (key, V::default()));
+            [run, at] = self.put(&Place { run, at, is_taken }, key, V::default());
         }
         &mut self.runs[run][at].1
     }
 
-    /// Inserts `entry` at its place and returns its position.
-    fn put(&mut self, place: &Place, entry: (K, V)) -> [usize; 2] {
+    /// Inserts an entry at its place and returns its position.
+    fn put(&mut self, place: &Place, key: K, value: V) -> [usize; 2] {
         let &Place { run, at, .. } = place;
+        let entry = (key, value);
         let Some(entries) = self.runs.get_mut(run) else {
             self.runs.push(vec![entry]);
             return [run, at];

@@ -3,8 +3,6 @@
 mod fit;
 mod sums;
 
-use std::collections::BTreeMap;
-
 use taceva_core::{Batch, Channel, Column, Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, erased};
@@ -78,10 +76,6 @@ impl Crosstalk {
 
 impl Family for Crosstalk {
     type Sums = JointSums;
-
-    fn parameters(&self) -> BTreeMap<String, String> {
-        BTreeMap::new()
-    }
 
     fn empty(&self) -> Vec<JointSums> {
         vec![JointSums::new(self.positions.len())]

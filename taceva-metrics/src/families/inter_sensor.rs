@@ -4,8 +4,6 @@ mod gap;
 mod pairs;
 mod surfaces;
 
-use std::collections::BTreeMap;
-
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
 use crate::evaluate::family::{Details, Family, FamilyKind, Numbers, Output, erased};
@@ -67,10 +65,6 @@ impl InterSensor {
 
 impl Family for InterSensor {
     type Sums = SurfaceClouds;
-
-    fn parameters(&self) -> BTreeMap<String, String> {
-        BTreeMap::new()
-    }
 
     fn empty(&self) -> Vec<SurfaceClouds> {
         vec![SurfaceClouds::default()]

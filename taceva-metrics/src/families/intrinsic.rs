@@ -4,7 +4,6 @@ mod sums;
 pub(crate) mod times;
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 
 use taceva_core::{Batch, Field, FieldSet, Labels, Needs, SkipReason, Unit};
 
@@ -132,10 +131,6 @@ impl Intrinsic {
 
 impl Family for Intrinsic {
     type Sums = IntrinsicSums;
-
-    fn parameters(&self) -> BTreeMap<String, String> {
-        BTreeMap::new()
-    }
 
     fn empty(&self) -> Vec<IntrinsicSums> {
         vec![IntrinsicSums::default()]

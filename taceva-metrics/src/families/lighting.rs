@@ -7,8 +7,6 @@ mod sums;
 
 pub(crate) use robustness::R_LIGHT;
 
-use std::collections::BTreeMap;
-
 use taceva_core::{Batch, Field, Unit};
 
 use crate::evaluate::family::{
@@ -48,10 +46,6 @@ impl Lighting {
 
 impl Family for Lighting {
     type Sums = LightingSums;
-
-    fn parameters(&self) -> BTreeMap<String, String> {
-        BTreeMap::new()
-    }
 
     fn empty(&self) -> Vec<LightingSums> {
         vec![LightingSums::default(); self.channels]

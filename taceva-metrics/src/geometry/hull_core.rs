@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use super::hull::Hull;
 use super::orientation::{Place, turn};
+use taceva_core::whole_size;
 
 /// Number of stretches of x. Fewer make the core smaller; more take longer to find and more cache.
 const STRETCHES: u32 = 64;
@@ -74,12 +75,7 @@ impl Core {
         if !(stretch >= 0.0 && x <= last) {
             return false;
         }
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "it is not negative, and an index beyond the last gives `None`"
-        )]
-        let found = self.between.get(stretch as usize);
+        let found = self.between.get(whole_size(stretch));
         let height = y - self.slope * x;
         found.is_some_and(|[low, high]| *low < height && height < *high)
     }

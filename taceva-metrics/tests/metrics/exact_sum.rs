@@ -22,7 +22,6 @@ fn more_deposits_than_a_digit_can_hold_without_carrying() {
     // Mantissa with all bits set, at each position within a digit.
     const MANTISSA: u64 = (1 << 53) - 1;
     for exponent in -40..-5 {
-        #[expect(clippy::cast_precision_loss, reason = "53 bits")]
         let value = MANTISSA as f64 * power(exponent);
         let mut repeated = ExactSum::default();
         let mut expected = ExactSum::default();

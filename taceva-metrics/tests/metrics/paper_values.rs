@@ -23,7 +23,6 @@ fn nearest(numerator: i128, denominator: i128) -> f64 {
     }
     let (whole, rest) = (top / bottom, top % bottom);
     let up = rest * 2 > bottom || (rest * 2 == bottom && whole % 2 == 1);
-    #[expect(clippy::cast_precision_loss, reason = "at most 2^53")]
     let mantissa = (whole + u128::from(up)) as f64;
     let magnitude = mantissa * 2.0_f64.powi(exponent);
     if negative { -magnitude } else { magnitude }

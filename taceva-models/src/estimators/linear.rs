@@ -8,8 +8,7 @@ use taceva_core::{
 };
 
 use crate::features::Pca;
-use crate::linalg::Design;
-use crate::linalg::invalid;
+use crate::linalg::{Design, dot, invalid};
 use crate::training::choice::Choice;
 use crate::training::file::content::Stored;
 use crate::training::file::error::FormatError;
@@ -218,21 +217,6 @@ impl LinearRegressor {
             *place = bias + dot(row, sample);
         }
     }
-}
-
-/// Dot product with eight partial sums, so that additions do not wait for each other. The order is fixed.
-fn dot(weights: &[f64], values: &[f32]) -> f64 {
-    let (weights, last_weights) = weights.as_chunks::<8>();
-    let (values, last_values) = values.as_chunks::<8>();
-    let mut sums = [0.0; 8];
-    for (weights, values) in weights.iter().zip(values) {
-        for ((sum, weight), &value) in sums.iter_mut().zip(weights).zip(values) {
-            *sum += weight * f64::from(value);
-        }
-    }
-    let last = last_weights.iter().zip(last_values);
-    let rest: f64 = last.map(|(weight, &value)| weight * f64::from(value)).sum();
-    sums.iter().sum::<f64>() + rest
 }
 
 impl FittedModel for LinearRegressor {

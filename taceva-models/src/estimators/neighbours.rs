@@ -73,24 +73,25 @@ impl Neighbours {
 
 /// Summed squared errors of each channel (inner) for each number of neighbours (outer) on held-out samples.
 fn squares(
-    learnt: (&[f32], &Mat<f64>),
-    held: (&[f32], &Mat<f64>),
+    learnt: &[f32],
+    labels: &Mat<f64>,
+    held: &[f32],
+    truth: &Mat<f64>,
     counts: &[usize],
     progress: &dyn Progress,
 ) -> Result<Errors, ModelError> {
-    let channels = learnt.1.ncols();
-    let width = learnt.0.len() / learnt.1.nrows();
+    let channels = labels.ncols();
+    let width = learnt.len() / labels.nrows();
     let most = counts.iter().copied().max().unwrap_or(1);
     let samples: Result<Vec<Errors>, ModelError> = held
-        .0
         .par_chunks_exact(width)
         .enumerate()
         .map(|(row, sample)| {
             interrupted(progress)?;
-            let near = nearest(sample, learnt.0, most);
+            let near = nearest(sample, learnt, most);
             let of = |count: usize, channel: usize| {
-                let found = weighted(&near, count, |sample| learnt.1[(sample, channel)]);
-                (found - held.1[(row, channel)]).powi(2)
+                let found = weighted(&near, count, |sample| labels[(sample, channel)]);
+                (found - truth[(row, channel)]).powi(2)
             };
             let counts = counts.iter();
             Ok(counts
@@ -124,13 +125,11 @@ impl ModelEstimator for Neighbours {
         let errors = trials.errors(progress, |round| {
             let features = trials.features.select(&round.learnt);
             let standard = Standard::of(&features, self.scale);
-            let learnt = (
-                standard.rows(&features),
-                rows_of(&trials.labels, &round.learnt),
-            );
+            let learnt = standard.rows(&features);
+            let labels = rows_of(&trials.labels, &round.learnt);
             let held = standard.rows(&trials.features.select(&round.held));
             let truth = rows_of(&trials.labels, &round.held);
-            squares((&learnt.0, &learnt.1), (&held, &truth), &counts, progress)
+            squares(&learnt, &labels, &held, &truth, &counts, progress)
         })?;
         let values: Vec<f64> = counts.iter().map(|&count| count as f64).collect();
         let (chosen, choice) = trials.choose(&problem, COUNT.key, &values, errors.as_ref());

@@ -1,6 +1,6 @@
 //! Distance of a sample from the training part.
 
-use taceva_core::{FeatureShape, Features, ModelError, Progress};
+use taceva_core::{FeatureShape, Features, ModelError, Progress, single, whole_size};
 
 use super::pca::Pca;
 use crate::linalg::invalid;
@@ -203,10 +203,6 @@ struct Span {
 
 impl Span {
     /// Span of `seen`. `None` if nothing varies.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "directions are kept in single precision"
-    )]
     fn of(seen: &Features, progress: &dyn Progress) -> Result<Option<Span>, ModelError> {
         let most = (seen.samples() / SAMPLES_PER_DIRECTION).clamp(1, DIRECTIONS_MOST);
         let pca = Pca::up_to(most, seen, progress)?;
@@ -215,7 +211,7 @@ impl Span {
         }
         let mut span = Span {
             mean: pca.mean().to_vec(),
-            directions: pca.components().flatten().map(|of| *of as f32).collect(),
+            directions: pca.components().flatten().copied().map(single).collect(),
             deviations: vec![1.0; pca.variance_ratio().len()],
             spread: 0.0,
         };
@@ -284,12 +280,7 @@ fn halves(chosen: &[usize], groups: Option<&[u32]>) -> [Vec<usize>; 2] {
 /// 99 % quantile.
 fn quantile(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a place among at most 256"
-    )]
-    let rank = (values.len() as f64 * WITHIN).ceil() as usize;
+    let rank = whole_size((values.len() as f64 * WITHIN).ceil());
     values[rank.clamp(1, values.len()) - 1]
 }
 
@@ -312,10 +303,6 @@ fn averaged(shape: FeatureShape, features: &Features) -> Result<Features, ModelE
 }
 
 /// Appends the means over blocks of cells. Flat lists and small pictures stay unchanged.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "features are kept in single precision"
-)]
 fn average(shape: FeatureShape, sample: &[f32], into: &mut Vec<f32>) {
     let FeatureShape {
         height,
@@ -337,7 +324,7 @@ fn average(shape: FeatureShape, sample: &[f32], into: &mut Vec<f32>) {
                 let sum: f64 = cells
                     .map(|at| f64::from(sample[at * depth + channel]))
                     .sum();
-                into.push((sum / count) as f32);
+                into.push(single(sum / count));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Principal components of the training part.
 
 use faer::Mat;
-use taceva_core::{FeatureShape, Features, ModelError, Progress, by_count, counted};
+use taceva_core::{FeatureShape, Features, ModelError, Progress, by_count, counted, single};
 
 use crate::linalg::invalid;
 use crate::linalg::{Design, FeatureScale, Spectrum};
@@ -131,10 +131,6 @@ impl Pca {
     /// In: samples of [`shape`](Pca::shape); out: flat samples, one value per component.
     /// # Errors
     /// [`ModelError`] if the shape differs.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "features are kept in single precision"
-    )]
     pub fn transform(&self, features: &Features) -> Result<Features, ModelError> {
         if features.shape() != self.shape {
             return Err(invalid(format!(
@@ -152,7 +148,7 @@ impl Pca {
             Design::centred_at(features, self.mean.clone()).times(directions.as_ref());
         let values = (0..features.samples())
             .flat_map(|sample| (0..count).map(move |component| (sample, component)))
-            .map(|place| coordinates[place] as f32)
+            .map(|place| single(coordinates[place]))
             .collect();
         Features::new(FeatureShape::flat(count), values)
     }

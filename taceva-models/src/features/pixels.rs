@@ -1,6 +1,6 @@
 //! Area averages of pixels, exact up to one rounding, and their differences from a reference.
 
-use taceva_core::{Frame, FrameInfo, PixelFormat};
+use taceva_core::{Frame, FrameInfo, PixelFormat, single};
 
 use super::area::AreaSums;
 use super::cell_features::CellFeatures;
@@ -85,12 +85,8 @@ pub(super) fn signed(sum: u64) -> i64 {
 }
 
 /// Divides to a feature.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "features are kept in single precision; this is the only rounding"
-)]
 pub(super) fn ratio(sum: i64, full_scale: i64) -> f32 {
-    (sum as f64 / full_scale as f64) as f32
+    single(sum as f64 / full_scale as f64)
 }
 
 #[cfg(test)]

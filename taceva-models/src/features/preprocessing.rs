@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use taceva_core::FeatureShape;
+use taceva_core::{FeatureShape, single, whole_size};
 
 /// Preprocessing of each picture.
 ///
@@ -48,15 +48,10 @@ impl Preprocessing {
     }
 
     /// Weights of a pixel's neighbours at distance 0, 1, …
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "three standard deviations of at most a hundred pixels"
-    )]
     fn kernel(&self) -> Option<Vec<f64>> {
         let sigma = self.local_mean_px;
         (sigma > 0.0).then(|| {
-            let reach = (REACH * sigma).ceil() as usize;
+            let reach = whole_size((REACH * sigma).ceil());
             let weight = |distance: usize| (-0.5 * (distance as f64 / sigma).powi(2)).exp();
             (0..=reach).map(weight).collect()
         })
@@ -64,10 +59,6 @@ impl Preprocessing {
 }
 
 /// Subtracts from each value the weighted mean of its surroundings within the picture.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "means are formed in double precision and kept in single"
-)]
 fn subtract_local_mean(kernel: &[f64], shape: FeatureShape, picture: &mut [f32]) {
     let FeatureShape {
         height,
@@ -110,16 +101,12 @@ fn subtract_local_mean(kernel: &[f64], shape: FeatureShape, picture: &mut [f32])
             places.for_each(|(mean, other)| *mean += weight * other);
         }
         for (value, mean) in row.iter_mut().zip(means) {
-            *value = (f64::from(*value) - mean / weights) as f32;
+            *value = single(f64::from(*value) - mean / weights);
         }
     }
 }
 
 /// Subtracts the mean of a picture and divides by its standard deviation.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "moments are formed in double precision and applied to single"
-)]
 fn normalise_contrast(picture: &mut [f32]) {
     let count = picture.len() as f64;
     let values = || picture.iter().copied().map(f64::from);
@@ -131,7 +118,7 @@ fn normalise_contrast(picture: &mut [f32]) {
         0.0
     };
     for value in picture {
-        *value = ((f64::from(*value) - mean) * scale) as f32;
+        *value = single((f64::from(*value) - mean) * scale);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Values of taxels as features: unchanged, or minus the mean without contact.
 
-use taceva_core::{FeatureShape, Features, SignalInfo, Signals};
+use taceva_core::{FeatureShape, Features, SignalInfo, Signals, single};
 
 use super::error::FeatureError;
 use super::spec::FeatureSpec;
@@ -90,14 +90,10 @@ fn power_of_two(spread: f64) -> f64 {
 }
 
 /// Divides `features` by the spread of their channel.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "features are kept in single precision, and quotients by a power of two are exact there"
-)]
 pub(crate) fn divided(features: &Features, spread: &[f64]) -> Features {
     let factors = spread.iter().cycle().map(|spread| 1.0 / spread);
     let values = features.values().iter().zip(factors);
-    let values = values.map(|(value, factor)| (f64::from(*value) * factor) as f32);
+    let values = values.map(|(value, factor)| single(f64::from(*value) * factor));
     Features::new(features.shape(), values.collect()).expect("as many values as there were")
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use taceva_core::{Frame, FrameInfo};
+use taceva_core::{Frame, FrameInfo, single};
 
 use super::cell_features::CellFeatures;
 use super::kinds::FeatureKind;
@@ -97,14 +97,10 @@ impl CellFeatures for Statistics {
         FeatureKind::Statistics.depth(self.color)
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "features are kept in single precision"
-    )]
     fn write(&self, frame: &Frame, into: &mut [f32]) {
         for (position, (place, number)) in into.iter_mut().zip(self.numbers(frame)).enumerate() {
             let reference = self.reference.as_ref().map_or(0.0, |own| own[position]);
-            *place = (number - reference) as f32;
+            *place = single(number - reference);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Distances between samples, with the same bits on every machine, for one sample at a time or many.
 
 use rayon::prelude::*;
+use taceva_core::single;
 
 /// Features summed in single precision before their sum is added in double precision.
 const RUN: usize = 256;
@@ -11,13 +12,9 @@ const LANES: usize = 16;
 /// Σ (a − b)² over the features of two samples of equal length.
 ///
 /// Products and sums are never fused and have a fixed order, so that no instruction set changes a bit.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "distances are kept in single precision, as features are"
-)]
 pub(crate) fn squared_distance(a: &[f32], b: &[f32]) -> f32 {
     let runs = a.chunks(RUN).zip(b.chunks(RUN));
-    runs.map(|(a, b)| f64::from(squares(a, b))).sum::<f64>() as f32
+    single(runs.map(|(a, b)| f64::from(squares(a, b))).sum())
 }
 
 fn squares(a: &[f32], b: &[f32]) -> f32 {

@@ -1,6 +1,6 @@
 //! Standardisation of features by the training part, for models that compare samples.
 
-use taceva_core::{Features, ModelError};
+use taceva_core::{Features, ModelError, single};
 
 use crate::linalg::invalid;
 use crate::linalg::{Design, FeatureScale};
@@ -46,14 +46,10 @@ impl Standard {
     }
 
     /// Standardises one sample.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "features are kept in single precision"
-    )]
     pub(crate) fn write(&self, sample: &[f32], into: &mut [f32]) {
         let own = self.centre.iter().zip(&self.factor);
         for ((place, &value), (centre, factor)) in into.iter_mut().zip(sample).zip(own) {
-            *place = ((f64::from(value) - centre) * factor) as f32;
+            *place = single((f64::from(value) - centre) * factor);
         }
     }
 

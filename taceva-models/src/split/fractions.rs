@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::error::SplitError;
+use taceva_core::whole_size;
 
 /// Shares of the three parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,16 +54,11 @@ impl Fractions {
     }
 
     /// Divides `total` by the largest-remainder method. Ties go to the earlier part.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a share of a count is neither negative nor above the count"
-    )]
     pub(super) fn counts(&self, total: usize) -> [usize; 3] {
         let exact = self.shares.map(|share| share * total as f64);
         // 0.7 × 10 is 7.000…: a number that is an integer to within rounding counts as one.
         let whole = exact.map(|exact| (exact + 1e-9).floor());
-        let mut counts = whole.map(|whole| whole as usize);
+        let mut counts = whole.map(whole_size);
         let mut order = [0, 1, 2];
         order.sort_by(|&a, &b| (exact[b] - whole[b]).total_cmp(&(exact[a] - whole[a])));
         let left = total.saturating_sub(counts.iter().sum());

@@ -158,7 +158,6 @@ fn degree() -> Unit {
     Unit::Degree
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
 fn is_degree(unit: &Unit) -> bool {
     *unit == Unit::Degree
 }

@@ -81,9 +81,6 @@ fn parts_that_do_not_fit_each_other_are_refused() {
 struct Cancel(usize, AtomicUsize);
 
 impl Progress for Cancel {
-    fn begin(&self, _stage: &str, _steps: Option<u64>) {}
-    fn advance(&self, _steps: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         self.1.fetch_add(1, Ordering::Relaxed) >= self.0
     }

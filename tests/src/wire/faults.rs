@@ -239,7 +239,6 @@ impl Played {
         };
         let stopped_ms = (after.in_motion - before.in_motion).as_secs_f64() * 1e3;
         self.stopped_ms.push(stopped_ms);
-        #[expect(clippy::cast_precision_loss, reason = "some ms")]
         if stopped_ms > most_ms as f64 {
             self.broken.push(format!(
                 "{}: in motion for {stopped_ms:.1} ms, expected at most {most_ms} ms",

@@ -116,10 +116,6 @@ impl Pickle {
             _ => {
                 let number = |value: &Value| match value {
                     Value::Float(number) => *number,
-                    #[expect(
-                        clippy::cast_precision_loss,
-                        reason = "Python converts a whole number among floats in the same way"
-                    )]
                     Value::Whole(number) => *number as f64,
                     _ => 0.0,
                 };

@@ -150,7 +150,6 @@ impl ArrayValues {
 
 /// Whole number as `f64`; `None` if that is not exact.
 fn exact(number: i128) -> Option<f64> {
-    #[expect(clippy::cast_precision_loss, reason = "compared with the number again")]
     let near = number as f64;
     #[expect(
         clippy::cast_possible_truncation,

@@ -22,7 +22,7 @@ pub(crate) struct Planes<'a> {
     /// Blue and red chroma, if present.
     chroma: Option<[&'a [u8]; 2]>,
     /// Pixels for each chroma sample as powers of two, along a row and along a column.
-    shifts: (u32, u32),
+    shifts: [u32; 2],
 }
 
 /// Unsupported matrix.
@@ -39,7 +39,7 @@ impl UnknownMatrix {
 }
 
 impl<'a> Planes<'a> {
-    /// Planes without padding in their rows. Each chroma sample covers `1 << shifts.0` by `1 << shifts.1` pixels.
+    /// Planes without padding in their rows. Each chroma sample covers `1 << shifts[0]` by `1 << shifts[1]` pixels.
     ///
     /// # Panics
     /// If a plane is too small. Decoders check this before.
@@ -48,11 +48,11 @@ impl<'a> Planes<'a> {
         height: u32,
         luma: &'a [u8],
         chroma: Option<[&'a [u8]; 2]>,
-        shifts: (u32, u32),
+        shifts: [u32; 2],
     ) -> Planes<'a> {
         let (width, height) = (width as usize, height as usize);
         assert!(luma.len() >= width * height, "luma of {} bytes", luma.len());
-        let least = shifted(width, shifts.0) * shifted(height, shifts.1);
+        let least = shifted(width, shifts[0]) * shifted(height, shifts[1]);
         for plane in chroma.into_iter().flatten() {
             assert!(plane.len() >= least, "chroma of {} bytes", plane.len());
         }
@@ -79,11 +79,11 @@ impl<'a> Planes<'a> {
             blue_of_blue,
         } = Factors::of(coding)?;
         let mut rgb = Vec::with_capacity(self.width * self.height * 3);
-        let chroma_width = shifted(self.width, self.shifts.0);
+        let chroma_width = shifted(self.width, self.shifts[0]);
         for (row, line) in self.luma.chunks_exact(self.width).enumerate() {
-            let from = (row >> self.shifts.1) * chroma_width;
+            let from = (row >> self.shifts[1]) * chroma_width;
             for (column, &sample) in line.iter().enumerate() {
-                let at = from + (column >> self.shifts.0);
+                let at = from + (column >> self.shifts[0]);
                 let [blue, red] = self.chroma.map_or([0, 0], |planes| {
                     planes.map(|plane| i32::from(plane[at]) - 128)
                 });
@@ -157,7 +157,7 @@ mod tests {
 
     fn rgb(luma: u8, blue: u8, red: u8, matrix: Option<u16>, is_full_range: bool) -> [u8; 3] {
         let planes = [[luma], [blue], [red]];
-        let planes = Planes::new(1, 1, &planes[0], Some([&planes[1], &planes[2]]), (0, 0));
+        let planes = Planes::new(1, 1, &planes[0], Some([&planes[1], &planes[2]]), [0, 0]);
         let rgb = planes
             .to_rgb(YuvCoding {
                 matrix,
@@ -189,7 +189,7 @@ mod tests {
         // 3×3 pixels: chroma of 2×2 samples.
         let luma = [128; 9];
         let (blue, red) = ([128; 4], [128, 128, 128, 255]);
-        let planes = Planes::new(3, 3, &luma, Some([&blue, &red]), (1, 1));
+        let planes = Planes::new(3, 3, &luma, Some([&blue, &red]), [1, 1]);
         let rgb = planes
             .to_rgb(YuvCoding {
                 matrix: None,
@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn a_matrix_of_no_known_kind_is_refused() {
-        let planes = Planes::new(1, 1, &[0], None, (0, 0));
+        let planes = Planes::new(1, 1, &[0], None, [0, 0]);
         let refused = planes.to_rgb(YuvCoding {
             matrix: Some(8),
             is_full_range: true,

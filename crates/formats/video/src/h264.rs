@@ -175,7 +175,7 @@ impl H264Clip {
             Colours::Luma => picture.luma,
             Colours::Rgb => {
                 let [blue, red] = &picture.chroma;
-                let planes = Planes::new(width, height, &picture.luma, Some([blue, red]), (1, 1));
+                let planes = Planes::new(width, height, &picture.luma, Some([blue, red]), [1, 1]);
                 let rgb = planes.to_rgb(self.coding);
                 rgb.map_err(|problem| problem.at(self.source.path()))?
             }

@@ -1,12 +1,13 @@
 //! Gradients of batch normalisation followed by ReLU.
 
 use rayon::prelude::*;
+use taceva_core::single;
 
 use super::Moments;
 use super::sums::{ChannelSums, PIXELS_AT_ONCE};
 use crate::machine::Machine;
 use crate::panel::{Aligned, PANEL};
-use crate::planes::{Layout, Planes};
+use crate::planes::{Layout, Pictures, Planes};
 use crate::simd::{Job, Vector};
 
 /// Mask of a gradient by ReLU. The gradient passes where the output was positive.
@@ -71,10 +72,6 @@ pub(crate) fn gradient_sums(
 
 impl GradientSums {
     /// Sums over a batch of `samples` values per channel, from the sums of its pictures: Σ g and Σ g · (x − mean).
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "summed in double precision and used in single"
-    )]
     pub(crate) fn over(images: &[ChannelSums], moments: &Moments, samples: usize) -> GradientSums {
         let channels = moments.mean.len();
         let mut into = GradientSums {
@@ -91,10 +88,10 @@ impl GradientSums {
                 product += image.squares(channel);
             }
             let inverse = f64::from(moments.inverse[channel]);
-            into.bias[channel] = sum as f32;
-            into.gain[channel] = (product * inverse) as f32;
-            into.mean[channel] = (sum / samples) as f32;
-            into.slope[channel] = (product * inverse * inverse / samples) as f32;
+            into.bias[channel] = single(sum);
+            into.gain[channel] = single(product * inverse);
+            into.mean[channel] = single(sum / samples);
+            into.slope[channel] = single(product * inverse * inverse / samples);
         }
         into
     }
@@ -104,12 +101,14 @@ impl GradientSums {
 /// scale · (g − Σg/n − (x − mean) · inverse² · Σ(g · (x − mean))/n), for the first `count` pictures.
 pub(crate) fn input_gradient(
     machine: Machine,
-    (raw, count): (&Planes, usize),
-    (moments, sums): (&Moments, &GradientSums),
+    raw: Pictures<'_>,
+    moments: &Moments,
+    sums: &GradientSums,
     gate: Gate<'_>,
     gradient: &Planes,
     into: &mut Planes,
 ) {
+    let Pictures { planes: raw, count } = raw;
     let length = raw.layout().len();
     let raws = raw.first(count).par_chunks_exact(length);
     let gradients = gradient.first(count).par_chunks_exact(length);

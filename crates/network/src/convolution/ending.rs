@@ -34,6 +34,13 @@ pub(super) enum Start<'a> {
     Bias(&'a [f32]),
 }
 
+/// Start value and finish of sums.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SumRule<'a> {
+    pub(super) start: Start<'a>,
+    pub(super) finish: Finish<'a>,
+}
+
 /// Operation on finished sums.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Finish<'a> {
@@ -45,36 +52,41 @@ pub(super) enum Finish<'a> {
     AddThenRelu(&'a [f32]),
 }
 
-impl Start<'_> {
-    /// Start values of the channels from `channel` on.
-    pub(super) fn from(self, channel: usize) -> Self {
-        match self {
+impl SumRule<'_> {
+    /// Rule of a part that begins with `channel`: its start values, without the finish.
+    pub(super) fn of_part(self, channel: usize) -> Self {
+        let start = match self.start {
             Start::Bias(bias) => Start::Bias(&bias[channel..]),
-            Start::Zero | Start::Output => self,
-        }
+            Start::Zero | Start::Output => self.start,
+        };
+        let finish = Finish::Keep;
+        SumRule { start, finish }
     }
 }
 
 impl<'a> Epilogue<'a> {
     /// Start and finish for the output values in `range`.
-    pub(super) fn within(self, range: Range<usize>) -> (Start<'a>, Finish<'a>) {
-        match self {
+    pub(super) fn within(self, range: Range<usize>) -> SumRule<'a> {
+        let (start, finish) = match self {
             Epilogue::Raw => (Start::Zero, Finish::Keep),
             Epilogue::Bias(bias) => (Start::Bias(bias), Finish::Keep),
             Epilogue::BiasRelu(bias) => (Start::Bias(bias), Finish::Relu),
             Epilogue::BiasAddRelu(bias, other) => {
                 (Start::Bias(bias), Finish::AddThenRelu(&other[range]))
             }
-        }
+        };
+        SumRule { start, finish }
     }
 }
 
 impl Onto {
-    /// Start value of the sums.
-    pub(super) fn start(self) -> Start<'static> {
-        match self {
+    /// Start value of the sums, which are kept.
+    pub(super) fn rule(self) -> SumRule<'static> {
+        let start = match self {
             Onto::Nothing => Start::Zero,
             Onto::Sum => Start::Output,
-        }
+        };
+        let finish = Finish::Keep;
+        SumRule { start, finish }
     }
 }

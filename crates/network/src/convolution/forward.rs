@@ -1,14 +1,14 @@
 //! Forward pass in either form.
 
-use super::ending::Epilogue;
 use super::form::ConvolutionForm;
 use super::source::Source;
+use super::target::Target;
 use super::weights::ConvolutionWeights;
 use super::winograd;
 use super::workspace::TileRooms;
 use super::{Convolution, direct};
 use crate::machine::Machine;
-use crate::planes::{Layout, Planes};
+use crate::planes::Layout;
 
 /// Forward pass, prepared for pictures of one layout.
 #[derive(Clone, Debug)]
@@ -53,22 +53,19 @@ impl Forward {
         }
     }
 
-    /// Runs the pass into the first pictures of `output`. The callback of `each` receives each picture's output while still in cache.
+    /// Runs the pass into the first pictures of `output`. `see` receives each picture's item of `each`, and its output while still in cache.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,
         source: Source<'_>,
-        (output, epilogue): (&mut Planes, Epilogue<'_>),
-        each: (&mut [E], impl Fn(&mut E, &[f32]) + Sync),
+        target: Target<'_>,
+        each: &mut [E],
+        see: impl Fn(&mut E, &[f32]) + Sync,
         rooms: &TileRooms,
     ) {
         match self {
-            Forward::Direct(pass) => {
-                pass.run(machine, source, (output, epilogue), each, rooms);
-            }
-            Forward::Winograd(pass) => {
-                pass.run(machine, source, (output, epilogue), each, rooms);
-            }
+            Forward::Direct(pass) => pass.run(machine, source, target, each, see, rooms),
+            Forward::Winograd(pass) => pass.run(machine, source, target, each, see, rooms),
         }
     }
 }

@@ -1,13 +1,13 @@
 //! Input gradient in either form.
 
-use super::ending::Onto;
 use super::form::ConvolutionForm;
+use super::target::GradientTarget;
 use super::weights::ConvolutionWeights;
 use super::winograd;
 use super::workspace::Rooms;
 use super::{Convolution, direct};
 use crate::machine::Machine;
-use crate::planes::{Layout, Planes};
+use crate::planes::{Layout, Pictures};
 
 /// Input-gradient pass, prepared for pictures of one layout.
 #[derive(Clone, Debug)]
@@ -45,9 +45,10 @@ impl InputGradient {
     pub(crate) fn run(
         &self,
         machine: Machine,
-        (weights, exchanged): (&ConvolutionWeights, &mut [f32]),
-        gradient: (&Planes, usize),
-        into: (&mut Planes, Onto),
+        weights: &ConvolutionWeights,
+        exchanged: &mut [f32],
+        gradient: Pictures<'_>,
+        into: GradientTarget<'_>,
         rooms: Rooms<'_>,
     ) {
         weights.exchange(machine, exchanged);

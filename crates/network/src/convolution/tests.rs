@@ -7,7 +7,7 @@ use taceva_core::Isa;
 use super::*;
 use crate::machine::Machine;
 use crate::panel::Aligned;
-use crate::planes::Planes;
+use crate::planes::{Pictures, Planes};
 use taceva_core::random::Draws;
 
 pub(crate) fn random(length: usize, seed: u64) -> Vec<f32> {
@@ -205,8 +205,8 @@ pub(crate) fn passes(case: &Case, machine: Machine, numbers: &Numbers) -> [Vec<f
         transformed: &mut Aligned::zeros(pass.transformed_len()),
         tiles: &tiles,
     };
-    let read = (&pictures, &gradient);
-    pass.run(machine, read, batch, &mut weight_gradient, rooms);
+    let into = &mut weight_gradient;
+    pass.run(machine, &pictures, &gradient, batch, into, rooms);
 
     let mut input_gradient = Planes::zeros(input, 1, batch);
     if reads_panels(convolution) {
@@ -225,8 +225,12 @@ pub(crate) fn passes(case: &Case, machine: Machine, numbers: &Numbers) -> [Vec<f
                 transformed: &mut transformed,
                 tiles: &tiles,
             };
-            let (exchanged, into) = ((&weights, &mut room[..]), (&mut input_gradient, onto));
-            pass.run(machine, exchanged, (&gradient, batch), into, rooms);
+            let into = GradientTarget::new(&mut input_gradient, onto);
+            let pictures = Pictures {
+                planes: &gradient,
+                count: batch,
+            };
+            pass.run(machine, &weights, &mut room, pictures, into, rooms);
         }
     }
     [
@@ -267,9 +271,12 @@ fn finished(
         first: 0,
         count: batch,
     };
-    let each = (&mut vec![(); batch][..], |(): &mut (), _: &[f32]| {});
+    let each = &mut vec![(); batch][..];
+    let see = |(): &mut (), _: &[f32]| {};
     let rooms = TileRooms::default();
-    pass.run(machine, source, (&mut outputs, epilogue), each, &rooms);
+    let pictures = &mut outputs;
+    let target = Target { pictures, epilogue };
+    pass.run(machine, source, target, each, see, &rooms);
     outputs
 }
 

@@ -45,7 +45,8 @@ impl WeightGradient {
     pub(crate) fn run(
         &self,
         machine: Machine,
-        (input, gradient): (&Planes, &Planes),
+        input: &Planes,
+        gradient: &Planes,
         count: usize,
         into: &mut [f32],
         rooms: Rooms<'_>,
@@ -53,7 +54,7 @@ impl WeightGradient {
         match self {
             WeightGradient::Direct(pass) => pass.run(machine, input, gradient, count, into),
             WeightGradient::Winograd(pass) => {
-                pass.run(machine, (input, gradient), count, into, rooms);
+                pass.run(machine, input, gradient, count, into, rooms);
             }
         }
     }

@@ -4,6 +4,7 @@
 use burn_autodiff::Autodiff;
 use burn_tensor::Tensor;
 use burn_tensor::backend::Backend;
+use taceva_core::single;
 
 use crate::gpu::autodiff::convolved;
 use crate::gpu::normalisation::normalised;
@@ -56,13 +57,9 @@ impl<B: Products> Course<B> {
     }
 
     /// Gradient of all trained values, from the output gradient `gradient`.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "formed in double precision and passed back in single"
-    )]
     pub(crate) fn backward(&self, gradient: &[f64]) -> Tensor<B, 1> {
         let device = self.outputs.device();
-        let gradient: Vec<f32> = gradient.iter().map(|number| *number as f32).collect();
+        let gradient: Vec<f32> = gradient.iter().copied().map(single).collect();
         let gradient = vector::<Autodiff<B>>(gradient, &device).reshape(self.outputs.dims());
         // The derivative of this product with respect to the outputs is `gradient`, for any loss.
         let mut gradients = (self.outputs.clone() * gradient).sum().backward();

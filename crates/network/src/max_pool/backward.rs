@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{NOWHERE, PLACES, place, window, windows};
+use super::{CoveringWindow, PLACES, place, window, windows};
 use crate::batch_norm::{ChannelSums, GradientSums, Moments};
 use crate::machine::Machine;
 use crate::panel::PANEL;
@@ -194,10 +194,11 @@ impl Job for Apply<'_> {
                 for panel in 0..panels {
                     let mut passed = [0.0_f32; PANEL];
                     // Even rows and columns belong to one window only.
-                    for (row, window_y) in rows.into_iter().filter(is_there) {
-                        for (column, window_x) in columns.into_iter().filter(is_there) {
-                            let at = (window_y * output.width + window_x) * panels + panel;
-                            let (chosen, place) = (choices[at].map(u32::from), place(row, column));
+                    for row in rows.into_iter().filter(CoveringWindow::is_there) {
+                        for column in columns.into_iter().filter(CoveringWindow::is_there) {
+                            let at = (row.window * output.width + column.window) * panels + panel;
+                            let chosen = choices[at].map(u32::from);
+                            let place = place(row.place, column.place);
                             for lane in 0..PANEL {
                                 let is_it = chosen[lane] == place;
                                 passed[lane] += if is_it { gradient[at][lane] } else { 0.0 };
@@ -214,10 +215,4 @@ impl Job for Apply<'_> {
             }
         }
     }
-}
-
-/// True if the window exists.
-#[inline(always)]
-fn is_there(&(place, _): &(u32, usize)) -> bool {
-    place != NOWHERE
 }

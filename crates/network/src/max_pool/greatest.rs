@@ -9,8 +9,10 @@ use crate::simd::{Job, Vector};
 /// Pools `picture`, of layout `from`, into `into`, of layout `layout`.
 pub(crate) fn pool(
     machine: Machine,
-    (picture, from): (&[f32], Layout),
-    (into, layout): (&mut [f32], Layout),
+    picture: &[f32],
+    from: Layout,
+    into: &mut [f32],
+    layout: Layout,
 ) {
     machine.run(Greatest {
         picture,
@@ -93,7 +95,7 @@ mod tests {
 
                 let mut found = Planes::zeros(output(picture), 1, 1);
                 let (from, layout) = (raw.layout(), found.layout());
-                pool(machine, (raw.first(1), from), (found.first_mut(1), layout));
+                pool(machine, raw.first(1), from, found.first_mut(1), layout);
                 assert_eq!(found.first(1), expected.first(1), "{isa} {picture}");
             }
         }

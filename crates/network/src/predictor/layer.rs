@@ -1,6 +1,6 @@
 //! One convolution of a predictor.
 
-use crate::convolution::{ConvolutionForm, ConvolutionWeights, Epilogue, Forward, Source};
+use crate::convolution::{ConvolutionForm, ConvolutionWeights, Epilogue, Forward, Source, Target};
 use crate::error::NetworkError;
 use crate::machine::Machine;
 use crate::max_pool;
@@ -122,10 +122,12 @@ impl Layer {
             Ending::AddThenRelu(other) => Epilogue::BiasAddRelu(&self.bias, other),
         };
         // No callback reads the outputs.
-        let each = (&mut vec![(); pass.count][..], |(): &mut (), _: &[f32]| {});
-        let into = (&mut output, epilogue);
+        let each = &mut vec![(); pass.count][..];
+        let see = |(): &mut (), _: &[f32]| {};
+        let pictures = &mut output;
+        let target = Target { pictures, epilogue };
         self.forward
-            .run(pass.machine, source, into, each, &scratch.tiles);
+            .run(pass.machine, source, target, each, see, &scratch.tiles);
         output
     }
 
@@ -142,12 +144,15 @@ impl Layer {
         let images = pooled.first_mut(count).chunks_exact_mut(layout.len());
         let mut images: Vec<&mut [f32]> = images.collect();
         let pool = |into: &mut &mut [f32], raw: &[f32]| {
-            max_pool::pool(machine, (raw, self.output), (into, layout));
+            max_pool::pool(machine, raw, self.output, into, layout);
         };
-        let into = (&mut raw, Epilogue::BiasRelu(&self.bias));
-        let each = (&mut images[..], pool);
+        let target = Target {
+            pictures: &mut raw,
+            epilogue: Epilogue::BiasRelu(&self.bias),
+        };
+        let (source, images) = (self.source(pass), &mut images[..]);
         self.forward
-            .run(machine, self.source(pass), into, each, &scratch.tiles);
+            .run(machine, source, target, images, pool, &scratch.tiles);
         scratch.put(raw);
         pooled
     }

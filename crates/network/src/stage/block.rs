@@ -2,10 +2,10 @@
 
 use super::Standing;
 use crate::batch_norm::{Gate, Shortcut, apply};
-use crate::convolution::{Convolution, Onto};
+use crate::convolution::{Convolution, GradientTarget, Onto};
 use crate::machine::Machine;
 use crate::normalised_convolution::{Back, Normed, NormedSpace};
-use crate::planes::{Layout, Planes};
+use crate::planes::{Layout, Pictures, Planes};
 use crate::scratch::Scratch;
 
 /// Weights of a block.
@@ -87,7 +87,7 @@ impl BlockSpace {
         let picture = block.first.convolution().output(input.picture);
         let middle = Layout { picture, border: 1 };
         let past = block.shortcut.as_ref().map(Normed::convolution);
-        let space = |convolution, input| NormedSpace::new((convolution, form), input, batch, true);
+        let space = |convolution, input| NormedSpace::new(convolution, form, input, batch, true);
         BlockSpace {
             first: space(block.first.convolution(), input),
             second: space(block.second.convolution(), middle),
@@ -126,11 +126,12 @@ impl BlockSpace {
         &mut self,
         block: &mut Block,
         machine: Machine,
-        (input, count): (&Planes, usize),
+        input: Pictures<'_>,
         scratch: &mut Scratch,
     ) {
+        let count = input.count;
         let first = &mut self.first;
-        block.first.forward(machine, first, (input, count), scratch);
+        block.first.forward(machine, first, input, scratch);
         let middle = self.middle(machine, count, scratch);
         let BlockSpace {
             second,
@@ -139,14 +140,16 @@ impl BlockSpace {
             ..
         } = self;
         let normed = &mut block.second;
-        normed.forward(machine, second, (&middle, count), scratch);
+        let planes = &middle;
+        let pictures = Pictures { planes, count };
+        normed.forward(machine, second, pictures, scratch);
         scratch.put(middle);
         let past = match (&mut block.shortcut, shortcut) {
             (Some(normed), Some(space)) => {
-                normed.forward(machine, space, (input, count), scratch);
+                normed.forward(machine, space, input, scratch);
                 Shortcut::Normalised(&space.raw, &space.moments)
             }
-            _ => Shortcut::Identity(input),
+            _ => Shortcut::Identity(input.planes),
         };
         apply(machine, &second.raw, count, &second.moments, past, output);
     }
@@ -166,7 +169,7 @@ impl BlockSpace {
             .norm_backward(&mut self.second, cut, &mut gradient, back);
         let middle = self.middle(back.machine, back.count, back.scratch);
         let mut inner = back.scratch.take(self.middle.bare(), back.count);
-        let into = Some((&mut inner, Onto::Nothing));
+        let into = Some(GradientTarget::new(&mut inner, Onto::Nothing));
         block
             .second
             .backward(&self.second, &middle, &raw_gradient, into, back);
@@ -181,20 +184,20 @@ impl BlockSpace {
         match (&mut block.shortcut, &mut self.shortcut) {
             (Some(past), Some(space)) => {
                 let mut passed = back.scratch.take(self.input, back.count);
-                let into = Some((&mut passed, Onto::Nothing));
+                let into = Some(GradientTarget::new(&mut passed, Onto::Nothing));
                 block
                     .first
                     .backward(&self.first, input, &raw_gradient, into, back);
                 back.scratch.put(raw_gradient);
                 let past_gradient = past.norm_backward(space, Gate::Open, &mut gradient, back);
-                let into = Some((&mut passed, Onto::Sum));
+                let into = Some(GradientTarget::new(&mut passed, Onto::Sum));
                 past.backward(space, input, &past_gradient, into, back);
                 back.scratch.put(past_gradient);
                 back.scratch.put(gradient);
                 passed
             }
             _ => {
-                let into = Some((&mut gradient, Onto::Sum));
+                let into = Some(GradientTarget::new(&mut gradient, Onto::Sum));
                 block
                     .first
                     .backward(&self.first, input, &raw_gradient, into, back);

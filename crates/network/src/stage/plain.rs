@@ -2,10 +2,10 @@
 
 use super::Standing;
 use crate::batch_norm::{Gate, Shortcut, apply};
-use crate::convolution::Onto;
+use crate::convolution::{GradientTarget, Onto};
 use crate::machine::Machine;
 use crate::normalised_convolution::{Back, Normed, NormedSpace};
-use crate::planes::{Layout, Planes};
+use crate::planes::{Layout, Pictures, Planes};
 use crate::scratch::Scratch;
 
 /// Activations and prepared passes in training.
@@ -28,7 +28,7 @@ impl PlainSpace {
         } = standing;
         let convolution = normed.convolution();
         PlainSpace {
-            normed: NormedSpace::new((convolution, form), input, batch, !is_first),
+            normed: NormedSpace::new(convolution, form, input, batch, !is_first),
             output: Planes::zeros(convolution.output(input.picture), border, batch),
             input: (!is_first).then_some(input.bare()),
         }
@@ -38,7 +38,7 @@ impl PlainSpace {
         &mut self,
         normed: &mut Normed,
         machine: Machine,
-        input: (&Planes, usize),
+        input: Pictures<'_>,
         scratch: &mut Scratch,
     ) {
         let space = &mut self.normed;
@@ -46,7 +46,7 @@ impl PlainSpace {
         apply(
             machine,
             &space.raw,
-            input.1,
+            input.count,
             &space.moments,
             Shortcut::Nothing,
             &mut self.output,
@@ -64,7 +64,9 @@ impl PlainSpace {
         let raw_gradient = normed.norm_backward(space, Gate::Normalised, &mut gradient, back);
         back.scratch.put(gradient);
         let mut passed = self.input.map(|input| back.scratch.take(input, back.count));
-        let into = passed.as_mut().map(|passed| (passed, Onto::Nothing));
+        let into = passed
+            .as_mut()
+            .map(|passed| GradientTarget::new(passed, Onto::Nothing));
         normed.backward(space, input, &raw_gradient, into, back);
         back.scratch.put(raw_gradient);
         passed

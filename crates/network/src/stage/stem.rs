@@ -4,7 +4,7 @@ use super::Standing;
 use crate::machine::Machine;
 use crate::max_pool::{self, Pooled};
 use crate::normalised_convolution::{Back, Normed, NormedSpace};
-use crate::planes::Planes;
+use crate::planes::{Pictures, Planes};
 use crate::scratch::Scratch;
 
 /// Activations and prepared passes in training.
@@ -25,7 +25,7 @@ impl StemSpace {
             form,
             ..
         } = standing;
-        let normed = NormedSpace::new((normed.convolution(), form), input, batch, false);
+        let normed = NormedSpace::new(normed.convolution(), form, input, batch, false);
         let picture = max_pool::output(normed.raw.layout().picture);
         StemSpace {
             normed,
@@ -38,7 +38,7 @@ impl StemSpace {
         &mut self,
         normed: &mut Normed,
         machine: Machine,
-        input: (&Planes, usize),
+        input: Pictures<'_>,
         scratch: &mut Scratch,
     ) {
         let space = &mut self.normed;
@@ -46,7 +46,7 @@ impl StemSpace {
         max_pool::pool_normalised(
             machine,
             &space.raw,
-            input.1,
+            input.count,
             &space.moments,
             &mut self.output,
             &mut self.choices,

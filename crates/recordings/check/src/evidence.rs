@@ -175,10 +175,6 @@ fn facts_of_samples(frame: &Frame, reference: Option<&Frame>, format: PixelForma
     }
 }
 
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "counts of pixels are far below 2^53"
-)]
 fn share(part: u64, whole: u64) -> f64 {
     part as f64 / whole as f64
 }

@@ -19,5 +19,5 @@ pub use evidence::{Evidence, FrameFacts};
 pub use finding::{Check, CheckReport, Finding, Severity};
 pub use rest_change::RestChange;
 pub use run::{CheckRequest, check_plan};
-pub use signal_facts::{SignalFacts, TaxelFacts};
+pub use signal_facts::{SignalFacts, TaxelFacts, ValueCount};
 pub use tiles::Tiles;

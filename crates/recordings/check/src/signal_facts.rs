@@ -31,6 +31,23 @@ pub struct SignalFacts {
     pub distance: Vec<f64>,
 }
 
+/// Value, and the number of samples with this value.
+///
+/// This type gets no further field: a value and its count are complete.
+///
+/// ```
+/// use taceva_check::ValueCount;
+/// let least = ValueCount { value: 0.5, count: 3 };
+/// assert_eq!((least.value, least.count), (0.5, 3));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ValueCount {
+    /// Value, in the unit of the signals.
+    pub value: f32,
+    /// Number of samples with this value.
+    pub count: u64,
+}
+
 /// Statistics of one taxel.
 ///
 /// # Units
@@ -38,13 +55,13 @@ pub struct SignalFacts {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TaxelFacts {
     /// Least value, and its count.
-    pub least: (f32, u64),
+    pub least: ValueCount,
     /// Second least value, and its count.
-    pub above_least: Option<(f32, u64)>,
+    pub above_least: Option<ValueCount>,
     /// Greatest value, and its count.
-    pub greatest: (f32, u64),
+    pub greatest: ValueCount,
     /// Second greatest value, and its count.
-    pub below_greatest: Option<(f32, u64)>,
+    pub below_greatest: Option<ValueCount>,
     /// Digest of all values in order; equal for equal taxels.
     pub series: u64,
 }
@@ -110,9 +127,9 @@ impl SignalFacts {
 impl TaxelFacts {
     fn first(value: f32) -> TaxelFacts {
         TaxelFacts {
-            least: (value, 1),
+            least: ValueCount { value, count: 1 },
             above_least: None,
-            greatest: (value, 1),
+            greatest: ValueCount { value, count: 1 },
             below_greatest: None,
             series: next_in_series(FNV_OFFSET, value),
         }
@@ -149,20 +166,20 @@ fn next_in_series(series: u64, value: f32) -> u64 {
 /// Counts `value` if it is the extreme value or the second one. `beyond` returns true if its first argument is more extreme.
 fn extend(
     value: f32,
-    end: &mut (f32, u64),
-    next: &mut Option<(f32, u64)>,
+    end: &mut ValueCount,
+    next: &mut Option<ValueCount>,
     beyond: impl Fn(f32, f32) -> bool,
 ) {
-    if beyond(value, end.0) {
+    if beyond(value, end.value) {
         *next = Some(*end);
-        *end = (value, 1);
-    } else if !beyond(end.0, value) {
-        end.1 += 1;
+        *end = ValueCount { value, count: 1 };
+    } else if !beyond(end.value, value) {
+        end.count += 1;
     } else {
         match next {
-            Some(known) if beyond(known.0, value) => {}
-            Some(known) if !beyond(value, known.0) => known.1 += 1,
-            _ => *next = Some((value, 1)),
+            Some(known) if beyond(known.value, value) => {}
+            Some(known) if !beyond(value, known.value) => known.count += 1,
+            _ => *next = Some(ValueCount { value, count: 1 }),
         }
     }
 }
@@ -180,10 +197,12 @@ mod tests {
         ] {
             let mut facts = TaxelFacts::first(values[0]);
             values[1..].iter().for_each(|value| facts.add(*value));
-            assert_eq!((facts.least, facts.above_least), ((1.0, 2), Some((2.0, 2))));
+            let counted = |value, count| ValueCount { value, count };
+            let next = Some(counted(2.0, 2));
+            assert_eq!((facts.least, facts.above_least), (counted(1.0, 2), next));
             assert_eq!(
                 (facts.greatest, facts.below_greatest),
-                ((3.0, 3), Some((2.0, 2)))
+                (counted(3.0, 3), next)
             );
         }
         let mut same = TaxelFacts::first(-0.0);

@@ -116,7 +116,6 @@ pub(super) fn by_time(table: &Table, rows: &[usize]) -> Vec<(usize, usize)> {
         .collect()
 }
 
-#[expect(clippy::cast_precision_loss, reason = "rows are far below 2^53")]
 pub(super) fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole.max(1) as f64
 }

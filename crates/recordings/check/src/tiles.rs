@@ -1,6 +1,6 @@
 //! Mean brightness of the tiles of a picture, for comparing pictures without pixel noise.
 
-use taceva_core::Frame;
+use taceva_core::{Frame, single};
 
 use crate::count::count;
 
@@ -49,15 +49,10 @@ impl Tiles {
             }
         }
         let top = u64::from(info.format.full_scale());
-        let means = sums.iter().zip(&counts).map(|(sum, count)| {
-            #[expect(
-                clippy::cast_precision_loss,
-                clippy::cast_possible_truncation,
-                reason = "a share of the full scale, of which seven digits are plenty"
-            )]
-            let mean = (*sum as f64 / ((*count).max(1) * top) as f64) as f32;
-            mean
-        });
+        let means = sums
+            .iter()
+            .zip(&counts)
+            .map(|(sum, count)| single(*sum as f64 / ((*count).max(1) * top) as f64));
         Tiles {
             across,
             means: means.collect(),
@@ -78,11 +73,7 @@ impl Tiles {
             pairs.for_each(|(sum, mean)| *sum += f64::from(*mean));
             count += 1.0;
         }
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "a share of the full scale, of which seven digits are plenty"
-        )]
-        let means = sums.into_iter().map(|sum| (sum / count) as f32).collect();
+        let means = sums.into_iter().map(|sum| single(sum / count)).collect();
         Some(Tiles {
             across: first.across,
             means,

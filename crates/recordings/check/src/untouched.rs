@@ -74,7 +74,6 @@ pub(crate) fn look_alikes(evidence: &Evidence<'_>) -> Vec<usize> {
         .filter(|(_, alike)| **alike)
         .map(|(picture, _)| picture.0)
         .collect();
-    #[expect(clippy::cast_precision_loss, reason = "rows are far below 2^53")]
     let share = rows.len() as f64 / pictures.len() as f64;
     match rows.len() >= LEAST && share <= MOST && visits >= VISITS {
         true => rows,

@@ -83,10 +83,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "bytes of some minutes, for people to read"
-)]
 fn print(least: &Least, frames: usize, bytes: usize) {
     let recorded = &least.recorded;
     let ratio = |of: Duration| of.as_secs_f64() / least.durable.as_secs_f64();

@@ -1,5 +1,7 @@
 //! Times as text: ISO 8601 dates and times, and times of day.
 
+use taceva_core::Date;
+
 /// Instant written as text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct TextInstant {
@@ -141,23 +143,8 @@ fn day_of(date: &str) -> Option<i64> {
     if year.len() != 4 || !(1..=2).contains(&month.len()) || !(1..=2).contains(&day.len()) {
         return None;
     }
-    let (year, month, day) = (digits(year)?, digits(month)?, digits(day)?);
-    let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
-    let length = match month {
-        2 => 28 + i64::from(is_leap),
-        4 | 6 | 9 | 11 => 30,
-        1..=12 => 31,
-        _ => return None,
-    };
-    if !(1..=length).contains(&day) {
-        return None;
-    }
-    // Years that begin in March have the leap day at their end (Howard Hinnant, "chrono-compatible low-level date algorithms").
-    let year = if month <= 2 { year - 1 } else { year };
-    let era = year.div_euclid(400);
-    let of_era = year.rem_euclid(400);
-    let of_year = (153 * ((month + 9) % 12) + 2) / 5 + day - 1;
-    Some(era * 146_097 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719_468)
+    let number = |text: &str| digits(text).map(i64::cast_unsigned);
+    Date::new(number(year)?, number(month)?, number(day)?).map(Date::days_since_1970)
 }
 
 fn is_of_digits(text: &str) -> bool {

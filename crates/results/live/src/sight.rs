@@ -45,10 +45,6 @@ impl Sight {
                 count += 1;
             }
         }
-        #[expect(
-            clippy::cast_precision_loss,
-            reason = "sums and counts of a frame are far below 2^53"
-        )]
         Sight {
             saturated: full as f64 / (width * height * depth).max(1) as f64,
             sharpness: sum as f64 / count.max(1) as f64,

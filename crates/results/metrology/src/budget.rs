@@ -24,7 +24,7 @@ mod shape;
 mod source;
 mod text;
 
-pub use certificate::{Certificate, Coverage};
+pub use certificate::Certificate;
 pub use digits::two_digits;
 pub use error::{BudgetError, BudgetProblem};
 pub use evidence::{Evidence, Figure};

@@ -4,7 +4,7 @@ mod comparability;
 mod estimate;
 mod notes;
 mod overview;
-mod paired;
+mod pairs;
 mod reach;
 mod remarks;
 mod render;
@@ -290,7 +290,7 @@ fn difference(
     seed: u64,
 ) -> (Result<Difference, String>, Option<String>) {
     let paired = match scores.a.metric.as_str() {
-        "mae" => paired::difference(scores, studies, names, seed),
+        "mae" => pairs::difference(scores, studies, names, seed),
         _ => Err(None),
     };
     let unpaired = match paired {

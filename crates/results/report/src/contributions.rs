@@ -11,7 +11,6 @@ const PLACE: [f64; 2] = [240.0, 640.0];
 const HALF: f64 = 0.3;
 
 /// Figure number `number` of a page; `None` without an uncertainty.
-#[expect(clippy::cast_precision_loss, reason = "a handful of sources")]
 pub(crate) fn draw(budget: &Budget, number: usize) -> Option<Figure> {
     if budget.sources.is_empty() || budget.u <= 0.0 {
         return None;

@@ -8,7 +8,7 @@ use taceva_metrology::curve::{CurveFit, Indication, ProvingSeries};
 use taceva_results::not_measured;
 
 use crate::number::FormattedValue;
-use crate::table::{Cell, Estimate, Table};
+use crate::table::{Cell, Table};
 
 /// Schema of a calibration curve as JSON.
 pub const CURVE_SCHEMA: &str = "taceva.curve/1";
@@ -131,7 +131,7 @@ impl CalibrationCurve {
             table.push([
                 Cell::text(figure.quantity.as_str()),
                 Cell::from(number(figure.at)),
-                estimate(figure),
+                Cell::estimate(figure.value, figure.ends),
                 Cell::text(figure.unit.as_str()),
                 Cell::from(number(figure.u)),
                 Cell::from(figure.freedom.map_or_else(String::new, |of| of.to_string())),
@@ -165,19 +165,16 @@ impl CalibrationCurve {
             "source",
         ];
         let mut table = Table::new("Calibration curve", columns);
-        let number = |value: Option<f64>| {
-            Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
-        };
         for figure in figures {
             table.push([
                 Cell::text(figure.quantity.as_str()),
-                number(figure.at),
-                number(figure.value),
+                Cell::exact(figure.at),
+                Cell::exact(figure.value),
                 Cell::text(figure.unit.as_str()),
-                number(figure.ends.map(|[low, _]| low)),
-                number(figure.ends.map(|[_, high]| high)),
-                number(figure.u),
-                number(figure.freedom),
+                Cell::exact(figure.ends.map(|[low, _]| low)),
+                Cell::exact(figure.ends.map(|[_, high]| high)),
+                Cell::exact(figure.u),
+                Cell::exact(figure.freedom),
                 Cell::text(figure.remark.as_str()),
                 Cell::text(self.sources.join(" ")),
             ]);
@@ -210,18 +207,4 @@ impl CalibrationCurve {
     fn not_measured(&self) -> Option<String> {
         not_measured(self.sources.iter().map(String::as_str))
     }
-}
-
-fn estimate(figure: &CurveFigure) -> Cell {
-    let formatted = match figure.value {
-        Some(value) => FormattedValue::number(value, figure.ends),
-        None => FormattedValue {
-            reason: Some("–".to_owned()),
-            ..FormattedValue::default()
-        },
-    };
-    Cell::Estimate(Estimate {
-        formatted,
-        ..Estimate::default()
-    })
 }

@@ -10,7 +10,7 @@ mod loops;
 mod models;
 mod of_study;
 mod overlay;
-mod predicted;
+mod predictions;
 mod race;
 mod radar;
 mod repeats;
@@ -40,7 +40,7 @@ pub fn figures_for(studies: &[Study], style: &FigureStyle) -> Vec<Figure> {
     let room = style.room();
     let all = [
         vec![histograms::draw(studies, room)],
-        predicted::draw(studies, room),
+        predictions::draw(studies, room),
         vec![sensitivity::draw(studies, room)],
         spatial::draw(studies, room),
         vec![

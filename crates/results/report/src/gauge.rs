@@ -6,7 +6,7 @@ use taceva_metrology::gauge::{Band, Design, GaugeReport, Method};
 use taceva_results::not_measured;
 
 use crate::number::FormattedValue;
-use crate::table::{Cell, Column, Estimate, Table};
+use crate::table::{Cell, Column, Table};
 
 /// Columns of the readings that identify parts, operators and trials.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
@@ -292,18 +292,15 @@ struct Number<'a> {
 
 impl Number<'_> {
     fn cells(&self, of: &ChannelGauge, source: &str) -> [Cell; 10] {
-        let number = |value: Option<f64>| {
-            Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
-        };
         [
             Cell::text(of.channel.as_str()),
             Cell::text(of.response),
             Cell::text(self.component),
             Cell::text(self.quantity),
-            number(self.value),
+            Cell::exact(self.value),
             Cell::text(self.unit),
-            number(self.ends.map(|[low, _]| low)),
-            number(self.ends.map(|[_, high]| high)),
+            Cell::exact(self.ends.map(|[low, _]| low)),
+            Cell::exact(self.ends.map(|[_, high]| high)),
             Cell::text(self.remark),
             Cell::text(source),
         ]
@@ -323,15 +320,5 @@ fn finite(ends: Option<[f64; 2]>) -> Option<[f64; 2]> {
 }
 
 fn estimate(value: Option<f64>, ends: Option<[f64; 2]>) -> Cell {
-    let formatted = match value {
-        Some(value) => FormattedValue::number(value, finite(ends)),
-        None => FormattedValue {
-            reason: Some("–".to_owned()),
-            ..FormattedValue::default()
-        },
-    };
-    Cell::Estimate(Estimate {
-        formatted,
-        ..Estimate::default()
-    })
+    Cell::estimate(value, finite(ends))
 }

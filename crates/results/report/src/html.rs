@@ -15,7 +15,7 @@ mod place;
 mod provenance;
 mod published;
 mod seeds;
-mod studied;
+mod sensor_summary;
 mod summary;
 mod tables;
 mod themes;
@@ -67,7 +67,7 @@ pub fn report(report: &ReportPage<'_>) -> String {
     let figures = all_figures(studies);
     let mut document = Document::new(report.title, badge(studies));
     let summary = html! {
-        p.studied { (studied::studied(studies)) } "\n"
+        p.studied { (sensor_summary::studied(studies)) } "\n"
         @for words in [training::demonstration(studies), published::order(studies)].into_iter().flatten() {
             p.note { (words) } "\n"
         }

@@ -3,7 +3,7 @@
 mod fact;
 mod model_bench;
 mod provenance;
-mod standing;
+mod standing_by_r2;
 mod statement;
 mod traceability;
 
@@ -11,7 +11,7 @@ pub use fact::Fact;
 pub use model_bench::{
     BENCH_SCHEMA, BenchMachine, BenchRecording, ChannelError, ModelBench, ModelRow,
 };
-pub(crate) use standing::by_published_r2;
+pub(crate) use standing_by_r2::by_published_r2;
 pub use statement::Statement;
 pub(crate) use statement::UNSTATED;
 

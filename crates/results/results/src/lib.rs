@@ -6,7 +6,7 @@ mod folds;
 mod formula;
 mod group_errors;
 mod interval;
-mod ordered;
+mod ordered_map;
 mod origin;
 mod provenance;
 mod report;

@@ -36,7 +36,6 @@ fn of_rotation(channels: &[String], predicted: &Predicted) -> Option<Note> {
         .collect();
     angles.sort_by(f64::total_cmp);
     let most = *angles.get(angles.len().checked_sub(1)? * 19 / 20)?;
-    #[expect(clippy::cast_precision_loss, reason = "rows are far below 2^53")]
     let mean = angles.iter().sum::<f64>() / angles.len() as f64;
     Some(Note::Rotation {
         channels: channels.to_vec(),

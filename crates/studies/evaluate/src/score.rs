@@ -30,11 +30,11 @@ use crate::accumulate::{self, Rows};
 use crate::assess::{Assessed, Context, FitFacts, ScoredRows, assess};
 use crate::bounded_share::Bounded;
 use crate::error::EvaluateError;
-use crate::facts;
 use crate::note::{Independence, Note, PairedBy};
 use crate::plan::Plan;
 use crate::row_ledger::Taken;
 use crate::samples;
+use crate::sensor_facts;
 use crate::skill::with_skill;
 use crate::state_file::StateFile;
 use crate::subject;
@@ -246,7 +246,7 @@ fn planned(
         .transpose()?;
     let sensor = sensor.unwrap_or_default();
     let metrics = MetricPlan::new(&with_skill(wanted), channels, fields::stated(&places))
-        .with_facts(facts::of_file(&sensor, SensorFacts::default()));
+        .with_facts(sensor_facts::of_file(&sensor, SensorFacts::default()));
     let metrics = match request.is_independent {
         true => metrics.independent_samples(),
         false => metrics,

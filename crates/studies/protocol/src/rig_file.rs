@@ -9,6 +9,7 @@ mod sensor;
 mod teach;
 mod weighing;
 
+pub(crate) use axes::Along;
 pub use axes::SignedAxes;
 pub use changers::RigChangers;
 pub use latency::{Latency, RigLatencies};

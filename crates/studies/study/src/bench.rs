@@ -4,7 +4,7 @@ mod front;
 mod kernels;
 mod machine;
 mod models;
-mod paired;
+mod paired_errors;
 mod stopwatch;
 
 pub use kernels::{Floor, InputDigits, KernelBench, KernelRequest, KernelRow, kernels};

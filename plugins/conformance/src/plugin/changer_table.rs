@@ -9,23 +9,17 @@ use taceva_abi as abi;
 use taceva_core::{DriverError, DriverKind, ErrorKind};
 
 use super::subject::{Draw, PATIENT, Subject};
-use super::{Check, Of, Test};
+use super::{Check, Of};
 use crate::promise::{Unmet, refused, skipped};
 use taceva_host::Session;
 use taceva_host::bare::{Taken, take, timeout};
 
-pub(super) const CHECKS: &[Check] = &[
-    check("changer/refuses-other-names", refuses_others),
-    check("changer/nobody-takes-the-name", nobody_takes),
-];
+const OF: Of = Of::Kind(DriverKind::Changer);
 
-const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
-    Check {
-        name,
-        of: Of::Kind(DriverKind::Changer),
-        test: Test::Table(run),
-    }
-}
+pub(super) const CHECKS: &[Check] = &[
+    OF.check("changer/refuses-other-names", refuses_others),
+    OF.check("changer/nobody-takes-the-name", nobody_takes),
+];
 
 /// Names of the changer's items. Skips the promise without any item.
 fn holds(subject: &Subject) -> Result<Vec<String>, Unmet> {

@@ -12,37 +12,31 @@ use taceva_abi as abi;
 use taceva_core::{ArgKind, ArgValue, Args, DriverKind, ErrorKind};
 
 use super::subject::{Draw, Subject, bare, writable_memory};
-use super::{Check, Of, Test};
+use super::{Check, Of};
 use crate::promise::{Unmet, broken, expect, refused, skipped};
 use taceva_host::Session;
 use taceva_host::bare::Opened;
 use taceva_host::bare::{ArgList, Taken, take};
 
-pub(super) const CHECKS: &[Check] = &[
-    check("driver/describes-the-same-twice", describes_twice),
-    check("driver/describes-every-argument", describes_every_argument),
-    check("driver/describe-of-no-driver", describe_of_none),
-    check("driver/open-of-no-driver", open_of_none),
-    check("driver/opens", |subject| opened(subject).map(drop)),
-    check("driver/opens-again", opens_again),
-    check("driver/opens-beside-itself", opens_beside),
-    check("driver/rubbish-arguments", rubbish_arguments),
-    check("driver/keeps-to-the-callers-error", keeps_to_error),
-    check("driver/unknown-extension", unknown_extension),
-    check("driver/interrupt-of-nothing", interrupt_of_nothing),
-    check("driver/interrupts-from-all-sides", interrupts),
-    check("driver/other-thread", other_thread),
-    check("driver/discovers", discovers),
-    check("driver/memory-of-10000-openings", memory),
-];
+const OF: Of = Of::Driver;
 
-const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
-    Check {
-        name,
-        of: Of::Driver,
-        test: Test::Table(run),
-    }
-}
+pub(super) const CHECKS: &[Check] = &[
+    OF.check("driver/describes-the-same-twice", describes_twice),
+    OF.check("driver/describes-every-argument", describes_every_argument),
+    OF.check("driver/describe-of-no-driver", describe_of_none),
+    OF.check("driver/open-of-no-driver", open_of_none),
+    OF.check("driver/opens", |subject| opened(subject).map(drop)),
+    OF.check("driver/opens-again", opens_again),
+    OF.check("driver/opens-beside-itself", opens_beside),
+    OF.check("driver/rubbish-arguments", rubbish_arguments),
+    OF.check("driver/keeps-to-the-callers-error", keeps_to_error),
+    OF.check("driver/unknown-extension", unknown_extension),
+    OF.check("driver/interrupt-of-nothing", interrupt_of_nothing),
+    OF.check("driver/interrupts-from-all-sides", interrupts),
+    OF.check("driver/other-thread", other_thread),
+    OF.check("driver/discovers", discovers),
+    OF.check("driver/memory-of-10000-openings", memory),
+];
 
 /// An open device of any kind, which is only dropped.
 enum Device {

@@ -8,28 +8,22 @@ use taceva_core::{
 };
 
 use super::subject::{Draw, Subject, writable_memory};
-use super::{Check, Of, Test};
+use super::{Check, Of};
 use crate::promise::{Unmet, expect, refused};
 use taceva_host::{FitRequest, Session};
 
-pub(super) const CHECKS: &[Check] = &[
-    check("estimator/fits-and-predicts", fits),
-    check("estimator/fits-the-same-twice", same_twice),
-    check("estimator/keeps-a-model", keeps),
-    check("estimator/refuses-hostile-models", hostile),
-    check("estimator/ends-when-cancelled", cancels),
-    check("estimator/predicts-nothing-of-nothing", nothing),
-    check("estimator/predicts-in-threads", threads),
-    check("estimator/memory-of-1000-models", memory),
-];
+const OF: Of = Of::Estimator;
 
-const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
-    Check {
-        name,
-        of: Of::Estimator,
-        test: Test::Table(run),
-    }
-}
+pub(super) const CHECKS: &[Check] = &[
+    OF.check("estimator/fits-and-predicts", fits),
+    OF.check("estimator/fits-the-same-twice", same_twice),
+    OF.check("estimator/keeps-a-model", keeps),
+    OF.check("estimator/refuses-hostile-models", hostile),
+    OF.check("estimator/ends-when-cancelled", cancels),
+    OF.check("estimator/predicts-nothing-of-nothing", nothing),
+    OF.check("estimator/predicts-in-threads", threads),
+    OF.check("estimator/memory-of-1000-models", memory),
+];
 
 const SAMPLES: usize = 12;
 /// Pictures of 32×32, the default size of features in a study. The layers of a network need this size.
@@ -179,9 +173,6 @@ fn hostile(subject: &Subject) -> Result<(), Unmet> {
 struct Cancelled;
 
 impl Progress for Cancelled {
-    fn begin(&self, _: &str, _: Option<u64>) {}
-    fn advance(&self, _: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         true
     }

@@ -9,7 +9,7 @@ use taceva_abi as abi;
 
 use super::subject::Subject;
 use super::surroundings::Surroundings;
-use super::{Check, Of, Test};
+use super::{Check, Of};
 use crate::promise::{Unmet, broken, expect, skipped};
 use taceva_host::Library;
 use taceva_host::bare::RigHandle;
@@ -17,27 +17,21 @@ use taceva_host::bare::RigHandle;
 /// Name of the check whose child must print nothing.
 pub(super) const QUIET: &str = "library/quiet";
 
-pub(super) const CHECKS: &[Check] = &[
-    check("library/loads", |_| Ok(())),
-    check("library/loads-twice", loads_twice),
-    check("library/ends", ends),
-    check("library/needs-what-its-manifest-says", needs),
-    check("library/unknown-factory", unknown_factory),
-    check("library/stable-factories", stable_factories),
-    check("library/rigs", rigs),
-    check("library/unknown-rig-extension", unknown_rig_extension),
-    check("library/keeps-surroundings", keeps_surroundings),
-    check("library/keeps-signals", keeps_signals),
-    check(QUIET, quiet),
-];
+const OF: Of = Of::Plugin;
 
-const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
-    Check {
-        name,
-        of: Of::Plugin,
-        test: Test::Table(run),
-    }
-}
+pub(super) const CHECKS: &[Check] = &[
+    OF.check("library/loads", |_| Ok(())),
+    OF.check("library/loads-twice", loads_twice),
+    OF.check("library/ends", ends),
+    OF.check("library/needs-what-its-manifest-says", needs),
+    OF.check("library/unknown-factory", unknown_factory),
+    OF.check("library/stable-factories", stable_factories),
+    OF.check("library/rigs", rigs),
+    OF.check("library/unknown-rig-extension", unknown_rig_extension),
+    OF.check("library/keeps-surroundings", keeps_surroundings),
+    OF.check("library/keeps-signals", keeps_signals),
+    OF.check(QUIET, quiet),
+];
 
 fn load(subject: &Subject) -> Result<std::sync::Arc<Library>, Unmet> {
     let manifest = Some(&subject.manifest);

@@ -9,19 +9,13 @@ use taceva_abi as abi;
 use taceva_core::{DriverKind, ErrorKind, Facts};
 
 use super::subject::{Draw, PATIENT, Subject};
-use super::{Check, Of, Test};
+use super::{Check, Of};
 use crate::promise::{Unmet, broken, refused};
 use taceva_host::bare::timeout;
 
-pub(super) const CHECKS: &[Check] = &[check("lighting/refuses-other-scenes", refuses_others)];
+const OF: Of = Of::Kind(DriverKind::Lighting);
 
-const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
-    Check {
-        name,
-        of: Of::Kind(DriverKind::Lighting),
-        test: Test::Table(run),
-    }
-}
+pub(super) const CHECKS: &[Check] = &[OF.check("lighting/refuses-other-scenes", refuses_others)];
 
 type Lamp = taceva_host::bare::Opened<abi::LightingCalls>;
 

@@ -10,25 +10,19 @@ use taceva_core::{DriverError, DriverKind, ErrorKind, SiPose};
 use taceva_host::Session;
 
 use super::subject::{PATIENT, SOON, Subject, timed};
-use super::{Check, Of, Test};
+use super::{Check, Of};
 use crate::promise::{Unmet, expect, refused, skipped};
 use taceva_host::bare::Opened;
 
-pub(super) const CHECKS: &[Check] = &[
-    check("robot/refuses-targets-that-are-none", no_targets),
-    check("robot/refuses-speeds-that-are-none", no_speeds),
-    check("robot/refuses-what-lies-outside", outside),
-    check("robot/wait-without-a-motion", wait_without),
-    check("robot/dropped-in-motion", dropped_in_motion),
-];
+const OF: Of = Of::Kind(DriverKind::Robot);
 
-const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
-    Check {
-        name,
-        of: Of::Kind(DriverKind::Robot),
-        test: Test::Table(run),
-    }
-}
+pub(super) const CHECKS: &[Check] = &[
+    OF.check("robot/refuses-targets-that-are-none", no_targets),
+    OF.check("robot/refuses-speeds-that-are-none", no_speeds),
+    OF.check("robot/refuses-what-lies-outside", outside),
+    OF.check("robot/wait-without-a-motion", wait_without),
+    OF.check("robot/dropped-in-motion", dropped_in_motion),
+];
 
 type Bare = Opened<abi::RobotCalls>;
 

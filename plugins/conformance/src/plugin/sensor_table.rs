@@ -12,28 +12,22 @@ use taceva_abi as abi;
 use taceva_core::{Deadline, DriverError, DriverKind, ErrorKind};
 
 use super::subject::{PATIENT, Subject};
-use super::{Check, Of, Test};
+use super::{Check, Of};
 use crate::promise::{Unmet, broken, expect, refused, skipped};
 use taceva_host::bare::Opened;
 use taceva_host::bare::timeout;
 
-pub(super) const CHECKS: &[Check] = &[
-    check("sensor/counts-its-frames", counts),
-    check("sensor/writes-no-further-than-the-buffer", keeps_to_buffer),
-    check("sensor/no-buffer", no_buffer),
-    check("sensor/release-says-that-it-is-done", releases),
-    check("sensor/release-in-another-thread", releases_elsewhere),
-    check("sensor/lends-as-many-as-it-says", lends_many),
-    check("sensor/release-after-stop", late_release),
-];
+const OF: Of = Of::Kind(DriverKind::Sensor);
 
-const fn check(name: &'static str, run: fn(&Subject) -> Result<(), Unmet>) -> Check {
-    Check {
-        name,
-        of: Of::Kind(DriverKind::Sensor),
-        test: Test::Table(run),
-    }
-}
+pub(super) const CHECKS: &[Check] = &[
+    OF.check("sensor/counts-its-frames", counts),
+    OF.check("sensor/writes-no-further-than-the-buffer", keeps_to_buffer),
+    OF.check("sensor/no-buffer", no_buffer),
+    OF.check("sensor/release-says-that-it-is-done", releases),
+    OF.check("sensor/release-in-another-thread", releases_elsewhere),
+    OF.check("sensor/lends-as-many-as-it-says", lends_many),
+    OF.check("sensor/release-after-stop", late_release),
+];
 
 /// A started sensor behind its bare table.
 struct Bare {

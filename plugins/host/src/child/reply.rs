@@ -54,7 +54,7 @@ macro_rules! replies {
 replies! {
     (): () = () => Done {}, |()| Ok(());
     Stamp: stamp = stamp => Stamped { stamp }, is_time;
-    (Pose, Stamp): (pose, stamp) = (pose, stamp) => At { pose, stamp }, is_pose;
+    (Pose, Stamp): (pose, stamp) = (pose, stamp) => At { pose, stamp }, |(pose, stamp)| is_pose(pose, stamp);
     Reading: Reading { wrench, stamp, sequence } = Reading { wrench, stamp, sequence } => Load { wrench, stamp, sequence }, is_load;
     InPlace: InPlace(name) = InPlace(name) => InPlace { name }, is_name;
     GuardedStop: stop = stop => Stopped { stop }, is_stop;
@@ -68,7 +68,7 @@ fn is_time(stamp: &Stamp) -> Result<(), String> {
     Err(format!("a stamp of {} s, expected a time", stamp.valid_s))
 }
 
-fn is_pose((pose, stamp): &(Pose, Stamp)) -> Result<(), String> {
+fn is_pose(pose: &Pose, stamp: &Stamp) -> Result<(), String> {
     check_pose(pose).map_err(|error| error.to_string())?;
     is_time(stamp)
 }
@@ -88,6 +88,6 @@ fn is_name(InPlace(name): &InPlace) -> Result<(), String> {
 fn is_stop(stop: &GuardedStop) -> Result<(), String> {
     match *stop {
         GuardedStop::Arrived { stamp } => is_time(&stamp),
-        GuardedStop::Guarded { pose, stamp } => is_pose(&(pose, stamp)),
+        GuardedStop::Guarded { pose, stamp } => is_pose(&pose, &stamp),
     }
 }

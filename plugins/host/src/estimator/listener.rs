@@ -4,7 +4,7 @@
 
 use std::ffi::c_void;
 
-use taceva_core::{Progress, caught};
+use taceva_core::{Progress, caught, whole_count};
 
 /// Number of progress steps of a fit.
 pub(super) const STEPS: u64 = 1_000;
@@ -18,13 +18,7 @@ pub(super) struct Listener<'a> {
 pub(super) unsafe extern "C" fn progress(context: *mut c_void, done: f64) -> i32 {
     // SAFETY: `context` is the listener that `fit` passed for the pending call.
     let listener = unsafe { &mut *context.cast::<Listener<'_>>() };
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        clippy::cast_precision_loss,
-        reason = "clamped to the number of steps; NaN becomes 0"
-    )]
-    let reached = (done.clamp(0.0, 1.0) * STEPS as f64) as u64;
+    let reached = whole_count(done.clamp(0.0, 1.0) * STEPS as f64);
     let reported = listener.reported;
     listener.reported = reported.max(reached);
     let progress = listener.progress;

@@ -123,10 +123,6 @@ fn number(range: Option<&Spanned<[Value; 2]>>) -> Result<ArgKind, Refused> {
 fn float(value: &Value) -> Option<f64> {
     match value {
         Value::Float(value) => Some(*value),
-        #[expect(
-            clippy::cast_precision_loss,
-            reason = "a whole number in the place of a number stands for the nearest f64"
-        )]
         Value::Integer(value) => Some(*value as f64),
         _ => None,
     }

@@ -162,10 +162,6 @@ fn is_same(one: &Item, other: &Item) -> bool {
         read.get("it").cloned()
     }
     fn same(one: &Plain, other: &Plain) -> bool {
-        #[expect(
-            clippy::cast_precision_loss,
-            reason = "a whole number in the place of a number stands for the nearest f64"
-        )]
         let number = |value: &Plain| match value {
             Plain::Integer(whole) => Some(*whole as f64),
             Plain::Float(number) => Some(*number),

@@ -230,8 +230,6 @@ impl Progress for Impatient {
         self.has_enough.store(true, Ordering::Relaxed);
     }
 
-    fn end(&self) {}
-
     fn is_cancelled(&self) -> bool {
         self.has_enough.load(Ordering::Relaxed)
     }

@@ -70,9 +70,6 @@ fn a_model_that_was_kept_predicts_what_it_did_before() {
 struct Cancelled;
 
 impl Progress for Cancelled {
-    fn begin(&self, _: &str, _: Option<u64>) {}
-    fn advance(&self, _: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         true
     }
@@ -81,11 +78,9 @@ impl Progress for Cancelled {
 struct Panics;
 
 impl Progress for Panics {
-    fn begin(&self, _: &str, _: Option<u64>) {}
     fn advance(&self, _: u64) {
         panic!("whoever listens has a bug");
     }
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         false
     }

@@ -29,7 +29,6 @@ impl ReportedProgress {
         }
     }
 
-    #[expect(clippy::cast_precision_loss, reason = "a fraction for display")]
     fn share(&self) -> f64 {
         match self.steps.load(Ordering::Relaxed) {
             0 => 0.0,

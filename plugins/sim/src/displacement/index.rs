@@ -64,10 +64,6 @@ pub fn locate(t: f32) -> Place {
 /// Value of t at a node.
 pub fn node(position: usize) -> f64 {
     let octave = i32::try_from(position / CELLS).expect("tables have few octaves");
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "a cell is a number below its count, 64"
-    )]
     let within = (position % CELLS) as f64 / CELLS as f64;
     libm::ldexp(1.0 + within, octave)
 }

@@ -27,7 +27,6 @@ impl Tables {
     /// Computes the tables of a layer `thickness_mm` thick at `depth_mm` below its surface; 0 is the surface itself.
     pub fn new(thickness_mm: f64, depth_mm: f64) -> Tables {
         let radii_mm = std::array::from_fn(|row| {
-            #[expect(clippy::cast_precision_loss, reason = "a row is a small number")]
             let octaves = row as f64 / 3.0;
             SMALLEST_RADIUS_MM * libm::exp2(octaves)
         });

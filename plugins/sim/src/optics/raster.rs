@@ -63,10 +63,6 @@ fn span(middle: f32, reach: f32, count: usize) -> std::ops::Range<usize> {
     first..clamp((middle + reach).floor() + 1.0).max(first)
 }
 
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "no frame has 2^24 columns or rows"
-)]
 fn whole(count: usize) -> f32 {
     count as f32
 }

@@ -12,7 +12,7 @@ use taceva_report::{
 use taceva_study::bench::{Machine, ModelRace, ModelTrial, ModelTrials, TrialError, models};
 
 use super::super::{Context, open, results};
-use super::pressed::Pressed;
+use super::bench_recording::Pressed;
 use crate::args::{BenchModels, SplitArgs};
 use crate::{exit, output};
 
@@ -35,9 +35,8 @@ const QUICK: [(&str, &str); 3] = [
 ];
 
 pub(super) fn run(args: &BenchModels, context: &Context) -> anyhow::Result<u8> {
-    for path in args.output.path.iter().chain(&args.figure.svg) {
-        output::check_free(path, args.output.force)?;
-    }
+    let files = args.output.path.iter().chain(&args.figure.svg);
+    output::check_all_free(files, args.output.force)?;
     let known = context.models()?;
     let requests = requests(args, &known)?;
     // Checked before the bench makes any press.

@@ -22,9 +22,7 @@ const STAGES: &str = "stages.json";
 const SHORT: usize = 12;
 
 pub(super) fn run(args: &CacheList) -> anyhow::Result<u8> {
-    if let Some(path) = &args.output.path {
-        output::check_free(path, args.output.force)?;
-    }
+    output::check_all_free(&args.output.path, args.output.force)?;
     let folder = super::folder_of(args.cache.path.clone())?;
     let entries = cache_entries(&folder)
         .with_context(|| format!("cannot read {}", taceva_core::shown(&folder)))?;

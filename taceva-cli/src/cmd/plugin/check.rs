@@ -18,9 +18,7 @@ const LONG: Duration = Duration::from_secs(10);
 
 pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
     let to = &args.output;
-    if let Some(path) = to.path.as_deref() {
-        output::check_free(path, to.force)?;
-    }
+    output::check_all_free(&to.path, to.force)?;
     let host = context.plugins(None)?;
     let plugin = host.plugins().get(&args.id)?;
     let mut arguments = BTreeMap::new();

@@ -9,9 +9,7 @@ use crate::cmd::{Context, operator};
 use crate::{exit, output, report};
 
 pub(super) fn run(args: &RigCheckArgs, context: &Context) -> anyhow::Result<u8> {
-    if let Some(path) = args.output.path.as_deref() {
-        output::check_free(path, args.output.force)?;
-    }
+    output::check_all_free(&args.output.path, args.output.force)?;
     if let Some(mass_g) = args.weight {
         return super::weight::run(args, mass_g, context);
     }

@@ -12,9 +12,7 @@ use crate::cmd::{Context, Usage, operator};
 use crate::{exit, output, report};
 
 pub(super) fn run(args: &RigTapArgs, context: &Context) -> anyhow::Result<u8> {
-    if let Some(path) = args.output.path.as_deref() {
-        output::check_free(path, args.output.force)?;
-    }
+    output::check_all_free(&args.output.path, args.output.force)?;
     let (drivers, _) = context.equipment(&args.rig)?;
     let rig = read_rig(&args.rig)?;
     let terminal: Option<Box<Mutex<dyn Operator + Send>>> = match operator::terminal(None) {

@@ -9,7 +9,7 @@ use super::super::{Context, Usage};
 use super::scenes::{self, Acquisition};
 use super::summary::{all_pass, print};
 use super::tasks::{Asked, carried_out, ended};
-use super::{jobs, planned};
+use super::{jobs, sweep_plan};
 use crate::args::{SweepEngine, SweepRun};
 use crate::{exit, output};
 
@@ -32,7 +32,7 @@ pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
     let mut wanted = list.matching(only.as_ref())?;
     if args.dry_run {
         let estimate = Estimate::of(&folder, &list, &wanted, args.retry_failed)?;
-        return planned::print(&estimate, skipped, &scenes, &folder, context);
+        return sweep_plan::print(&estimate, skipped, &scenes, &folder, context);
     }
     folder.make()?;
     let acquisition = Acquisition {

@@ -82,7 +82,8 @@ impl Resampling {
         bootstrap: PoissonBootstrap,
         empty: &ErasedSums,
         cells: &[Cell<'_>],
-        (total, samples): (&Numbers, u64),
+        total: &Numbers,
+        samples: u64,
         finish: &dyn Fn(&ErasedSums) -> Numbers,
     ) {
         let keys: Vec<u64> = cells.iter().map(|(key, _)| *key).collect();

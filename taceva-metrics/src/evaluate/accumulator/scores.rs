@@ -7,9 +7,9 @@ use crate::evaluate::entry::Entry;
 use crate::evaluate::family::{Details, Numbers, Output};
 use crate::evaluate::metric::Metric;
 use crate::score::flag::Flag;
-use crate::score::standing::Standing;
 use crate::score::value::{UndefinedReason, Value};
 use crate::score::verdict_rule::VerdictRule;
+use crate::score::verdict_standing::Standing;
 use crate::score::{Interval, Score, Variant};
 use crate::stats::IntervalMethod;
 
@@ -130,9 +130,10 @@ impl Accumulator {
                     let finish = |sums: &ErasedSums| self.resampled(metric, output, sums);
                     let counts = cells.iter();
                     let counts = counts.map(|(_, cell)| self.samples(metric, output, cell));
-                    let total = (&request.numbers, counts.fold(0, u64::saturating_add));
+                    let samples = counts.fold(0, u64::saturating_add);
                     let (empty, resampling) = (&self.clustering.empty, &mut request.resampling);
-                    resampling.weigh(bootstrap, empty, &cells, total, &finish);
+                    let numbers = &request.numbers;
+                    resampling.weigh(bootstrap, empty, &cells, numbers, samples, &finish);
                 }
             }
         }

@@ -1,7 +1,5 @@
 //! Family of scores from distances in the planes of position and of shear force.
 
-use std::collections::BTreeMap;
-
 use taceva_core::{Batch, Channels, SkipReason, Unit};
 
 use crate::evaluate::family::{Family, FamilyKind, Numbers, Output, erased};
@@ -136,10 +134,6 @@ impl Plane {
 
 impl Family for Plane {
     type Sums = PlaneSums;
-
-    fn parameters(&self) -> BTreeMap<String, String> {
-        BTreeMap::new()
-    }
 
     fn empty(&self) -> Vec<PlaneSums> {
         vec![PlaneSums::default(); self.planes.len()]

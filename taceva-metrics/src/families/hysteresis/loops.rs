@@ -1,7 +1,5 @@
 //! Family of scores that compare loading with unloading, point by point.
 
-use std::collections::BTreeMap;
-
 use taceva_core::{Batch, Field, Phase, Unit};
 
 use super::branches::Branches;
@@ -66,10 +64,6 @@ impl Loops {
 
 impl Family for Loops {
     type Sums = LoopSums;
-
-    fn parameters(&self) -> BTreeMap<String, String> {
-        BTreeMap::new()
-    }
 
     fn empty(&self) -> Vec<LoopSums> {
         vec![LoopSums::default()]

@@ -163,9 +163,7 @@ impl SpreadSums {
 }
 
 fn whole(count: u64) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "no cell has 2^53 repeats")]
-    let count = count as f64;
-    count
+    count as f64
 }
 
 /// RN of the mean of exact values.

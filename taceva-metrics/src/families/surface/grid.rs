@@ -62,12 +62,7 @@ impl Grid {
 }
 
 fn as_f64(value: i64) -> f64 {
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "10 m in nm times 1000 bins is below 2^53"
-    )]
-    let value = value as f64;
-    value
+    value as f64
 }
 
 #[cfg(test)]

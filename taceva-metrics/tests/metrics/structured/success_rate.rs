@@ -53,7 +53,6 @@ fn success_rates_are_the_counts_of_whole_nanometres() {
     let mut comparison = Comparison::default();
     let counts = golden["counts_k0_to_k20"].as_array().expect("counts");
     for (k, count) in (0..).zip(counts) {
-        #[expect(clippy::cast_precision_loss, reason = "counts far below 2^53")]
         let share = whole(count) as f64 / n as f64;
         for (way, evaluation) in success_rates(&samples, Nanometre(k * tick)) {
             comparison.bits(

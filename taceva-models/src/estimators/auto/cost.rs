@@ -1,6 +1,7 @@
 //! Work of trying and fitting a model, computed from the sizes of a recording alone.
 
 use crate::estimators::library::LibrarySizes;
+use taceva_core::whole_size;
 
 /// Sizes of a training part.
 #[derive(Clone, Copy, Debug)]
@@ -21,16 +22,11 @@ impl Sizes {
         }
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "sizes of a recording in memory"
-    )]
     pub(super) fn of_library(self) -> LibrarySizes {
         LibrarySizes {
-            samples: self.samples as usize,
-            features: self.features as usize,
-            targets: self.channels as usize,
+            samples: whole_size(self.samples),
+            features: whole_size(self.features),
+            targets: whole_size(self.channels),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Nyström features: their products approximate the kernel.
 
 use rayon::prelude::*;
-use taceva_core::{FeatureShape, Features};
+use taceva_core::{FeatureShape, Features, single};
 
 use super::landmarks::{EXPLAINED, Landmarks, kernel, rate};
 use crate::linalg::distance::squared_distance;
@@ -123,13 +123,9 @@ impl Nystrom {
         self.finish(kernels.collect())
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "features are kept in single precision"
-    )]
     fn finish(&self, mut kernels: Vec<f64>) -> Vec<f32> {
         substitute(&self.factor, &mut kernels);
-        kernels.into_iter().map(|value| value as f32).collect()
+        kernels.into_iter().map(single).collect()
     }
 
     fn features(&self, values: Vec<Vec<f32>>) -> Features {

@@ -5,6 +5,7 @@
 //! these coordinates.
 
 use crate::estimators::library::predictor::Weighted;
+use crate::linalg::dot;
 
 /// Orthonormal basis of the span of rows about their mean, and the rows in this basis.
 pub(crate) struct Span {
@@ -83,20 +84,6 @@ fn mean(rows: &[f64], features: usize) -> Vec<f64> {
         places.for_each(|(place, value)| *place += value / samples);
     }
     mean
-}
-
-/// Dot product with eight partial sums, in a fixed order.
-fn dot(left: &[f64], right: &[f64]) -> f64 {
-    let (left, last_left) = left.as_chunks::<8>();
-    let (right, last_right) = right.as_chunks::<8>();
-    let mut sums = [0.0; 8];
-    for (left, right) in left.iter().zip(right) {
-        for ((sum, left), right) in sums.iter_mut().zip(left).zip(right) {
-            *sum += left * right;
-        }
-    }
-    let rest = last_left.iter().zip(last_right);
-    sums.iter().sum::<f64>() + rest.map(|(left, right)| left * right).sum::<f64>()
 }
 
 fn norm(values: &[f64]) -> f64 {

@@ -15,6 +15,13 @@ pub(crate) struct LibrarySizes {
     pub(crate) targets: usize,
 }
 
+impl LibrarySizes {
+    /// Numbers of samples, features and targets, for estimates of work.
+    pub(crate) fn real(self) -> [f64; 3] {
+        [self.samples, self.features, self.targets].map(|size| size as f64)
+    }
+}
+
 /// Input of a library fit: varying features and labels, all finite.
 #[derive(Clone, Copy)]
 pub(crate) struct LibraryTask<'a> {

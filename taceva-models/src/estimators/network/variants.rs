@@ -1,18 +1,14 @@
 //! Variants of a training: shorter, or with another seed.
 
 use super::NetworkEstimator;
+use taceva_core::whole_count;
 
 impl NetworkEstimator {
     /// Copy with `share` of the epochs, at least one, and without checkpoints. The learning-rate cycle shortens as well, so it ends like the whole
     /// training.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "at most 100,000 epochs"
-    )]
     pub(super) fn shortened(&self, share: f64) -> NetworkEstimator {
         let mut own = self.with_recipe(|recipe| {
-            let epochs = (share * recipe.epochs as f64).round() as u64;
+            let epochs = whole_count((share * recipe.epochs as f64).round());
             recipe.epochs = epochs.max(1);
         });
         own.checkpoints = None;

@@ -35,6 +35,14 @@ pub struct GradientBoosting {
     refit: bool,
 }
 
+/// Trees of one channel.
+#[derive(Clone, Copy)]
+struct Ensemble {
+    channel: usize,
+    /// Number of trees.
+    trees: usize,
+}
+
 /// Growth of each tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Growing {
@@ -132,10 +140,11 @@ impl GradientBoosting {
         features: &Features,
         binned: &Binned,
         labels: &[f64],
-        (channel, trees): (usize, usize),
+        ensemble: Ensemble,
         progress: &dyn Progress,
         mut take: impl FnMut(Tree),
     ) -> Result<(), ModelError> {
+        let Ensemble { channel, trees } = ensemble;
         let growth = Growth {
             depth: self.growth.depth,
             leaf: self.growth.leaf,
@@ -200,7 +209,10 @@ impl ModelEstimator for GradientBoosting {
                     &features,
                     &binned,
                     column,
-                    (channel, most),
+                    Ensemble {
+                        channel,
+                        trees: most,
+                    },
                     progress,
                     |tree| {
                         let places = left.par_iter_mut().enumerate();
@@ -231,7 +243,7 @@ impl ModelEstimator for GradientBoosting {
                 &features,
                 &binned,
                 column,
-                (channel, trees),
+                Ensemble { channel, trees },
                 progress,
                 |tree| {
                     members.push(Member {

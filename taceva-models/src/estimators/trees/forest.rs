@@ -3,7 +3,7 @@
 use faer::Mat;
 use rayon::prelude::*;
 use taceva_core::random::SplitMix64;
-use taceva_core::{Features, ModelError, Progress, Regressor, TrainingSet};
+use taceva_core::{Features, ModelError, Progress, Regressor, TrainingSet, whole_size};
 
 use super::bins::Binned;
 use super::grow::{Growth, Samples};
@@ -163,13 +163,8 @@ pub(super) fn share(text: &str) -> Option<f64> {
 }
 
 /// Number of features in a share, at least one.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "at most the number of features"
-)]
 pub(super) fn part(share: f64, features: usize) -> usize {
-    (share * features as f64).ceil().max(1.0) as usize
+    whole_size((share * features as f64).ceil().max(1.0))
 }
 
 /// Random generator of one draw among many from the same seed.

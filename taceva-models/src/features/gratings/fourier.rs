@@ -55,7 +55,6 @@ impl Fourier {
     pub(super) fn new(length: usize) -> Fourier {
         debug_assert!(length.is_power_of_two(), "{length}");
         let turns = (0..length / 2).map(|position| {
-            #[expect(clippy::cast_precision_loss, reason = "positions are far below 2^53")]
             let angle = -TAU * position as f64 / length as f64;
             let (im, re) = angle.sin_cos();
             Complex { re, im }
@@ -112,7 +111,6 @@ mod tests {
             for (wave, found) in fast.iter().enumerate() {
                 let mut sum = Complex::default();
                 for (position, value) in values.iter().enumerate() {
-                    #[expect(clippy::cast_precision_loss, reason = "small")]
                     let angle = -TAU * (wave * position) as f64 / length as f64;
                     let (im, re) = angle.sin_cos();
                     sum = sum.plus(value.times(Complex { re, im }));

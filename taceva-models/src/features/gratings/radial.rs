@@ -103,10 +103,6 @@ impl RadialSpectrum {
         if luma.is_empty() {
             return plane;
         }
-        #[expect(
-            clippy::cast_precision_loss,
-            reason = "pictures have far fewer pixels than 2^53"
-        )]
         let mean = luma.iter().sum::<f64>() / luma.len() as f64;
         let mut line = vec![Complex::default(); side];
         for (row, (pixels, fade)) in luma.chunks_exact(width).zip(down).enumerate() {
@@ -156,10 +152,6 @@ fn ring(waves: [usize; 2], side: usize) -> Option<usize> {
 /// w\[n\] = sin²(π (n + ½)/N), a Hann window with nonzero ends.
 fn hann(length: usize) -> Vec<f64> {
     let place = |position: usize| {
-        #[expect(
-            clippy::cast_precision_loss,
-            reason = "pictures are far smaller than 2^53"
-        )]
         let part = (position as f64 + 0.5) / length as f64;
         (std::f64::consts::PI * part).sin().powi(2)
     };

@@ -1,6 +1,6 @@
 //! Displacements of markers as features: a field over the cells of a grid.
 
-use taceva_core::Frame;
+use taceva_core::{Frame, single};
 
 use super::lattice::closest;
 use super::local::{Moved, displacement};
@@ -74,10 +74,6 @@ impl CellFeatures for MarkerField {
         3
     }
 
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "features are kept in single precision"
-    )]
     fn write(&self, frame: &Frame, into: &mut [f32]) {
         let tracked = self.tracker.follow(frame);
         let markers = self.tracker.markers();
@@ -96,9 +92,9 @@ impl CellFeatures for MarkerField {
             };
             let moved = displacement(cell.middle_px, spacing_px, &known).or_else(measured);
             let [right, down] = moved.unwrap_or([0.0; 2]);
-            place[0] = (right / spacing_px) as f32;
-            place[1] = (down / spacing_px) as f32;
-            place[2] = (unseen as f64 / nearest.len().max(1) as f64) as f32;
+            place[0] = single(right / spacing_px);
+            place[1] = single(down / spacing_px);
+            place[2] = single(unseen as f64 / nearest.len().max(1) as f64);
         }
     }
 }

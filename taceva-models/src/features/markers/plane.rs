@@ -1,6 +1,6 @@
 //! Gray pictures and their local means.
 
-use taceva_core::Frame;
+use taceva_core::{Frame, single};
 
 use crate::features::pixels::{LUMA, LUMA_SUM};
 
@@ -14,15 +14,11 @@ pub(super) struct Plane {
 
 impl Plane {
     /// Luma of `frame` (Rec. ITU-R BT.601).
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "gray in single precision, rounded once"
-    )]
     pub(super) fn of(frame: &Frame) -> Plane {
         let info = frame.info();
         let full_scale = f64::from(info.format.full_scale());
         let values = if info.format.samples() == 1 {
-            let gray = |sample| (f64::from(sample) / full_scale) as f32;
+            let gray = |sample| single(f64::from(sample) / full_scale);
             frame.samples().map(gray).collect()
         } else {
             let scale = full_scale * LUMA_SUM as f64;
@@ -32,7 +28,7 @@ impl Plane {
             let gray = |pixel: &[u16; 3]| {
                 let parts = pixel.iter().zip(weights);
                 let sum: f64 = parts.map(|(&part, weight)| f64::from(part) * weight).sum();
-                (sum / scale) as f32
+                single(sum / scale)
             };
             pixels.iter().map(gray).collect()
         };
@@ -69,10 +65,6 @@ impl Plane {
     }
 
     /// Computes running sums: a row enters and a row leaves.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "means of numbers in single precision"
-    )]
     fn means_down(&self, values: &[f64], radius: usize) -> Vec<f32> {
         let row = |index: usize| &values[index * self.width..][..self.width];
         let mut sums = vec![0.0; self.width];
@@ -93,7 +85,7 @@ impl Plane {
                 first += 1;
             }
             let count = (end - first) as f64;
-            means.extend(sums.iter().map(|sum| (sum / count) as f32));
+            means.extend(sums.iter().map(|sum| single(sum / count)));
         }
         means
     }

@@ -1,6 +1,7 @@
 //! Subpixel detection of spots darker or brighter than their surroundings.
 
 use super::plane::Plane;
+use taceva_core::whole_size;
 
 /// Contrast of markers with the gel: darker or brighter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,19 +45,13 @@ impl Scale {
 
     /// Standard deviation of a response for unit pixel noise: from the squared weights of both averages, without the surroundings.
     pub(super) fn noise_gain(self) -> f32 {
-        #[expect(clippy::cast_precision_loss, reason = "a few pixels")]
         let side = (2 * self.near() + 1) as f32;
         (2.0 * side * side + 1.0) / (3.0 * side * side * side)
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "some pixels of a frame"
-)]
 fn whole(pixels: f64) -> usize {
-    pixels.round().max(1.0) as usize
+    whole_size(pixels.round().max(1.0))
 }
 
 /// Detects spots of `picture` with a contrast above `least`, highest contrast first.

@@ -76,7 +76,6 @@ impl Disk {
     pub(super) fn crash(&mut self) {
         self.crashes += 1;
         #[expect(
-            clippy::cast_precision_loss,
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "a part of a length is a length"

@@ -9,6 +9,7 @@ use super::info::Layout;
 use super::pattern::{Pattern, Value};
 use crate::cell::Cell;
 use crate::error::{Place, TableError};
+use taceva_core::whole_count;
 
 /// Video file and frame of each row of a LeRobot dataset.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -156,15 +157,10 @@ impl Files<'_> {
 }
 
 /// Frame nearest to a position in frames; `None` if every frame is further than [`TOLERANCE`].
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "whole, not negative and below 2^53"
-)]
 fn frame_at(place: f64) -> Option<u64> {
     let nearest = place.round();
     let is_near = (place - nearest).abs() <= TOLERANCE && (0.0..9e15).contains(&nearest);
-    is_near.then_some(nearest as u64)
+    is_near.then_some(whole_count(nearest))
 }
 
 #[cfg(test)]

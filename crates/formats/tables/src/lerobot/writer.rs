@@ -332,10 +332,6 @@ impl LeRobotWriter {
 }
 
 /// Time of a frame in its episode, s, computed as in LeRobot.
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "frames of an episode are far fewer than 2^53"
-)]
 fn seconds(frame: u64, rate_hz: f64) -> f64 {
     frame as f64 / rate_hz
 }
@@ -350,10 +346,6 @@ fn rate(rate_hz: f64) -> Value {
 }
 
 /// Number in a cell; NaN if there is none.
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "statistics of a feature are rounded anyway"
-)]
 fn number(cell: &Cell) -> f64 {
     match cell {
         Cell::Number(number) => *number,

@@ -283,12 +283,8 @@ fn number(cell: &Cell) -> Option<f64> {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the column has single precision"
-)]
 fn single(cell: &Cell) -> Option<f32> {
-    number(cell).map(|value| value as f32)
+    number(cell).map(taceva_core::single)
 }
 
 fn bytes(cell: &Cell) -> Option<ByteArray> {

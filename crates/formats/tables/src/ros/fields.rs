@@ -208,10 +208,6 @@ impl Form {
 const NANO: i128 = 1_000_000_000;
 
 /// Converts seconds and nanoseconds to one number, as the ROS libraries do.
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "both have at most 64 bits; an f64 keeps 53 of them"
-)]
 pub(crate) fn seconds(seconds: i128, nanoseconds: i128) -> f64 {
     seconds as f64 + nanoseconds as f64 / 1e9
 }

@@ -133,7 +133,7 @@ impl Av1Clip {
                     },
                     is_full_range: yuv.is_full_range,
                 };
-                let planes = Planes::new(width, height, luma, chroma, (1, 1));
+                let planes = Planes::new(width, height, luma, chroma, [1, 1]);
                 planes
                     .to_rgb(coding)
                     .map_err(|problem| problem.at(self.source.path()))?

@@ -5,7 +5,7 @@
 pub(super) enum Layout {
     /// Luma plane and two chroma planes, with one byte a sample, or two in little-endian order.
     Planar {
-        shifts: (u32, u32),
+        shifts: [u32; 2],
         bits: u32,
         is_full_range: bool,
     },
@@ -91,7 +91,7 @@ impl Layout {
         match self {
             Layout::Planar { shifts, bits, .. } => {
                 let chroma =
-                    chroma_side(width, shifts.0).checked_mul(chroma_side(height, shifts.1))?;
+                    chroma_side(width, shifts[0]).checked_mul(chroma_side(height, shifts[1]))?;
                 chroma
                     .checked_mul(2)?
                     .checked_add(pixels)?
@@ -128,12 +128,12 @@ fn planar(name: &str) -> Option<Layout> {
     };
     let (sampling, depth) = rest.split_once('p')?;
     let shifts = match sampling {
-        "420" => (1, 1),
-        "422" => (1, 0),
-        "444" => (0, 0),
-        "440" => (0, 1),
-        "411" => (2, 0),
-        "410" => (2, 2),
+        "420" => [1, 1],
+        "422" => [1, 0],
+        "444" => [0, 0],
+        "440" => [0, 1],
+        "411" => [2, 0],
+        "410" => [2, 2],
         _ => return None,
     };
     let bits = if depth.is_empty() { 8 } else { bits_of(depth)? };

@@ -79,8 +79,8 @@ impl RawFrame {
             Layout::Planar { shifts, bits, .. } => {
                 let bytes = of_8_bits(bytes, bits);
                 let (luma, chroma) = bytes.split_at(pixels);
-                let each = chroma_side(self.width as usize, shifts.0)
-                    * chroma_side(self.height as usize, shifts.1);
+                let each = chroma_side(self.width as usize, shifts[0])
+                    * chroma_side(self.height as usize, shifts[1]);
                 let (blue, red) = chroma.split_at(each);
                 planes(luma, Some([blue, red]), shifts)
             }
@@ -92,7 +92,7 @@ impl RawFrame {
                     true => [&second, &first],
                     false => [&first, &second],
                 };
-                planes(luma, Some(chroma), (1, 1))
+                planes(luma, Some(chroma), [1, 1])
             }
             Layout::Woven { luma, blue, red } => {
                 let every = |from: usize, step| {
@@ -104,9 +104,9 @@ impl RawFrame {
                         .collect::<Vec<u8>>()
                 };
                 let (luma, blue, red) = (every(luma, 2), every(blue, 4), every(red, 4));
-                planes(&luma, Some([&blue, &red]), (1, 0))
+                planes(&luma, Some([&blue, &red]), [1, 0])
             }
-            Layout::Gray { bits } => planes(&of_8_bits(bytes, bits), None, (0, 0)),
+            Layout::Gray { bits } => planes(&of_8_bits(bytes, bits), None, [0, 0]),
             // Already colours. The caller handles them.
             Layout::Packed { .. } | Layout::Planes => Ok(Vec::new()),
         }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::constant::with_constant;
-use crate::convolution::ending::{Finish, Start};
+use crate::convolution::ending::{Finish, Start, SumRule};
 use crate::panel::PANEL;
 use crate::simd::{Job, Pixels, Tile, Vector};
 
@@ -45,8 +45,7 @@ pub(crate) struct Correlation<'a> {
     pub(crate) rows: usize,
     pub(crate) output: &'a mut [f32],
     pub(crate) layout: OutputLayout,
-    pub(crate) start: Start<'a>,
-    pub(crate) finish: Finish<'a>,
+    pub(crate) rule: SumRule<'a>,
 }
 
 /// Part of a correlation computed in one pass over the pixels.
@@ -124,7 +123,7 @@ impl Correlation<'_> {
     ) {
         let places: [(usize, usize); ROWS] = std::array::from_fn(|row| self.place(first + row));
         let outputs = places.map(|(_, output)| output + round.panel * PANEL);
-        let mut tile: Tile<V, ROWS, VECTORS> = match self.start {
+        let mut tile: Tile<V, ROWS, VECTORS> = match self.rule.start {
             Start::Zero if round.is_first => Tile::zero(proof),
             Start::Bias(bias) if round.is_first => {
                 Tile::load(proof, bias, [round.panel * PANEL; ROWS], PANEL)
@@ -145,7 +144,7 @@ impl Correlation<'_> {
             );
         }
         if round.is_last {
-            tile = match self.finish {
+            tile = match self.rule.finish {
                 Finish::Keep => tile,
                 Finish::Relu => tile.positive_part(),
                 Finish::AddThenRelu(other) => tile
@@ -166,7 +165,7 @@ impl Correlation<'_> {
         next: usize,
     ) {
         Tile::<V, ROWS, VECTORS>::prefetch(proof, self.output, outputs, PANEL);
-        if let Finish::AddThenRelu(other) = self.finish {
+        if let Finish::AddThenRelu(other) = self.rule.finish {
             Tile::<V, ROWS, VECTORS>::prefetch(proof, other, outputs, PANEL);
         }
         let is_next = next + ROWS <= self.range.end;

@@ -8,12 +8,12 @@ use super::border::{Reach, is_left_out, reaches};
 use super::correlation::{Correlation, OutputLayout, Tap, are_weights_many};
 use super::single_picture::Divided;
 use crate::convolution::division::{Division, Outputs};
-use crate::convolution::ending::Epilogue;
 use crate::convolution::source::Source;
+use crate::convolution::target::Target;
 use crate::convolution::{Convolution, TileRooms, offset};
 use crate::machine::Machine;
 use crate::panel::PANEL;
-use crate::planes::{Layout, Planes};
+use crate::planes::Layout;
 use crate::simd::Pixels;
 use crate::team;
 
@@ -47,7 +47,6 @@ pub(super) struct Class {
 impl Forward {
     /// Pass of `convolution` from pictures of layout `input` to pictures of layout `output`.
     pub(crate) fn new(convolution: Convolution, input: Layout, output: Layout) -> Forward {
-        let layouts = (input, output);
         let (height, width) = (output.picture.height, output.picture.width);
         let [down, across] = [height, width].map(|side| Reach::all(convolution, side));
         let mut apart = Vec::new();
@@ -56,12 +55,12 @@ impl Forward {
             for rows in reaches(convolution, height, input.picture.height) {
                 let classes = columns.iter();
                 apart.extend(
-                    classes.map(|columns| Class::new(convolution, layouts, (&rows, columns))),
+                    classes.map(|columns| Class::new(convolution, input, output, &rows, columns)),
                 );
             }
         }
         Forward {
-            whole: Class::new(convolution, layouts, (&down, &across)),
+            whole: Class::new(convolution, input, output, &down, &across),
             apart,
             rows: convolution.taps() * convolution.inputs,
         }
@@ -93,10 +92,15 @@ impl Forward {
         &self,
         machine: Machine,
         source: Source<'_>,
-        (output, epilogue): (&mut Planes, Epilogue<'_>),
-        (each, see): (&mut [E], impl Fn(&mut E, &[f32]) + Sync),
+        target: Target<'_>,
+        each: &mut [E],
+        see: impl Fn(&mut E, &[f32]) + Sync,
         rooms: &TileRooms,
     ) {
+        let Target {
+            pictures: output,
+            epilogue,
+        } = target;
         let count = source.count;
         let layout = output.layout();
         let (input_image, output_image) = (source.input.layout().len(), layout.len());
@@ -117,7 +121,7 @@ impl Forward {
                 let first = index * output_image;
                 let ending =
                     |part: Range<usize>| epilogue.within(first + part.start..first + part.end);
-                divided.run(machine, division, (&mut *output, ending), rooms);
+                divided.run(machine, division, &mut *output, ending, rooms);
                 see(each, output);
             });
             return;
@@ -131,7 +135,7 @@ impl Forward {
             .enumerate()
             .for_each(|(index, ((output, input), each))| {
                 let first = index * group * output_image;
-                let (start, finish) = epilogue.within(first..first + output.len());
+                let rule = epilogue.within(first..first + output.len());
                 let images = output.len() / output_image;
                 for class in self.classes(images) {
                     machine.run(Correlation {
@@ -148,8 +152,7 @@ impl Forward {
                             image: output_image,
                             skipped: 0,
                         },
-                        start,
-                        finish,
+                        rule,
                     });
                 }
                 for (each, output) in each.iter_mut().zip(output.chunks_exact(output_image)) {
@@ -162,8 +165,10 @@ impl Forward {
 impl Class {
     fn new(
         convolution: Convolution,
-        (input, output): (Layout, Layout),
-        (rows, columns): (&Reach, &Reach),
+        input: Layout,
+        output: Layout,
+        rows: &Reach,
+        columns: &Reach,
     ) -> Class {
         let inputs = convolution.inputs;
         let first = columns.places.start;

@@ -6,11 +6,12 @@ use rayon::prelude::*;
 use super::border;
 use super::correlation::{Correlation, OutputLayout, Tap, are_weights_many};
 use super::forward::images_at_once;
-use crate::convolution::ending::{Finish, Onto};
+use crate::convolution::ending::Onto;
+use crate::convolution::target::GradientTarget;
 use crate::convolution::{Convolution, offset};
 use crate::machine::Machine;
 use crate::panel::PANEL;
-use crate::planes::{Layout, Planes};
+use crate::planes::{Layout, Pictures};
 use crate::simd::Pixels;
 
 /// Input-gradient pass, prepared for pictures of one layout.
@@ -48,15 +49,22 @@ impl InputGradient {
         &self,
         machine: Machine,
         exchanged: &[f32],
-        gradient: (&Planes, usize),
-        into: (&mut Planes, Onto),
+        gradient: Pictures<'_>,
+        into: GradientTarget<'_>,
     ) {
         let Convolution {
             inputs, outputs, ..
         } = self.convolution;
         let rows = self.convolution.taps() * outputs;
 
-        let ((gradient, count), (into, onto)) = (gradient, into);
+        let Pictures {
+            planes: gradient,
+            count,
+        } = gradient;
+        let GradientTarget {
+            gradient: into,
+            onto,
+        } = into;
         let (from_image, to_image) = (gradient.layout().len(), into.layout().len());
         let are_many = are_weights_many(rows, inputs / PANEL);
         let group = images_at_once(into.layout().picture.pixels(), count, are_many);
@@ -81,8 +89,7 @@ impl InputGradient {
                         image: to_image,
                         skipped: 0,
                     },
-                    start: onto.start(),
-                    finish: Finish::Keep,
+                    rule: onto.rule(),
                 });
             }
         });

@@ -6,7 +6,7 @@ use super::correlation::{Correlation, OutputLayout};
 use super::forward::{Class, ROWS};
 use crate::convolution::TileRooms;
 use crate::convolution::division::Division;
-use crate::convolution::ending::{Finish, Start};
+use crate::convolution::ending::SumRule;
 use crate::convolution::gathering::Gathering;
 use crate::machine::Machine;
 use crate::panel::PANEL;
@@ -31,10 +31,8 @@ impl<'a> Divided<'a> {
         self,
         machine: Machine,
         division: Division,
-        (output, ending): (
-            &mut [f32],
-            impl Fn(Range<usize>) -> (Start<'a>, Finish<'a>) + Sync,
-        ),
+        output: &mut [f32],
+        ending: impl Fn(Range<usize>) -> SumRule<'a> + Sync,
         rooms: &TileRooms,
     ) {
         match division {
@@ -42,7 +40,7 @@ impl<'a> Divided<'a> {
             Division::Pixels(parts) => self.by_pixels(machine, parts, output, ending),
             Division::Panels(parts) => {
                 let ending = ending(0..output.len());
-                self.by_panels(machine, parts, (output, ending), rooms);
+                self.by_panels(machine, parts, output, ending, rooms);
             }
         }
     }
@@ -53,7 +51,7 @@ impl<'a> Divided<'a> {
         machine: Machine,
         parts: usize,
         output: &mut [f32],
-        ending: impl Fn(Range<usize>) -> (Start<'a>, Finish<'a>) + Sync,
+        ending: impl Fn(Range<usize>) -> SumRule<'a> + Sync,
     ) {
         let pixels = self.class.pixels.len();
         let share = pixels.div_ceil(parts).next_multiple_of(ROWS);
@@ -75,7 +73,7 @@ impl<'a> Divided<'a> {
             let ending = ending(skipped..skipped + output.len());
             let image = length;
             let layout = OutputLayout::Pictures { image, skipped };
-            self.part(machine, (range, self.weights), (output, layout), ending);
+            self.part(machine, range, self.weights, output, layout, ending);
         });
     }
 
@@ -84,7 +82,8 @@ impl<'a> Divided<'a> {
         self,
         machine: Machine,
         parts: usize,
-        (output, (start, finish)): (&mut [f32], (Start<'a>, Finish<'a>)),
+        output: &mut [f32],
+        rule: SumRule<'a>,
         rooms: &TileRooms,
     ) {
         let picture = self.layout.picture;
@@ -97,15 +96,15 @@ impl<'a> Divided<'a> {
                 let layout = OutputLayout::Packed {
                     channels: output.len() / picture.pixels(),
                 };
-                let ending = (start.from(part * channels), Finish::Keep);
+                let ending = rule.of_part(part * channels);
                 let range = 0..self.class.pixels.len();
-                self.part(machine, (range, weights), (output, layout), ending);
+                self.part(machine, range, weights, output, layout, ending);
             });
             machine.run(Gathering {
                 parts: room,
                 channels,
                 output: (output, self.layout),
-                finish,
+                finish: rule.finish,
             });
         });
     }
@@ -113,9 +112,11 @@ impl<'a> Divided<'a> {
     fn part(
         self,
         machine: Machine,
-        (range, weights): (Range<usize>, &[f32]),
-        (output, layout): (&mut [f32], OutputLayout),
-        (start, finish): (Start<'_>, Finish<'_>),
+        range: Range<usize>,
+        weights: &[f32],
+        output: &mut [f32],
+        layout: OutputLayout,
+        rule: SumRule<'_>,
     ) {
         machine.run(Correlation {
             pixels: &self.class.pixels,
@@ -129,8 +130,7 @@ impl<'a> Divided<'a> {
             rows: self.rows,
             output,
             layout,
-            start,
-            finish,
+            rule,
         });
     }
 }

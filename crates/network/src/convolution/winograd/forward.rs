@@ -4,15 +4,15 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::products::Products;
+use super::products::{Products, RunValues};
 use super::single_picture::Divided;
 use super::weights::to_points;
 use crate::convolution::division::{Division, Outputs};
-use crate::convolution::ending::Epilogue;
 use crate::convolution::source::Source;
+use crate::convolution::target::Target;
 use crate::convolution::workspace::TileRooms;
 use crate::machine::Machine;
-use crate::planes::{Layout, Planes};
+use crate::planes::Layout;
 use crate::team;
 
 /// Forward pass, prepared for pictures of one layout.
@@ -52,24 +52,28 @@ impl Forward {
         room
     }
 
-    /// Runs the pass with transformed weights into the first pictures of `output`. The callback of `each` receives each picture's output while still
-    /// in cache.
+    /// Runs the pass with transformed weights into the first pictures of `output`. `see` receives each picture's item of
+    /// `each`, and its output while still in cache.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,
         source: Source<'_>,
-        (output, epilogue): (&mut Planes, Epilogue<'_>),
-        each: (&mut [E], impl Fn(&mut E, &[f32]) + Sync),
+        target: Target<'_>,
+        each: &mut [E],
+        see: impl Fn(&mut E, &[f32]) + Sync,
         rooms: &TileRooms,
     ) {
+        let Target {
+            pictures: output,
+            epilogue,
+        } = target;
         let count = source.count;
-        let read = (source.pictures(), source.weights);
         let division = self.outputs().divided(team::parts(count));
         if division != Division::Whole {
             let lengths = [self.products.input, self.products.output].map(|layout| layout.len());
             let images = output.first_mut(count).par_chunks_mut(lengths[1]);
-            let images = images.zip(read.0.par_chunks(lengths[0]));
-            let images = images.zip(&mut each.0[..count]).enumerate();
+            let images = images.zip(source.pictures().par_chunks(lengths[0]));
+            let images = images.zip(&mut each[..count]).enumerate();
             images.for_each(|(index, ((output, input), item))| {
                 let divided = Divided {
                     products: self.products,
@@ -79,14 +83,17 @@ impl Forward {
                 let first = index * lengths[1];
                 let ending =
                     |part: Range<usize>| epilogue.within(first + part.start..first + part.end);
-                divided.run(machine, division, (&mut *output, ending), rooms);
-                each.1(item, output);
+                divided.run(machine, division, &mut *output, ending, rooms);
+                see(item, output);
             });
             return;
         }
-        let written = (output.first_mut(source.count), |range| {
-            epilogue.within(range)
-        });
-        self.products.run(machine, read, written, each, rooms);
+        let values = RunValues {
+            pictures: source.pictures(),
+            weights: source.weights,
+            output: output.first_mut(count),
+        };
+        let ending = |range: Range<usize>| epilogue.within(range);
+        self.products.run(machine, values, ending, each, see, rooms);
     }
 }

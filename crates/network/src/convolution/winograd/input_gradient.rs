@@ -1,12 +1,12 @@
 //! Input gradient: the forward pass applied to the output gradient, with inputs and outputs of the weights exchanged and
 //! kernels rotated by 180°.
 
-use super::products::Products;
+use super::products::{Products, RunValues};
 use super::weights::to_points;
-use crate::convolution::ending::{Finish, Onto};
+use crate::convolution::target::GradientTarget;
 use crate::convolution::workspace::Rooms;
 use crate::machine::Machine;
-use crate::planes::{Layout, Planes};
+use crate::planes::{Layout, Pictures};
 
 /// Input-gradient pass, prepared for pictures of one layout.
 #[derive(Clone, Copy, Debug)]
@@ -32,17 +32,24 @@ impl InputGradient {
         &self,
         machine: Machine,
         exchanged: &[f32],
-        (gradient, count): (&Planes, usize),
-        (into, onto): (&mut Planes, Onto),
+        gradient: Pictures<'_>,
+        into: GradientTarget<'_>,
         rooms: Rooms<'_>,
     ) {
         let weights = &mut rooms.transformed[..self.transformed_len()];
         let outputs = self.products.input.picture.channels;
         to_points(machine, exchanged, outputs, true, weights);
-        let read = (gradient.first(count), &*weights);
-        let written = (into.first_mut(count), |_| (onto.start(), Finish::Keep));
+        let count = gradient.count;
+        let values = RunValues {
+            pictures: gradient.planes.first(count),
+            weights,
+            output: into.gradient.first_mut(count),
+        };
+        let rule = into.onto.rule();
         // No callback reads the gradients.
-        let each = (&mut vec![(); count][..], |(): &mut (), _: &[f32]| {});
-        self.products.run(machine, read, written, each, rooms.tiles);
+        let each = &mut vec![(); count][..];
+        let see = |(): &mut (), _: &[f32]| {};
+        self.products
+            .run(machine, values, |_| rule, each, see, rooms.tiles);
     }
 }

@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::tiles::Stretch;
+use super::tiles::{OutputBuffer, PictureValues, Stretch};
 use super::{POINTS, Tiles, slab, transformed_len};
 use crate::constant::with_constant;
-use crate::convolution::ending::{Finish, Start};
+use crate::convolution::ending::SumRule;
 use crate::convolution::workspace::TileRooms;
 use crate::machine::Machine;
 use crate::panel::PANEL;
@@ -50,6 +50,14 @@ pub(super) fn stretch(total: usize, most: usize) -> usize {
     total.div_ceil(total.div_ceil(most)).next_multiple_of(6)
 }
 
+/// Values that a run reads and writes.
+pub(super) struct RunValues<'a> {
+    pub(super) pictures: &'a [f32],
+    /// Weights written by [`to_points`](super::weights::to_points).
+    pub(super) weights: &'a [f32],
+    pub(super) output: &'a mut [f32],
+}
+
 /// Layouts of the input and output pictures.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Products {
@@ -76,20 +84,20 @@ impl Products {
 
     /// Writes the outputs of pictures. `ending` returns the start and finish of the sums of a range of values. `see` receives each picture's item of
     /// `each`, and its output while still in cache.
-    ///
-    /// # Shapes
-    /// `weights`: written by [`to_points`](super::weights::to_points).
     pub(super) fn run<'a, E: Send>(
         &self,
         machine: Machine,
-        (pictures, weights): (&[f32], &[f32]),
-        (output, ending): (
-            &mut [f32],
-            impl Fn(Range<usize>) -> (Start<'a>, Finish<'a>) + Sync,
-        ),
-        (each, see): (&mut [E], impl Fn(&mut E, &[f32]) + Sync),
+        values: RunValues<'_>,
+        ending: impl Fn(Range<usize>) -> SumRule<'a> + Sync,
+        each: &mut [E],
+        see: impl Fn(&mut E, &[f32]) + Sync,
         rooms: &TileRooms,
     ) {
+        let RunValues {
+            pictures,
+            weights,
+            output,
+        } = values;
         let tiles = Tiles::of(self.output.picture);
         let channels = [self.input, self.output].map(|layout| layout.picture.channels);
         let (input_image, output_image) = (self.input.len(), self.output.len());
@@ -107,7 +115,7 @@ impl Products {
             .enumerate()
             .for_each(|(index, ((output, pictures), each))| {
                 let first = index * images * output_image;
-                let ending = ending(first..first + output.len());
+                let rule = ending(first..first + output.len());
                 rooms.with(POINTS * (slabs[0] + slabs[1]), |room| {
                     let (at_points, sums) = room.split_at_mut(POINTS * slabs[0]);
                     machine.run(Group {
@@ -116,10 +124,17 @@ impl Products {
                         at_once,
                         channels,
                         channels_at_once: self.channels_at_once,
-                        pictures: (pictures, self.input),
+                        pictures: PictureValues {
+                            values: pictures,
+                            layout: self.input,
+                        },
                         weights,
-                        output: (&mut *output, self.output, 0),
-                        ending,
+                        output: OutputBuffer {
+                            values: &mut *output,
+                            layout: self.output,
+                            skipped: 0,
+                        },
+                        rule,
                         room: [at_points, sums],
                     });
                 });
@@ -139,11 +154,10 @@ pub(super) struct Group<'a> {
     /// Input and output channels.
     pub(super) channels: [usize; 2],
     pub(super) channels_at_once: usize,
-    pub(super) pictures: (&'a [f32], Layout),
+    pub(super) pictures: PictureValues<'a>,
     pub(super) weights: &'a [f32],
-    /// Output buffer, its layout, and the number of values of the pictures before the buffer.
-    pub(super) output: (&'a mut [f32], Layout, usize),
-    pub(super) ending: (Start<'a>, Finish<'a>),
+    pub(super) output: OutputBuffer<'a>,
+    pub(super) rule: SumRule<'a>,
     /// `[point, tile, channel]` of inputs and of sums.
     pub(super) room: [&'a mut [f32]; 2],
 }
@@ -168,8 +182,7 @@ impl Job for Group<'_> {
             for point in 0..POINTS {
                 self.point::<V>(proof, point, range.len());
             }
-            let output = (&mut *self.output.0, self.output.1, self.output.2);
-            outputs.write_outputs::<V>(proof, self.room[1], output, self.ending);
+            outputs.write_outputs::<V>(proof, self.room[1], &mut self.output, self.rule);
             first = range.end;
         }
     }
@@ -185,7 +198,7 @@ impl Group<'_> {
             let width = (panels - panel).min(V::PANELS);
             with_constant!(
                 VECTORS = width * PANEL / V::LANES, one of [1, 2, 3, 4] =>
-                self.panels::<V, VECTORS>(proof, (point, panel), tiles)
+                self.panels::<V, VECTORS>(proof, point, panel, tiles)
             );
             panel += width;
         }
@@ -195,7 +208,8 @@ impl Group<'_> {
     fn panels<V: Vector, const VECTORS: usize>(
         &mut self,
         proof: V::Proof,
-        place: (usize, usize),
+        point: usize,
+        panel: usize,
         tiles: usize,
     ) {
         let mut first = 0;
@@ -203,7 +217,7 @@ impl Group<'_> {
             let count = (tiles - first).min(V::ROWS);
             with_constant!(
                 ROWS = count, one of [1, 2, 3, 4, 5, 6] =>
-                self.tile::<V, ROWS, VECTORS>(proof, place, first)
+                self.tile::<V, ROWS, VECTORS>(proof, point, panel, first)
             );
             first += count;
         }
@@ -213,7 +227,8 @@ impl Group<'_> {
     fn tile<V: Vector, const ROWS: usize, const VECTORS: usize>(
         &mut self,
         proof: V::Proof,
-        (point, panel): (usize, usize),
+        point: usize,
+        panel: usize,
         first: usize,
     ) {
         let [read, written] = self.channels;

@@ -3,14 +3,14 @@
 use std::ops::Range;
 
 use super::products::{Group, Products, stretch, tiles_at_once};
+use super::tiles::{OutputBuffer, PictureValues};
 use super::{POINTS, TILE, Tiles, slab};
 use crate::convolution::division::{Division, Outputs};
-use crate::convolution::ending::{Finish, Start};
+use crate::convolution::ending::SumRule;
 use crate::convolution::gathering::Gathering;
 use crate::convolution::workspace::TileRooms;
 use crate::machine::Machine;
 use crate::panel::PANEL;
-use crate::planes::Layout;
 use crate::team;
 
 /// One picture and its convolution.
@@ -26,9 +26,8 @@ pub(super) struct Divided<'a> {
 struct Part<'a> {
     tiles: Range<usize>,
     weights: &'a [f32],
-    /// Output buffer, its layout, and the number of values of the picture before the buffer.
-    output: (&'a mut [f32], Layout, usize),
-    ending: (Start<'a>, Finish<'a>),
+    output: OutputBuffer<'a>,
+    rule: SumRule<'a>,
 }
 
 impl Products {
@@ -52,18 +51,16 @@ impl<'a> Divided<'a> {
         self,
         machine: Machine,
         division: Division,
-        (output, ending): (
-            &mut [f32],
-            impl Fn(Range<usize>) -> (Start<'a>, Finish<'a>) + Sync,
-        ),
+        output: &mut [f32],
+        ending: impl Fn(Range<usize>) -> SumRule<'a> + Sync,
         rooms: &TileRooms,
     ) {
         match division {
-            Division::Whole => self.by_rows(machine, 1, (output, ending), rooms),
-            Division::Pixels(parts) => self.by_rows(machine, parts, (output, ending), rooms),
+            Division::Whole => self.by_rows(machine, 1, output, ending, rooms),
+            Division::Pixels(parts) => self.by_rows(machine, parts, output, ending, rooms),
             Division::Panels(parts) => {
                 let ending = ending(0..output.len());
-                self.by_panels(machine, parts, (output, ending), rooms);
+                self.by_panels(machine, parts, output, ending, rooms);
             }
         }
     }
@@ -73,10 +70,8 @@ impl<'a> Divided<'a> {
         self,
         machine: Machine,
         parts: usize,
-        (output, ending): (
-            &mut [f32],
-            impl Fn(Range<usize>) -> (Start<'a>, Finish<'a>) + Sync,
-        ),
+        output: &mut [f32],
+        ending: impl Fn(Range<usize>) -> SumRule<'a> + Sync,
         rooms: &TileRooms,
     ) {
         let layout = self.products.output;
@@ -94,12 +89,15 @@ impl<'a> Divided<'a> {
                 (last * TILE + layout.border) * layout.row()
             };
             let (stretch, others) = rest.split_at_mut(end - skipped);
-            let ending = ending(skipped..end);
             stretches.push(Part {
                 tiles: first * tiles.across..last * tiles.across,
                 weights: self.weights,
-                output: (stretch, layout, skipped),
-                ending,
+                output: OutputBuffer {
+                    values: stretch,
+                    layout,
+                    skipped,
+                },
+                rule: ending(skipped..end),
             });
             (rest, skipped) = (others, end);
         }
@@ -111,7 +109,8 @@ impl<'a> Divided<'a> {
         self,
         machine: Machine,
         parts: usize,
-        (output, (start, finish)): (&mut [f32], (Start<'a>, Finish<'a>)),
+        output: &mut [f32],
+        rule: SumRule<'a>,
         rooms: &TileRooms,
     ) {
         let layout = self.products.output;
@@ -127,8 +126,12 @@ impl<'a> Divided<'a> {
                 Part {
                     tiles: 0..Tiles::of(picture).per_picture,
                     weights,
-                    output: (output, layout, 0),
-                    ending: (start.from(part * channels), Finish::Keep),
+                    output: OutputBuffer {
+                        values: output,
+                        layout,
+                        skipped: 0,
+                    },
+                    rule: rule.of_part(part * channels),
                 }
             });
             team::divide(parts.collect(), |part| self.part(machine, part, rooms));
@@ -136,7 +139,7 @@ impl<'a> Divided<'a> {
                 parts: room,
                 channels,
                 output: (output, layout),
-                finish,
+                finish: rule.finish,
             });
         });
     }
@@ -147,7 +150,7 @@ impl<'a> Divided<'a> {
             output,
             channels_at_once,
         } = self.products;
-        let channels = [input, part.output.1].map(|layout| layout.picture.channels);
+        let channels = [input, part.output.layout].map(|layout| layout.picture.channels);
         let at_once = stretch(part.tiles.len(), tiles_at_once(part.weights));
         let slabs = channels.map(|channels| slab(at_once, channels));
         rooms.with(POINTS * (slabs[0] + slabs[1]), |room| {
@@ -158,10 +161,13 @@ impl<'a> Divided<'a> {
                 at_once,
                 channels,
                 channels_at_once,
-                pictures: (self.input, input),
+                pictures: PictureValues {
+                    values: self.input,
+                    layout: input,
+                },
                 weights: part.weights,
                 output: part.output,
-                ending: part.ending,
+                rule: part.rule,
                 room: [at_points, sums],
             });
         });

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::transform;
 use super::{SIDE, TILE, Tiles};
-use crate::convolution::ending::{Finish, Start};
+use crate::convolution::ending::{Finish, Start, SumRule};
 use crate::planes::Layout;
 use crate::simd::{Spaced, Vector};
 
@@ -17,6 +17,21 @@ pub(super) struct Stretch {
     pub(super) slab: usize,
 }
 
+/// Values of pictures of one layout.
+#[derive(Clone, Copy)]
+pub(super) struct PictureValues<'a> {
+    pub(super) values: &'a [f32],
+    pub(super) layout: Layout,
+}
+
+/// Buffer of a part of output pictures.
+pub(super) struct OutputBuffer<'a> {
+    pub(super) values: &'a mut [f32],
+    pub(super) layout: Layout,
+    /// Number of values of the pictures before the buffer.
+    pub(super) skipped: usize,
+}
+
 impl Stretch {
     /// Writes the transformed inputs of the tiles.
     ///
@@ -26,9 +41,13 @@ impl Stretch {
     pub(super) fn read_inputs<V: Vector>(
         &self,
         proof: V::Proof,
-        (pictures, layout): (&[f32], Layout),
+        pictures: PictureValues<'_>,
         into: &mut [f32],
     ) {
+        let PictureValues {
+            values: pictures,
+            layout,
+        } = pictures;
         let (channels, row) = (layout.picture.channels, layout.row());
         for (position, tile) in self.range.clone().enumerate() {
             let place = self.tiles.place(tile);
@@ -63,9 +82,13 @@ impl Stretch {
     pub(super) fn read_gradients<V: Vector>(
         &self,
         proof: V::Proof,
-        (pictures, layout): (&[f32], Layout),
+        pictures: PictureValues<'_>,
         into: &mut [f32],
     ) {
+        let PictureValues {
+            values: pictures,
+            layout,
+        } = pictures;
         let (channels, row) = (layout.picture.channels, layout.row());
         for (position, tile) in self.range.clone().enumerate() {
             let place = self.tiles.place(tile);
@@ -93,15 +116,17 @@ impl Stretch {
         }
     }
 
-    /// Writes the tiles of outputs from the sums at each point. The buffer begins `skipped` values into the pictures.
+    /// Writes the tiles of outputs from the sums at each point.
     #[inline(always)]
     pub(super) fn write_outputs<V: Vector>(
         &self,
         proof: V::Proof,
         sums: &[f32],
-        (pictures, layout, skipped): (&mut [f32], Layout, usize),
-        ending: (Start<'_>, Finish<'_>),
+        output: &mut OutputBuffer<'_>,
+        rule: SumRule<'_>,
     ) {
+        let (layout, skipped) = (output.layout, output.skipped);
+        let pictures = &mut *output.values;
         let (channels, row) = (layout.picture.channels, layout.row());
         for (position, tile) in self.range.clone().enumerate() {
             let place = self.tiles.place(tile);
@@ -129,7 +154,7 @@ impl Stretch {
                             count: place.beside,
                         };
                         let sums = transform::output(proof, half);
-                        let sums = finished(proof, sums, (pixels, channel), pictures, ending);
+                        let sums = finished(proof, sums, pixels, channel, pictures, rule);
                         pixels.store(sums, pictures);
                     }
                 }
@@ -153,11 +178,12 @@ impl Stretch {
 fn finished<V: Vector>(
     proof: V::Proof,
     mut sums: [V; TILE],
-    (pixels, channel): (Spaced, usize),
+    pixels: Spaced,
+    channel: usize,
     pictures: &[f32],
-    (start, finish): (Start<'_>, Finish<'_>),
+    rule: SumRule<'_>,
 ) -> [V; TILE] {
-    let before = match start {
+    let before = match rule.start {
         Start::Zero => None,
         Start::Output => Some(pixels.load(proof, pictures)),
         Start::Bias(bias) => {
@@ -172,7 +198,7 @@ fn finished<V: Vector>(
     if let Some(before) = before {
         sums = plus(sums, before);
     }
-    match finish {
+    match rule.finish {
         Finish::Keep => sums,
         Finish::Relu => positive_part(sums),
         Finish::AddThenRelu(other) => positive_part(plus(sums, pixels.load(proof, other))),

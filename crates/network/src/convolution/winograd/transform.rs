@@ -2,6 +2,7 @@
 
 use super::{SIDE, TILE};
 use crate::simd::Vector;
+use taceva_core::single;
 
 const A: f64 = std::f64::consts::FRAC_1_SQRT_2;
 const B: f64 = std::f64::consts::SQRT_2;
@@ -13,13 +14,9 @@ const AT_A: f64 = 1.0 / (2.0 * A2 * (A2 - B2));
 const AT_B: f64 = 1.0 / (2.0 * B2 * (B2 - A2));
 
 /// A constant in every lane.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "constants are formed in double precision and kept in single"
-)]
 #[inline(always)]
 fn constant<V: Vector>(proof: V::Proof, value: f64) -> V {
-    V::constant(proof, value as f32)
+    V::constant(proof, single(value))
 }
 
 /// `vector` · `factor`.

@@ -8,7 +8,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::sums::{PIECE, Pieces};
-use super::tiles::Stretch;
+use super::tiles::{PictureValues, Stretch};
 use super::weights;
 use super::{POINTS, Tiles, slab, transformed_len};
 use crate::convolution::workspace::Rooms;
@@ -47,7 +47,8 @@ impl WeightGradient {
     pub(crate) fn run(
         &self,
         machine: Machine,
-        (input, gradient): (&Planes, &Planes),
+        input: &Planes,
+        gradient: &Planes,
         count: usize,
         into: &mut [f32],
         rooms: Rooms<'_>,
@@ -71,8 +72,14 @@ impl WeightGradient {
                     machine.run(Piece {
                         tiles,
                         range: first..(first + PIECE).min(range.end),
-                        pictures: (input.first(count), self.input),
-                        gradients: (gradient.first(count), self.output),
+                        pictures: PictureValues {
+                            values: input.first(count),
+                            layout: self.input,
+                        },
+                        gradients: PictureValues {
+                            values: gradient.first(count),
+                            layout: self.output,
+                        },
                         room,
                     });
                 });
@@ -88,8 +95,8 @@ impl WeightGradient {
 struct Piece<'a> {
     tiles: Tiles,
     range: Range<usize>,
-    pictures: (&'a [f32], Layout),
-    gradients: (&'a [f32], Layout),
+    pictures: PictureValues<'a>,
+    gradients: PictureValues<'a>,
     /// `[point, tile, channel]` of inputs, then of output gradients.
     room: &'a mut [f32],
 }
@@ -104,7 +111,10 @@ impl Job for Piece<'_> {
             range: self.range.clone(),
             slab: slab(PIECE, layout.picture.channels),
         };
-        let (inputs, outputs) = (stretch(self.pictures.1), stretch(self.gradients.1));
+        let (inputs, outputs) = (
+            stretch(self.pictures.layout),
+            stretch(self.gradients.layout),
+        );
         let (at_points, gradients) = self.room.split_at_mut(POINTS * inputs.slab);
         inputs.read_inputs::<V>(proof, self.pictures, at_points);
         outputs.read_gradients::<V>(proof, self.gradients, gradients);

@@ -4,7 +4,7 @@ use taceva_core::{Field, counted};
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
-use crate::signal_facts::{SignalFacts, TaxelFacts};
+use crate::signal_facts::{SignalFacts, TaxelFacts, ValueCount};
 
 pub(super) static CHECK: Check = Check {
     code: "TAC017",
@@ -31,7 +31,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     };
     let clipped: Vec<String> = (0..facts.taxels.len())
         .filter_map(|position| Some((position, end_of(facts, position)?)))
-        .map(|(position, (value, count))| {
+        .map(|(position, ValueCount { value, count })| {
             let unit = facts.info.unit;
             format!(
                 "{} is {value} {unit} in {}",
@@ -53,7 +53,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
 }
 
 /// Value at which a taxel is clipped, and the number of samples with this value.
-fn end_of(facts: &SignalFacts, position: usize) -> Option<(f32, u64)> {
+fn end_of(facts: &SignalFacts, position: usize) -> Option<ValueCount> {
     let TaxelFacts {
         least,
         above_least,
@@ -61,15 +61,15 @@ fn end_of(facts: &SignalFacts, position: usize) -> Option<(f32, u64)> {
         below_greatest,
         ..
     } = facts.taxels[position];
-    let is_clipped = |(_, count): (f32, u64), (_, next): (f32, u64)| {
-        count >= LEAST && count * SHARE >= facts.samples && count > TIMES * next
+    let is_clipped = |ValueCount { count, .. }: ValueCount, next: ValueCount| {
+        count >= LEAST && count * SHARE >= facts.samples && count > TIMES * next.count
     };
     let above =
         Some(greatest).filter(|end| below_greatest.is_some_and(|next| is_clipped(*end, next)));
     // A sensor that shows nothing until it is touched has its least value at rest.
-    let is_rest = |end: &(f32, u64)| match &facts.rest {
-        Some(rest) => rest.values()[position] <= end.0,
-        None => end.0.abs() <= 0.0,
+    let is_rest = |end: &ValueCount| match &facts.rest {
+        Some(rest) => rest.values()[position] <= end.value,
+        None => end.value.abs() <= 0.0,
     };
     let below = Some(least).filter(|end| above_least.is_some_and(|next| is_clipped(*end, next)));
     above.or(below.filter(|end| !is_rest(end)))

@@ -61,7 +61,6 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found.into_iter().flatten().collect()
 }
 
-#[expect(clippy::cast_precision_loss, reason = "rows are far below 2^53")]
 fn rate(part: usize, whole: usize) -> f64 {
     part as f64 / whole.max(1) as f64
 }

@@ -198,7 +198,6 @@ impl Lag {
         let longest = OF_RECORDING * spans.sum::<f64>();
         // Limit of the lag: three quarters of the samples must have a partner.
         let furthest = (1..=FURTHEST).take_while(|shift| {
-            #[expect(clippy::cast_precision_loss, reason = "at most 60 steps")]
             let is_near = *shift as f64 * step <= longest;
             let partners = streams
                 .iter()
@@ -216,7 +215,6 @@ impl Lag {
                 best = (lag, found);
             }
         }
-        #[expect(clippy::cast_precision_loss, reason = "at most 60 steps")]
         let seconds = best.0 as f64 * step;
         Some(Lag {
             steps: best.0,
@@ -250,7 +248,6 @@ impl Lag {
 /// Variance of the forces of all `streams` together; 0 without forces.
 fn variance_of_forces(streams: &[Vec<Instant>]) -> f64 {
     let forces = || streams.iter().flatten().map(|(_, _, force)| *force);
-    #[expect(clippy::cast_precision_loss, reason = "counts of rows")]
     let count = forces().count().max(1) as f64;
     let mean = forces().sum::<f64>() / count;
     forces().map(|force| (force - mean).powi(2)).sum::<f64>() / count
@@ -261,7 +258,6 @@ pub(super) fn correlation(
     first: impl Iterator<Item = f64> + Clone,
     second: impl Iterator<Item = f64> + Clone,
 ) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "counts of rows")]
     let count = first.clone().count() as f64;
     let mean = [
         first.clone().sum::<f64>() / count,

@@ -51,21 +51,23 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
 /// Value of all samples, if it is the same in at least two.
 fn only_value(labels: &[(usize, f64)]) -> Option<f64> {
     let (first, others) = labels.split_first()?;
-    let is_only = !others.is_empty() && others.iter().all(|label| is_same(label, first));
+    let is_only = !others.is_empty() && others.iter().all(|label| is_same(label.1, first.1));
     is_only.then_some(first.1)
 }
 
-fn is_same(one: &(usize, f64), other: &(usize, f64)) -> bool {
-    one.1.to_bits() == other.1.to_bits()
+fn is_same(one: f64, other: f64) -> bool {
+    one.to_bits() == other.to_bits()
 }
 
 /// Finds a force that freezes while the pictures change.
 fn still(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) -> Option<Found> {
-    let runs = labels.chunk_by(is_same);
+    let runs = labels.chunk_by(|one, other| is_same(one.1, other.1));
     // A force that is not measured is zero throughout.
     let runs = runs.filter(|run| run[0].1.abs() > 0.0);
     let longest = runs.max_by_key(|run| run.len())?;
-    let held = labels.windows(2).filter(|pair| is_same(&pair[0], &pair[1]));
+    let held = labels
+        .windows(2)
+        .filter(|pair| is_same(pair[0].1, pair[1].1));
     let held = held.count() - (longest.len() - 1);
     let beside = labels.len() - longest.len();
     let is_long = longest.len() >= STILL && longest.len() * STILL_SHARE >= labels.len();

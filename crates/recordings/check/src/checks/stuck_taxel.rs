@@ -26,7 +26,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let taxels = facts.names.iter().zip(&facts.taxels);
     let stuck: Vec<String> = taxels
         .filter(|(_, taxel)| taxel.is_stuck())
-        .map(|(name, taxel)| format!("{name} is {} {}", taxel.least.0, facts.info.unit))
+        .map(|(name, taxel)| format!("{name} is {} {}", taxel.least.value, facts.info.unit))
         .collect();
     if stuck.is_empty() {
         return Vec::new();

@@ -50,7 +50,6 @@ fn of_channel(
     let column = evidence.table.truth(position);
     let times = evidence.table.t_s();
     let timed = rows.iter().all(|row| times[*row].is_some());
-    #[expect(clippy::cast_precision_loss, reason = "rows are far below 2^53")]
     let mut points: Vec<(f64, f64, usize)> = rows
         .iter()
         .filter_map(|row| {
@@ -192,7 +191,6 @@ impl Drift {
     }
 }
 
-#[expect(clippy::cast_precision_loss, reason = "rows are far below 2^53")]
 fn number(count: usize) -> f64 {
     count as f64
 }

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, PoisonError};
 
-use taceva_core::{Field, FieldSet, Signals};
+use taceva_core::{Field, FieldSet, Signals, single};
 
 use super::Dataset;
 use crate::error::DatasetError;
@@ -39,10 +39,6 @@ impl Dataset {
     ///
     /// # Errors
     /// As [`signals`](Dataset::signals).
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "means are formed in double precision and kept in single, as signals are"
-    )]
     pub fn rest(&self) -> Result<Option<Signals>, DatasetError> {
         if !self.joined.is_empty() {
             return Ok(None);
@@ -61,7 +57,7 @@ impl Dataset {
         if count < 1.0 {
             return Ok(None);
         }
-        let means = sums.iter().map(|sum| (sum / count) as f32).collect();
+        let means = sums.iter().map(|sum| single(sum / count)).collect();
         let rest = Signals::new(info.spec.info, means);
         rest.map(Some).map_err(|error| {
             DatasetError::damaged(

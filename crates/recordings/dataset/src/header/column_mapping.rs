@@ -150,7 +150,6 @@ fn one() -> i8 {
     1
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
 fn is_one(sign: &i8) -> bool {
     *sign == 1
 }

@@ -85,7 +85,6 @@ pub fn add(counts: &mut BTreeMap<String, u64>, name: &str, count: u64) {
     *counts.entry(name.to_owned()).or_default() += count;
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde calls it")]
 fn is_zero(count: &u64) -> bool {
     *count == 0
 }

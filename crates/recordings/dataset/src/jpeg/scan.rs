@@ -103,7 +103,8 @@ impl Scan {
         &self,
         frame: &mut Frame,
         tables: &Tables,
-        (bytes, start): (&[u8], usize),
+        bytes: &[u8],
+        start: usize,
     ) -> Result<usize, String> {
         let coders = self.coders(frame, tables)?;
         let is_progressive = frame.is_progressive;

@@ -119,8 +119,7 @@ impl<'a> Reader<'a> {
             .as_mut()
             .ok_or("a scan before the frame header")?;
         let scan = Scan::parse(body, frame)?;
-        let data = (self.bytes, self.position);
-        self.position = scan.read(frame, &self.tables, data)?;
+        self.position = scan.read(frame, &self.tables, self.bytes, self.position)?;
         Ok(())
     }
 }

@@ -41,7 +41,8 @@ impl RowSplitter {
     pub(super) fn new(
         delimiter: u8,
         columns: usize,
-        (most, mut bounds): (usize, Vec<u32>),
+        most: usize,
+        mut bounds: Vec<u32>,
         start: usize,
     ) -> RowSplitter {
         bounds.clear();
@@ -199,7 +200,7 @@ mod tests {
     fn rows_of_a_text_that_grows_are_those_of_the_whole_and_no_more_than_are_looked_for() {
         let text = b"1,22,333\r\n\n4,,5\n\r\n66666,7,8\n9,9,9";
         let whole = |most: usize| {
-            let mut rows = RowSplitter::new(b',', 3, (most, vec![7; 3]), 0);
+            let mut rows = RowSplitter::new(b',', 3, most, vec![7; 3], 0);
             let end = rows.split(text, 0..text.len()).expect("even");
             if end.is_none() {
                 rows.finish(text, text.len()).expect("even");
@@ -211,7 +212,7 @@ mod tests {
         assert_eq!(whole(9).3[..4], [0, 2, 5, 9]);
         for most in 1..=5 {
             for cut in 0..=text.len() {
-                let mut rows = RowSplitter::new(b',', 3, (most, Vec::new()), 0);
+                let mut rows = RowSplitter::new(b',', 3, most, Vec::new(), 0);
                 let mut end = rows.split(text, 0..cut).expect("even");
                 if end.is_none() {
                     end = rows.split(text, cut..text.len()).expect("even");

@@ -72,7 +72,6 @@ fn parse_plain(cell: &[u8]) -> Option<f64> {
         return None;
     }
     let places = point.map_or(0, |position| digits.len() - position - 1);
-    #[expect(clippy::cast_precision_loss, reason = "at most 2^53, which is exact")]
     let magnitude = mantissa as f64 / EXACT_POWERS[places];
     Some(if negative { -magnitude } else { magnitude })
 }
@@ -107,7 +106,6 @@ fn parse_short(text: &[u8], cell: Range<usize>) -> Option<f64> {
     if beyond_nine & repeated(0x80) != 0 {
         return None;
     }
-    #[expect(clippy::cast_precision_loss, reason = "eight digits are exact")]
     let magnitude = eight_digits(digits) as f64 / EXACT_POWERS[places];
     Some(f64::from_bits(
         magnitude.to_bits() | u64::from(negative) << 63,

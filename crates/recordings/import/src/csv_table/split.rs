@@ -99,7 +99,7 @@ fn split_part(
     columns: usize,
 ) -> Result<Vec<u32>, Ragged> {
     let bounds = Vec::with_capacity(part.len() / 8);
-    let mut rows = RowSplitter::new(delimiter, columns, (usize::MAX, bounds), part.start);
+    let mut rows = RowSplitter::new(delimiter, columns, usize::MAX, bounds, part.start);
     rows.split(text, part.clone())?;
     rows.finish(text, part.end)?;
     Ok(rows.into_bounds())

@@ -115,8 +115,8 @@ impl CsvStream {
         text.clear();
         text.append(&mut self.ahead);
         let bounds = block.blocks.pop().map(|block| block.bounds);
-        let looked_for = (rows, bounds.unwrap_or_default());
-        let mut splitter = RowSplitter::new(self.delimiter, names.len(), looked_for, 0);
+        let (columns, bounds) = (names.len(), bounds.unwrap_or_default());
+        let mut splitter = RowSplitter::new(self.delimiter, columns, rows, bounds, 0);
         let mut seen = 0;
         let end = loop {
             let found = splitter.split(&text, seen..text.len());

@@ -81,10 +81,10 @@ impl<'g> SeenTable<'g> {
         group: &'g FileGroup,
     ) -> Result<Option<SeenTable<'g>>, String> {
         let path = folder.path().join(group.first());
-        match form_of(&path, group) {
-            Some(form) => SeenTable::of_form(&path, group, (group.pattern(), form)).map(Some),
-            None => Ok(None),
-        }
+        let Some((form, extra)) = form_of(&path, group) else {
+            return Ok(None);
+        };
+        SeenTable::of_form(&path, group, group.pattern(), form, extra).map(Some)
     }
 
     /// Reads the folder as a LeRobot dataset; `None` if it is none. `group` is the file that identifies it.
@@ -92,9 +92,9 @@ impl<'g> SeenTable<'g> {
         folder: &SourceFolder,
         group: &'g FileGroup,
     ) -> Option<Result<SeenTable<'g>, String>> {
-        let form = (TableForm::LeRobot, "format = \"lerobot\"".to_owned());
+        let extra = "format = \"lerobot\"".to_owned();
         (group.first() == "meta/info.json")
-            .then(|| SeenTable::of_form(folder.path(), group, (".", form)))
+            .then(|| SeenTable::of_form(folder.path(), group, ".", TableForm::LeRobot, extra))
     }
 
     /// Readable topics of a recording, those with pictures first. The error says why there is none.
@@ -113,7 +113,7 @@ impl<'g> SeenTable<'g> {
                 topic: Some(topic),
                 is_to_cut: true,
             };
-            match SeenTable::of_form(&path, group, (group.pattern(), (form, extra))) {
+            match SeenTable::of_form(&path, group, group.pattern(), form, extra) {
                 Ok(table) => tables.push(SeenTable {
                     header_guess: guess.clone(),
                     ..table
@@ -144,7 +144,9 @@ impl<'g> SeenTable<'g> {
     fn of_form(
         path: &Path,
         group: &'g FileGroup,
-        (pattern, (form, extra)): (&str, (TableForm, String)),
+        pattern: &str,
+        form: TableForm,
+        extra: String,
     ) -> Result<SeenTable<'g>, String> {
         let table = ForeignTable::read(path, &form).map_err(|error| error.to_string())?;
         let rows = table.rows();

@@ -34,7 +34,6 @@ impl ClipRows {
         let video = Video::open(path, decoders).map_err(|error| said(path, &error))?;
         let info = video.info();
         let times_s = match (rate, &info.times_s) {
-            #[expect(clippy::cast_precision_loss, reason = "frames are far below 2^53")]
             (Some(rate), _) => (0..info.frames)
                 .map(|frame| start_s + frame as f64 / rate)
                 .collect(),

@@ -63,7 +63,12 @@ impl JsonRows {
                 _ => None,
             };
             let each: Option<Vec<_>> = match in_order {
-                Some(members) => Some(members.into_iter().map(named).collect()),
+                Some(members) => Some(
+                    members
+                        .into_iter()
+                        .map(|(name, value)| (Some(name), value))
+                        .collect(),
+                ),
                 None => found
                     .into_iter()
                     .map(members)
@@ -239,10 +244,6 @@ fn ways(pointer: &str) -> Vec<String> {
 
 /// Value with the names of the members that lead to it.
 type Named = (Option<String>, Value);
-
-fn named((name, value): (String, Value)) -> Named {
-    (Some(name), value)
-}
 
 /// Members of a list or an object, with names appended to `key`; `None` for any other value.
 fn members((key, value): Named) -> Option<Vec<Named>> {

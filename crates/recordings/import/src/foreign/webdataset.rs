@@ -14,7 +14,7 @@ use super::json::json_problem;
 use super::pictures::{Picture, Pictures, Visit};
 use crate::error::ImportError;
 use crate::frame_names::FrameNames;
-use samples::{Sample, bytes_at, samples};
+use samples::{Extent, Sample, bytes_at, samples};
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{ImageKind, limits};
 
@@ -50,7 +50,7 @@ impl Shard {
         })
     }
 
-    fn bytes(&self, place: (u64, u64), cap: u64) -> Result<Vec<u8>, String> {
+    fn bytes(&self, place: Extent, cap: u64) -> Result<Vec<u8>, String> {
         let mut file = File::open(&self.path).map_err(|error| error.to_string())?;
         bytes_at(&mut file, place, cap)
     }
@@ -219,7 +219,7 @@ impl ColumnSource for Shard {
     fn unread(&self) -> Vec<String> {
         let first = self.samples.first().into_iter();
         let parts = first.flat_map(|first| &first.parts);
-        let is_read = |part: &str, place: (u64, u64)| {
+        let is_read = |part: &str, place: Extent| {
             let ending = ending_of(part);
             TEXTS.contains(&ending)
                 || ["npy", "json"].contains(&ending)

@@ -21,9 +21,6 @@ use super::drawn::{exported, skin};
 struct Stopped;
 
 impl Progress for Stopped {
-    fn begin(&self, _: &str, _: Option<u64>) {}
-    fn advance(&self, _: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         true
     }

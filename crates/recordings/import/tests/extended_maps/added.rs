@@ -128,76 +128,35 @@ fn the_same_map_adds_rows_and_the_header_says_once_how_they_were_read() {
     );
 }
 
-#[test]
-fn another_lag_of_a_joined_clock_is_refused() {
-    refused(
-        "lag_ms = 0",
-        "lag_ms = 12.5",
-        ["join.ft.lag_ms", "0", "12.5"],
-    );
+/// Tests in which a text of the map is replaced by another one, each with the words of the refusal.
+macro_rules! refusals {
+    ($($name:ident: $text:expr => $other:expr, $words:expr;)+) => {$(
+        #[test]
+        fn $name() {
+            refused($text, $other, $words);
+        }
+    )+};
 }
 
-#[test]
-fn another_pick_of_a_joined_row_is_refused() {
-    refused(
-        "pick = \"nearest\"",
-        "pick = \"linear\"",
-        ["join.ft.pick", "`nearest`", "`linear`"],
-    );
-}
-
-#[test]
-fn another_tolerance_of_a_joined_row_is_refused() {
-    refused(
-        "tolerance_ms = 300",
-        "tolerance_ms = 400",
-        ["join.ft.tolerance_ms", "300", "400"],
-    );
-}
-
-#[test]
-fn another_fate_of_rows_without_a_joined_one_is_refused() {
-    refused(
-        "unmatched = \"drop\"",
-        "unmatched = \"refuse\"",
-        ["join.ft.unmatched", "drop", "refuse"],
-    );
-}
-
-#[test]
-fn another_column_of_the_time_of_a_joined_table_is_refused() {
-    refused(
-        "time = { column = \"t\"",
-        "time = { column = \"later\"",
-        ["join.ft.time.column", "`t`", "`later`"],
-    );
-}
-
-#[test]
-fn a_table_that_is_joined_by_row_and_no_longer_by_time_is_refused() {
-    refused(
-        "time = { column = \"t\", unit = \"s\" }\npick = \"nearest\"\ntolerance_ms = 300\nlag_ms = 0\n",
-        "on = \"row\"\n",
-        ["join.ft", "by time", "by row"],
-    );
-}
-
-#[test]
-fn other_rows_of_a_joined_table_that_are_no_candidates_are_refused() {
-    refused(
-        "skip = { Fz = -1 }",
-        "skip = { Fz = -9 }",
-        ["join.ft.skip", "`Fz = -1`", "`Fz = -9`"],
-    );
-}
-
-#[test]
-fn another_range_of_numbers_that_become_pixels_is_refused() {
-    refused(
-        "range = [0, 1]",
-        "range = [0, 2]",
-        ["frame.range", "[0, 1]", "[0, 2]"],
-    );
+refusals! {
+    another_lag_of_a_joined_clock_is_refused:
+        "lag_ms = 0" => "lag_ms = 12.5", ["join.ft.lag_ms", "0", "12.5"];
+    another_pick_of_a_joined_row_is_refused:
+        "pick = \"nearest\"" => "pick = \"linear\"", ["join.ft.pick", "`nearest`", "`linear`"];
+    another_tolerance_of_a_joined_row_is_refused:
+        "tolerance_ms = 300" => "tolerance_ms = 400", ["join.ft.tolerance_ms", "300", "400"];
+    another_fate_of_rows_without_a_joined_one_is_refused:
+        "unmatched = \"drop\"" => "unmatched = \"refuse\"", ["join.ft.unmatched", "drop", "refuse"];
+    another_column_of_the_time_of_a_joined_table_is_refused:
+        "time = { column = \"t\"" => "time = { column = \"later\"", ["join.ft.time.column", "`t`", "`later`"];
+    a_table_that_is_joined_by_row_and_no_longer_by_time_is_refused:
+        "time = { column = \"t\", unit = \"s\" }\npick = \"nearest\"\ntolerance_ms = 300\nlag_ms = 0\n" => "on = \"row\"\n", ["join.ft", "by time", "by row"];
+    other_rows_of_a_joined_table_that_are_no_candidates_are_refused:
+        "skip = { Fz = -1 }" => "skip = { Fz = -9 }", ["join.ft.skip", "`Fz = -1`", "`Fz = -9`"];
+    another_range_of_numbers_that_become_pixels_is_refused:
+        "range = [0, 1]" => "range = [0, 2]", ["frame.range", "[0, 1]", "[0, 2]"];
+    another_column_of_the_position_of_a_picture_is_refused:
+        "index = \"n\"" => "index = \"row\"", ["frame.index", "`n`", "`row`"];
 }
 
 #[test]
@@ -210,15 +169,6 @@ fn another_depth_of_pixels_is_refused() {
     assert!(
         problem.contains("`frame.bits` is 8 in the dataset and 16 in the map"),
         "{problem}"
-    );
-}
-
-#[test]
-fn another_column_of_the_position_of_a_picture_is_refused() {
-    refused(
-        "index = \"n\"",
-        "index = \"row\"",
-        ["frame.index", "`n`", "`row`"],
     );
 }
 

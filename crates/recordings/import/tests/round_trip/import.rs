@@ -200,9 +200,6 @@ opaque = "unknown"
 fn a_cancelled_import_leaves_nothing() {
     struct Stop;
     impl taceva_core::Progress for Stop {
-        fn begin(&self, _: &str, _: Option<u64>) {}
-        fn advance(&self, _: u64) {}
-        fn end(&self) {}
         fn is_cancelled(&self) -> bool {
             true
         }

@@ -40,10 +40,6 @@ impl<'de> Deserialize<'de> for Amount {
             fn visit_f64<E>(self, value: f64) -> Result<Amount, E> {
                 Ok(Amount::Number(value))
             }
-            #[expect(
-                clippy::cast_precision_loss,
-                reason = "whole numbers of a budget are short"
-            )]
             fn visit_i64<E>(self, value: i64) -> Result<Amount, E> {
                 Ok(Amount::Number(value as f64))
             }

@@ -1,61 +1,23 @@
 //! Calibration certificate of the reference of one channel.
 
 use super::freedom::Freedom;
-use taceva_core::{Date, Traceability};
+use taceva_core::{Coverage, Date, Traceability};
 use taceva_metrics::distributions::student_t;
 
-/// Meaning of an expanded uncertainty: coverage factor, or coverage probability.
-///
-/// This type gets no further variant: a certificate states one of these.
-///
-/// ```
-/// use taceva_metrology::budget::{Coverage, Freedom};
-/// let normal = Coverage::Probability { p: 0.95, freedom: Freedom::Infinite };
-/// assert!(normal.factor().is_some_and(|k| (k - 1.96).abs() < 1e-4));
-/// assert_eq!(Coverage::Factor(2.0).factor(), Some(2.0));
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Coverage {
-    /// Coverage factor k.
-    Factor(f64),
-    /// Coverage probability p, with the degrees of freedom of the uncertainty.
-    Probability {
-        /// Probability, in 0..1.
-        p: f64,
-        /// Degrees of freedom.
-        freedom: Freedom,
-    },
-}
-
-impl From<taceva_core::Coverage> for Coverage {
-    fn from(stated: taceva_core::Coverage) -> Coverage {
-        match stated {
-            taceva_core::Coverage::Factor(k) => Coverage::Factor(k),
-            taceva_core::Coverage::Probability { p, dof } => Coverage::Probability {
-                p,
-                freedom: dof.map_or(Freedom::Infinite, Freedom::Finite),
-            },
-        }
-    }
-}
-
-impl Coverage {
-    /// The coverage factor; `None` if k is not above 0 or p not in 0..1.
-    pub fn factor(self) -> Option<f64> {
-        match self {
-            Coverage::Factor(k) => (k > 0.0 && k.is_finite()).then_some(k),
-            Coverage::Probability { p, freedom } => {
-                let number = freedom.number().filter(|_| p > 0.0 && p < 1.0)?;
-                Some(student_t::quantile(f64::midpoint(1.0, p), number))
-            }
-        }
+/// Coverage factor; `None` if k is not above 0 or p not in 0..1.
+pub(super) fn factor(coverage: Coverage) -> Option<f64> {
+    match coverage {
+        Coverage::Factor(k) => (k > 0.0 && k.is_finite()).then_some(k),
+        Coverage::Probability { p, dof } => (p > 0.0 && p < 1.0)
+            .then(|| student_t::quantile(f64::midpoint(1.0, p), dof.unwrap_or(f64::INFINITY))),
     }
 }
 
 /// Certificate of the reference for the measured channel; numbers in the unit of the measurand.
 ///
 /// ```
-/// use taceva_metrology::budget::{Certificate, Coverage};
+/// use taceva_core::Coverage;
+/// use taceva_metrology::budget::Certificate;
 /// let mut certificate = Certificate::new("D-K-1", "a laboratory", "M3813B-0042", Coverage::Factor(2.0));
 /// (certificate.absolute, certificate.relative) = (0.003, 0.001);
 /// // √(1.5² + (0.5 × 10)²) mN at 10 N.
@@ -135,7 +97,7 @@ impl Certificate {
             laboratory: stated.laboratory.clone(),
             serial: stated.serial.clone(),
             instrument_serial: traced.serial.clone(),
-            coverage: stated.coverage.into(),
+            coverage: stated.coverage,
             absolute: absolute.unwrap_or_default(),
             relative: relative.unwrap_or_default(),
             range: range.map(|[least, most]| [least.value, most.value]),
@@ -146,15 +108,15 @@ impl Certificate {
 
     /// Standard uncertainty at a reading: u² = (U/k)² + (U_relative × reading / k)².
     pub fn standard_uncertainty(&self, reading: f64) -> Option<f64> {
-        let k = self.coverage.factor()?;
+        let k = factor(self.coverage)?;
         Some((self.absolute / k).hypot(self.relative * reading / k))
     }
 
     /// Degrees of freedom of the uncertainty.
     pub(super) fn freedom(&self) -> Freedom {
         match self.coverage {
-            Coverage::Factor(_) => Freedom::Infinite,
-            Coverage::Probability { freedom, .. } => freedom,
+            Coverage::Probability { dof: Some(dof), .. } => Freedom::Finite(dof),
+            _ => Freedom::Infinite,
         }
     }
 

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use taceva_core::random::{Draws, open_unit};
+use taceva_core::{whole_count, whole_size};
 
 use super::correlation::Correlations;
 use super::digits::tolerance;
@@ -122,7 +123,7 @@ impl Sampler<'_> {
     pub(super) fn run(&self, request: MonteCarlo, estimate: f64) -> Option<MonteCarloResult> {
         // A block holds 100 values beyond its interval, JCGM 101, 7.9.4.
         let tails = (100.0 / (1.0 - self.coverage)).ceil().min(1e7);
-        let block = BLOCK.max(whole(tails) as u64);
+        let block = BLOCK.max(whole_count(tails));
         let blocks = request.draws.div_ceil(block).max(2);
         let mut all: Vec<f64> = Vec::new();
         let mut stable = Stability::default();
@@ -265,17 +266,7 @@ impl Summary {
 
 /// Number of sorted values that an interval spans, JCGM 101, 7.7.2.
 fn width(count: usize, coverage: f64) -> usize {
-    whole(coverage * count as f64 + 0.5).min(count.saturating_sub(1))
-}
-
-/// A count from 0 to 2³², cut to a whole number.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a count of draws"
-)]
-fn whole(count: f64) -> usize {
-    count as usize
+    whole_size(coverage * count as f64 + 0.5).min(count.saturating_sub(1))
 }
 
 fn shortest(sorted: &[f64], coverage: f64) -> [f64; 2] {

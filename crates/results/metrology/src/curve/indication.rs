@@ -2,6 +2,7 @@
 
 use super::limits::{Figure, Standing, Table};
 use super::undefined::{CurveUndefined, all_positive, positive, range};
+use taceva_core::whole_size;
 
 /// Upper limits of q, b, v, f_0 and a in %, from a laboratory's workbook, not checked against the text of the standard.
 const LIMITS: Table = Table {
@@ -203,12 +204,7 @@ impl IndicationSummary {
         let n = sizes.len();
         let percentile = |share: f64| {
             let at = share * (n - 1) as f64;
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "at most n − 1"
-            )]
-            let below = at.floor() as usize;
+            let below = whole_size(at.floor());
             let next = sizes[(below + 1).min(n - 1)];
             sizes[below] + (at - below as f64) * (next - sizes[below])
         };

@@ -1,5 +1,6 @@
 //! Assembles reports from components, intervals and remarks.
 
+use taceva_core::whole_count;
 use taceva_metrics::Fraction;
 
 use super::anova::{Raw, Squares};
@@ -129,13 +130,7 @@ pub(super) fn assemble(study: &Balanced, settings: &GaugeSettings) -> GaugeRepor
 }
 
 fn whole(value: f64) -> u64 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "the floor of a number from 0 on is wanted; a greater one saturates"
-    )]
-    let whole = value.floor() as u64;
-    whole
+    whole_count(value.floor())
 }
 
 /// Components of an analysis of variance; negative values become 0.

@@ -3,6 +3,7 @@
 //! They use the mean squares of the full model even if the interaction was pooled, because intervals after a test are too short.
 
 use taceva_core::random::Draws;
+use taceva_core::whole_size;
 use taceva_metrics::distributions::chi_square;
 
 use super::GaugeSettings;
@@ -58,12 +59,7 @@ impl Drawn {
         let last = self.values.len() - 1;
         let at = |share: f64| {
             let place = share * real(count(last));
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "a share of an index"
-            )]
-            let low = (place as usize).min(last);
+            let low = whole_size(place).min(last);
             let (one, next) = (self.values[low], self.values[(low + 1).min(last)]);
             // Equal ends may be infinite.
             match next > one {

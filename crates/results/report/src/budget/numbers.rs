@@ -150,23 +150,20 @@ fn remarks(budget: &Budget) -> impl Iterator<Item = Entry<'_>> {
 
 impl Entry<'_> {
     fn cells(&self, at: Option<f64>, origin: &str) -> [Cell; 17] {
-        let number = |value: Option<f64>| {
-            Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
-        };
         [
-            number(at),
+            Cell::exact(at),
             Cell::text(self.row),
             Cell::text(self.name),
             Cell::text(self.kind.as_str()),
             Cell::text(self.shape),
-            number(self.value),
-            number(self.u),
-            number(self.freedom.and_then(Freedom::number)),
-            number(self.c),
-            number(self.contribution),
-            number(self.share),
-            number(self.ends.map(|[low, _]| low)),
-            number(self.ends.map(|[_, high]| high)),
+            Cell::exact(self.value),
+            Cell::exact(self.u),
+            Cell::exact(self.freedom.and_then(Freedom::number)),
+            Cell::exact(self.c),
+            Cell::exact(self.contribution),
+            Cell::exact(self.share),
+            Cell::exact(self.ends.map(|[low, _]| low)),
+            Cell::exact(self.ends.map(|[_, high]| high)),
             Cell::text(self.unit),
             Cell::text(self.from),
             Cell::text(self.remark.as_str()),

@@ -35,7 +35,6 @@ impl Grid {
     /// The same panels on a canvas of the width `room`, with the margin `right` after the last one of a row. Fewer panels are in a row if they would
     /// be too narrow. Panels keep their proportions.
     #[must_use]
-    #[expect(clippy::cast_precision_loss, reason = "a handful of rows and columns")]
     pub(crate) fn within(self, room: Option<f64>, right: f64) -> Grid {
         let Some(room) = room else { return self };
         let width = |columns: usize| {
@@ -72,7 +71,6 @@ impl Grid {
     }
 
     /// Area of the panel at `position`, counted along the rows.
-    #[expect(clippy::cast_precision_loss, reason = "a handful of rows and columns")]
     pub(crate) fn area(&self, position: usize) -> Area {
         let (row, column) = (position / self.columns, position % self.columns);
         let Grid { first, gaps, .. } = *self;

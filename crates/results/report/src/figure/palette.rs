@@ -47,7 +47,6 @@ pub(crate) fn diverging(share: f64) -> [u8; 3] {
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    clippy::cast_precision_loss,
     reason = "a share of a short list, and a mean of two bytes"
 )]
 fn between(steps: &[[u8; 3]], share: f64) -> [u8; 3] {

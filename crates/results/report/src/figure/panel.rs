@@ -68,7 +68,6 @@ impl Panel {
     }
 
     /// As [`Panel::axes`], with a column on the x axis for each of `names`. Names run upwards if they are too long for a row.
-    #[expect(clippy::cast_precision_loss, reason = "a handful of names")]
     pub(crate) fn axes_of_names(&self, axes: &Axes, names: &[String], canvas: &mut Canvas) {
         let (top, bottom) = (self.area.top, self.area.bottom());
         let room = self.area.width / names.len().max(1) as f64;

@@ -1,9 +1,9 @@
 //! Figures as PDF: vectors on one page of the figure's size, with embedded glyphs.
 
+mod code_point_box;
 mod content;
 mod embed;
 mod face;
-mod missing;
 mod text;
 
 use std::collections::BTreeSet;

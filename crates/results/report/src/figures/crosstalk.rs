@@ -49,7 +49,6 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     })
 }
 
-#[expect(clippy::cast_precision_loss, reason = "at most sixteen names")]
 fn cells(matrix: &Matrix, name: &str, area: Area, canvas: &mut Canvas) {
     let heading = Label::new([area.left, area.top - 28.0], short(name, 40), Anchor::Start);
     canvas.label(heading.heading());

@@ -6,6 +6,7 @@ use crate::figure::{
 use crate::figure::{Ink, SERIES};
 use crate::number::numeral;
 use crate::results::Study;
+use taceva_core::whole_size;
 use taceva_results::SampleChannel;
 
 use super::SIX;
@@ -126,16 +127,11 @@ fn truths<'a>(study: &'a Study, name: &str) -> Option<(Vec<f64>, SampleChannel<'
 }
 
 /// Share of values in each bin.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a share of a few bins"
-)]
 fn histogram(values: &[f64], [low, high]: [f64; 2]) -> Vec<f64> {
     let mut counts = vec![0_usize; BINS];
     for value in values {
         let place = (value - low) / (high - low) * share(BINS, 1);
-        counts[(place.max(0.0) as usize).min(BINS - 1)] += 1;
+        counts[whole_size(place).min(BINS - 1)] += 1;
     }
     counts
         .into_iter()
@@ -143,7 +139,6 @@ fn histogram(values: &[f64], [low, high]: [f64; 2]) -> Vec<f64> {
         .collect()
 }
 
-#[expect(clippy::cast_precision_loss, reason = "counts of samples")]
 fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole as f64
 }

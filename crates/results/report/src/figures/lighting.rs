@@ -109,10 +109,6 @@ impl Sheet {
         self.sensors.iter().flat_map(|(_, light)| &light.scenes)
     }
 
-    #[expect(
-        clippy::cast_precision_loss,
-        reason = "a handful of scenes and sensors"
-    )]
     fn draw(&self, area: Area, scenes: &[String], legend: &[(usize, String)], canvas: &mut Canvas) {
         let Some([low, high]) = extent(self.scenes().filter_map(drawn).chain([1.0])) else {
             return;

@@ -290,7 +290,6 @@ impl Axis {
     }
 }
 
-#[expect(clippy::cast_precision_loss, reason = "a handful of axes")]
 fn place(axis: usize, count: usize, share: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     let angle = TAU * axis as f64 / count as f64 - TAU / 4.0;
     [

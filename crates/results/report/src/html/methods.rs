@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use maud::{Markup, html};
 use taceva_core::counted;
 
-use super::studied::{counted_span, points, span, whole};
+use super::sensor_summary::{counted_span, points, span, whole};
 use crate::markup::{heads, scroll};
 use crate::names::{listed, names};
 use crate::results::Study;

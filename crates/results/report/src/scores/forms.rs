@@ -124,24 +124,21 @@ impl ScoreTable {
 impl ScoreRow {
     /// Numbers of the study `name`, in the column order for programs.
     fn numbers(&self, name: &str, source: &str, cell: &ScoreCell) -> [Cell; 15] {
-        let number = |value: Option<f64>| {
-            Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
-        };
         [
             Cell::text(name),
             Cell::text(self.metric.as_str()),
             Cell::text(self.channel.as_str()),
-            number(cell.value),
+            Cell::exact(cell.value),
             Cell::text(self.unit.symbol()),
-            number(cell.ends.map(|ends| ends[0])),
-            number(cell.ends.map(|ends| ends[1])),
+            Cell::exact(cell.ends.map(|ends| ends[0])),
+            Cell::exact(cell.ends.map(|ends| ends[1])),
             Cell::text(cell.method.as_deref().unwrap_or_default()),
-            number(cell.degrees_of_freedom),
+            Cell::exact(cell.degrees_of_freedom),
             Cell::Number(cell.n.to_string()),
             Cell::Number(cell.n_invalid.to_string()),
             Cell::text(cell.formatted.reason.as_deref().unwrap_or_default()),
             Cell::text(cell.standing.words().unwrap_or_default()),
-            number(cell.bounded_share),
+            Cell::exact(cell.bounded_share),
             Cell::text(source),
         ]
     }

@@ -39,6 +39,26 @@ impl Cell {
         Cell::Text(words.into())
     }
 
+    /// Cell of a number in the shortest form that reads back; empty without a number.
+    pub fn exact(value: Option<f64>) -> Cell {
+        Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
+    }
+
+    /// Cell of a value with its interval; a dash without a value.
+    pub(crate) fn estimate(value: Option<f64>, ends: Option<[f64; 2]>) -> Cell {
+        let formatted = match value {
+            Some(value) => FormattedValue::number(value, ends),
+            None => FormattedValue {
+                reason: Some("–".to_owned()),
+                ..FormattedValue::default()
+            },
+        };
+        Cell::Estimate(Estimate {
+            formatted,
+            ..Estimate::default()
+        })
+    }
+
     /// Text without markup.
     pub fn plain(&self) -> String {
         match self {

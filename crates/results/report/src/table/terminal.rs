@@ -1,6 +1,6 @@
 //! Tables as plain text of the width of a terminal.
 
-use super::{Row, Table, Words};
+use super::{Table, Words};
 use crate::escape;
 use crate::wrap::wrapped;
 

@@ -4,7 +4,7 @@ use serde::de::{Deserialize, Deserializer};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::Score;
-use crate::ordered::Ordered;
+use crate::ordered_map::Ordered;
 
 /// Writes scores as objects by metric and channel, for `#[serde(with = "…")]`.
 ///

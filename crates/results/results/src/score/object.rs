@@ -10,7 +10,7 @@ use taceva_core::Unit;
 
 use super::{Score, Variant};
 use crate::interval::Interval;
-use crate::ordered::Ordered;
+use crate::ordered_map::Ordered;
 use crate::value::Value;
 use keys::Keys;
 

@@ -14,7 +14,6 @@ use super::request::{Asked, Evaluated};
 use crate::assess::{Assessed, Context, FitFacts, ScoredRows, assess};
 use crate::calibration::calibration;
 use crate::error::EvaluateError;
-use crate::facts;
 use crate::note::{Division, Independence, Note};
 use crate::predict::{Predicted, Target};
 use crate::provenance::{self, choices};
@@ -22,6 +21,7 @@ use crate::recordings::{self, Clusters};
 use crate::rotation::rotations;
 use crate::rows::Divided;
 use crate::samples;
+use crate::sensor_facts;
 use crate::skill::with_skill;
 use crate::subject;
 
@@ -33,7 +33,7 @@ pub(super) fn metrics(
 ) -> Result<MetricPlan, EvaluateError> {
     let wanted = catalogue::select(asked.metrics.iter().map(String::as_str))?;
     let available: FieldSet = dataset.fields().with(Field::Prediction);
-    let facts = facts::of_dataset(dataset, asked.sensor)?;
+    let facts = sensor_facts::of_dataset(dataset, asked.sensor)?;
     Ok(MetricPlan::new(&with_skill(wanted), channels.clone(), available).with_facts(facts))
 }
 

@@ -17,15 +17,20 @@ use taceva_core::{Axes, Axis};
 pub struct SignedAxes([Along; 3]);
 
 /// One axis of the device, with its sign.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Along {
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Along {
     /// 0 for x, 1 for y, 2 for z.
-    axis: usize,
+    pub(crate) axis: usize,
     /// 1 or −1.
-    sign: f64,
+    pub(crate) sign: f64,
 }
 
 impl Along {
+    /// The positive direction of `axis`.
+    pub(crate) fn positive(axis: usize) -> Along {
+        Along { axis, sign: 1.0 }
+    }
+
     fn read(word: &str) -> Option<Along> {
         let (sign, letter) = match word.strip_prefix('-') {
             Some(letter) => (-1.0, letter),
@@ -42,7 +47,7 @@ impl SignedAxes {
     /// # Errors
     /// A message with the fault and the expected values, for an invalid axis name, a repeated axis, or a left-handed frame.
     pub fn read<T: AsRef<str>>(words: [T; 3]) -> Result<SignedAxes, String> {
-        let mut axes = [Along { axis: 0, sign: 1.0 }; 3];
+        let mut axes = [Along::positive(0); 3];
         for (along, word) in axes.iter_mut().zip(&words) {
             let word = word.as_ref();
             *along = Along::read(word).ok_or_else(|| {
@@ -97,10 +102,10 @@ impl SignedAxes {
 
     /// Corrects these axes from three forces along x, y and z of the sensor. `felt` holds the axis and sign (1 or −1) that these axes report for
     /// each. `None` if the result is not right-handed.
-    pub(crate) fn as_felt(self, felt: [(usize, f64); 3]) -> Option<SignedAxes> {
-        let along = felt.map(|(axis, sign)| Along {
-            axis: self.0[axis].axis,
-            sign: sign * self.0[axis].sign,
+    pub(crate) fn as_felt(self, felt: [Along; 3]) -> Option<SignedAxes> {
+        let along = felt.map(|felt| Along {
+            axis: self.0[felt.axis].axis,
+            sign: felt.sign * self.0[felt.axis].sign,
         });
         let axes = SignedAxes(along);
         (axes.determinant() > 0.5).then_some(axes)

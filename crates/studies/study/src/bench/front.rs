@@ -6,7 +6,7 @@
 use taceva_metrics::ClusterSums;
 
 use super::models::ModelTrial;
-use super::paired::difference;
+use super::paired_errors::difference;
 
 /// A model of a race, and the sums of its absolute errors by contact point, one entry for each channel.
 pub(super) type Raced = (ModelTrial, Vec<Option<ClusterSums>>);

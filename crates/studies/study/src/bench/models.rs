@@ -10,7 +10,7 @@ use taceva_models::Model;
 use taceva_results::Interval;
 
 use super::front;
-use super::paired::absolute_errors;
+use super::paired_errors::absolute_errors;
 use super::stopwatch::process_time;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Work;

@@ -53,10 +53,6 @@ impl Progress for TaskLog<'_> {
         }
     }
 
-    fn advance(&self, _steps: u64) {}
-
-    fn end(&self) {}
-
     fn is_cancelled(&self) -> bool {
         self.whole.is_cancelled()
     }

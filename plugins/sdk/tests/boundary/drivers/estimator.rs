@@ -44,7 +44,6 @@ impl EstimatorFactory for MeanMaker {
                 ));
             }
             for (mean, value) in means.iter_mut().zip(row) {
-                #[expect(clippy::cast_precision_loss, reason = "few samples")]
                 let count = samples as f64;
                 *mean += value / count;
             }

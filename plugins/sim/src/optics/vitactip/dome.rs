@@ -4,6 +4,7 @@ use super::spec::VitactipSpec;
 use crate::contact::Contact;
 use crate::elastic::{hertz, shell};
 use crate::number::{count, narrow};
+use taceva_core::whole_size;
 
 /// Dimple of a shell as a table. Evaluating Kelvin's function for 127 markers would take longer than the picture.
 #[derive(Clone, Debug)]
@@ -28,12 +29,7 @@ impl Dimple {
     /// Depth at `arc` decay lengths from the load, relative to the depth under it.
     fn at(&self, arc: f64) -> f64 {
         let place = arc * NODES_A_LENGTH;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "an arc is not negative, and the index is clamped to the table"
-        )]
-        let node = (place as usize).min(self.depths.len() - 2);
+        let node = whole_size(place).min(self.depths.len() - 2);
         let fraction = (place - count(node)).min(1.0);
         let [below, above] = [self.depths[node], self.depths[node + 1]].map(f64::from);
         below + fraction * (above - below)

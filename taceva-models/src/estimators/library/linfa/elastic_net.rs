@@ -11,9 +11,7 @@ use super::{RELEASE, columns, matrix};
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
 use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::{Linear, Weighted};
-use crate::estimators::library::{
-    LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor,
-};
+use crate::estimators::library::{LibraryModel, LibrarySettings, LibraryTask, LoadedPredictor};
 use crate::linalg::progress::interrupted;
 use crate::settings::SettingInfo;
 use crate::training::info::ModelInfo;
@@ -80,12 +78,9 @@ pub(super) static ADAPTER: Adapter = Adapter {
             |settings| ADAPTER.estimator(settings),
         ),
         release: RELEASE,
-        work: |LibrarySizes {
-                   samples,
-                   features,
-                   targets,
-               }| {
-            let sweep = samples as f64 * features as f64 * (1.0 + 2.0 * targets as f64);
+        work: |sizes| {
+            let [samples, features, targets] = sizes.real();
+            let sweep = samples * features * (1.0 + 2.0 * targets);
             Some(12.0 * 250.0 * sweep)
         },
         load: Linear::load,

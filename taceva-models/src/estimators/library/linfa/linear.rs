@@ -32,13 +32,10 @@ pub(super) static ADAPTER: Adapter = Adapter {
             |settings| ADAPTER.estimator(settings),
         ),
         release: RELEASE,
-        work: |LibrarySizes {
-                   samples,
-                   features,
-                   targets,
-               }| {
-            let (small, large) = (samples.min(features) as f64, samples.max(features) as f64);
-            Some(2.0 * (4.0 + 8.0 * targets as f64) * small * small * large)
+        work: |sizes| {
+            let [samples, features, targets] = sizes.real();
+            let (small, large) = (samples.min(features), samples.max(features));
+            Some(2.0 * (4.0 + 8.0 * targets) * small * small * large)
         },
         load: Linear::load,
     },

@@ -12,9 +12,7 @@ use crate::estimators::discriminant::VALUES_MAX;
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset};
 use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::{Classes, Planes};
-use crate::estimators::library::{
-    LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor,
-};
+use crate::estimators::library::{LibraryModel, LibrarySettings, LibraryTask, LoadedPredictor};
 use crate::linalg::progress::interrupted;
 use crate::settings::SettingInfo;
 use crate::training::info::ModelInfo;
@@ -51,13 +49,10 @@ pub(super) static ADAPTER: Adapter = Adapter {
             |settings| ADAPTER.estimator(settings),
         ),
         release: RELEASE,
-        work: |LibrarySizes {
-                   samples,
-                   features,
-                   targets,
-               }| {
+        work: |sizes| {
+            let [samples, features, targets] = sizes.real();
             // A hundred steps at six strengths; two products per step for each of about forty classes.
-            Some(6.0 * 100.0 * 2.0 * 40.0 * targets as f64 * samples as f64 * features as f64)
+            Some(6.0 * 100.0 * 2.0 * 40.0 * targets * samples * features)
         },
         load: Planes::load,
     },

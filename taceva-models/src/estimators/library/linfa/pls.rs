@@ -5,7 +5,7 @@ use linfa::traits::{Fit, Predict};
 use linfa_pls::PlsRegression;
 use ndarray::Array2;
 use rayon::prelude::*;
-use taceva_core::{ErrorKind, ModelError};
+use taceva_core::{ErrorKind, ModelError, whole_size};
 
 use super::{RELEASE, matrix, records};
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
@@ -52,11 +52,10 @@ pub(super) static ADAPTER: Adapter = Adapter {
             |settings| ADAPTER.estimator(settings),
         ),
         release: RELEASE,
-        work: |LibrarySizes {
-                   samples, features, ..
-               }| {
+        work: |sizes| {
+            let [samples, features, _] = sizes.real();
             // About a hundred power iterations for each of 114 + 30 components.
-            Some(144.0 * 100.0 * samples as f64 * features as f64)
+            Some(144.0 * 100.0 * samples * features)
         },
         load: Linear::load,
     },
@@ -88,11 +87,6 @@ fn weights(
     Ok(linear)
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "whole numbers of components, all small"
-)]
 fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
     let LibrarySizes {
         samples,
@@ -104,7 +98,7 @@ fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
     let asked: Vec<usize> = task
         .values
         .iter()
-        .map(|value| (*value as usize).min(most))
+        .map(|value| whole_size(*value).min(most))
         .collect();
     let mut counts = asked.clone();
     counts.sort_unstable();

@@ -11,9 +11,7 @@ use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
 use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::{Machine, Support};
 use crate::estimators::library::support_vector::{LENGTH, TUBE};
-use crate::estimators::library::{
-    LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor,
-};
+use crate::estimators::library::{LibraryModel, LibrarySettings, LibraryTask, LoadedPredictor};
 use crate::linalg::progress::interrupted;
 use crate::settings::SettingInfo;
 use crate::training::info::ModelInfo;
@@ -55,13 +53,9 @@ pub(super) static ADAPTER: Adapter = Adapter {
             |settings| ADAPTER.estimator(settings),
         ),
         release: RELEASE,
-        work: |LibrarySizes {
-                   samples,
-                   features,
-                   targets,
-               }| {
-            let (samples, targets) = (samples as f64, targets as f64);
-            let kernel = samples * samples * features as f64;
+        work: |sizes| {
+            let [samples, features, targets] = sizes.real();
+            let kernel = samples * samples * features;
             Some(5.0 * targets * (kernel + 200.0 * samples * samples))
         },
         load: Support::load,

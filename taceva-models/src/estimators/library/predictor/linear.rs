@@ -4,6 +4,7 @@ use taceva_core::ModelError;
 
 use crate::estimators::library::guard::finite;
 use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
+use crate::linalg::dot;
 use crate::training::file::tensors::Raw;
 
 /// Weights and bias of each target.
@@ -62,19 +63,4 @@ impl LibraryPredictor for Linear {
         }
         Ok(())
     }
-}
-
-/// Dot product with eight partial sums, in a fixed order.
-pub(super) fn dot(weights: &[f64], values: &[f32]) -> f64 {
-    let (weights, last_weights) = weights.as_chunks::<8>();
-    let (values, last_values) = values.as_chunks::<8>();
-    let mut sums = [0.0; 8];
-    for (weights, values) in weights.iter().zip(values) {
-        for ((sum, weight), &value) in sums.iter_mut().zip(weights).zip(values) {
-            *sum += weight * f64::from(value);
-        }
-    }
-    let last = last_weights.iter().zip(last_values);
-    let rest: f64 = last.map(|(weight, &value)| weight * f64::from(value)).sum();
-    sums.iter().sum::<f64>() + rest
 }

@@ -3,9 +3,9 @@
 use taceva_core::ModelError;
 
 use super::damaged;
-use super::linear::dot;
 use crate::estimators::library::guard::finite;
 use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
+use crate::linalg::dot;
 use crate::training::file::tensors::Raw;
 
 /// Planes of all targets.

@@ -1,6 +1,6 @@
 //! Support vector predictors: sums of Gaussian kernels around stored training samples.
 
-use taceva_core::ModelError;
+use taceva_core::{ModelError, single};
 
 use super::damaged;
 use crate::estimators::library::guard::finite;
@@ -36,10 +36,6 @@ impl Support {
     ///
     /// # Errors
     /// [`ModelError`] of kind `OutOfRange` if a coefficient or bias is not finite.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "the numbers are single-precision ones"
-    )]
     pub(crate) fn new(
         name: &str,
         rows: &[f64],
@@ -55,7 +51,7 @@ impl Support {
                 .iter()
                 .any(|coefficient| coefficient.abs() > 0.0 || coefficient.is_nan())
             {
-                vectors.extend(row.iter().map(|value| *value as f32));
+                vectors.extend(row.iter().copied().map(single));
                 coefficients.extend(own);
             }
         }

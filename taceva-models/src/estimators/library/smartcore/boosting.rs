@@ -9,9 +9,7 @@ use super::{RELEASE, records};
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
 use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::{Node, Tree, Trees};
-use crate::estimators::library::{
-    LibraryModel, LibrarySettings, LibrarySizes, LibraryTask, LoadedPredictor,
-};
+use crate::estimators::library::{LibraryModel, LibrarySettings, LibraryTask, LoadedPredictor};
 use crate::linalg::progress::interrupted;
 use crate::settings::SettingInfo;
 use crate::training::info::ModelInfo;
@@ -93,13 +91,10 @@ pub(super) static ADAPTER: Adapter = Adapter {
             |settings| ADAPTER.estimator(settings),
         ),
         release: RELEASE,
-        work: |LibrarySizes {
-                   samples,
-                   features,
-                   targets,
-               }| {
-            let sorted = 0.5 * samples as f64 * (samples as f64).log2().max(1.0);
-            Some(2.0 * 50.0 * 3.0 * 10.0 * targets as f64 * features as f64 * sorted)
+        work: |sizes| {
+            let [samples, features, targets] = sizes.real();
+            let sorted = 0.5 * samples * samples.log2().max(1.0);
+            Some(2.0 * 50.0 * 3.0 * 10.0 * targets * features * sorted)
         },
         load: Trees::load,
     },

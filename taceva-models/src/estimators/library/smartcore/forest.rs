@@ -9,7 +9,7 @@ use smartcore::ensemble::random_forest_regressor::{
     RandomForestRegressor, RandomForestRegressorParameters,
 };
 use smartcore::linalg::basic::matrix::DenseMatrix;
-use taceva_core::{ErrorKind, ModelError};
+use taceva_core::{ErrorKind, ModelError, whole_size};
 
 use super::{RELEASE, records};
 use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
@@ -122,14 +122,9 @@ pub(super) static EXTRA_TREES: Adapter = Adapter {
 /// Work of a hundred trees, grown four times: for each of three shares, and for the chosen one. Every tree sorts every feature at
 /// every depth.
 fn work(sizes: LibrarySizes) -> Option<f64> {
-    let LibrarySizes {
-        samples,
-        features,
-        targets,
-    } = sizes;
-    let samples = samples as f64;
+    let [samples, features, targets] = sizes.real();
     let depth = 2.0 * samples.log2().max(1.0);
-    Some(4.0 * 100.0 * 2.0 * targets as f64 * samples * features as f64 * depth)
+    Some(4.0 * 100.0 * 2.0 * targets * samples * features * depth)
 }
 
 /// Grows the trees of one target with a number of features per split. Returns them serialised by the library, or the library's error.
@@ -196,11 +191,6 @@ fn node(node: &Value) -> Option<Node> {
     })
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a share of the number of features"
-)]
 fn fit(
     adapter: &Adapter,
     grow: Grow,
@@ -211,7 +201,7 @@ fn fit(
     let records = records(name, task)?;
     let one = |target: usize| {
         interrupted(task.progress)?;
-        let among = (task.values[target] * task.sizes.features as f64).ceil() as usize;
+        let among = whole_size((task.values[target] * task.sizes.features as f64).ceil());
         let labels = task.target(target);
         let grown = guarded(name, || grow(set, &records, &labels, among.max(1)))?;
         let trees = trees(&grown).ok_or_else(|| {

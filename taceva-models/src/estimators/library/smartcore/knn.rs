@@ -43,13 +43,9 @@ pub(super) static ADAPTER: Adapter = Adapter {
             |settings| ADAPTER.estimator(settings),
         ),
         release: RELEASE,
-        work: |LibrarySizes {
-                   samples,
-                   features,
-                   targets,
-               }| {
-            let samples = samples as f64;
-            Some(9.0 * targets as f64 * samples * samples * features as f64)
+        work: |sizes| {
+            let [samples, features, targets] = sizes.real();
+            Some(9.0 * targets * samples * samples * features)
         },
         load: Lookup::load,
     },

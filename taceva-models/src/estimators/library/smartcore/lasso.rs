@@ -54,13 +54,9 @@ pub(super) static ADAPTER: Adapter = Adapter {
             |settings| ADAPTER.estimator(settings),
         ),
         release: RELEASE,
-        work: |LibrarySizes {
-                   samples,
-                   features,
-                   targets,
-               }| {
-            let (features, targets) = (features as f64, targets as f64);
-            let rows = (samples as f64).max(features);
+        work: |sizes| {
+            let [samples, features, targets] = sizes.real();
+            let rows = samples.max(features);
             Some(6.0 * targets * features * features * (rows + 3000.0))
         },
         load: Linear::load,

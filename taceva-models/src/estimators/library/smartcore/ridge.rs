@@ -51,13 +51,9 @@ pub(super) static ADAPTER: Adapter = Adapter {
             |settings| ADAPTER.estimator(settings),
         ),
         release: RELEASE,
-        work: |LibrarySizes {
-                   samples,
-                   features,
-                   targets,
-               }| {
-            let small = samples.min(features) as f64;
-            let (samples, targets) = (samples as f64, targets as f64);
+        work: |sizes| {
+            let [samples, features, targets] = sizes.real();
+            let small = samples.min(features);
             Some(10.0 * targets * 3.0 * small * small * (samples + small))
         },
         load: Linear::load,

@@ -47,13 +47,9 @@ pub(super) static ADAPTER: Adapter = Adapter {
             |settings| ADAPTER.estimator(settings),
         ),
         release: RELEASE,
-        work: |LibrarySizes {
-                   samples,
-                   features,
-                   targets,
-               }| {
-            let (n, p) = (samples as f64, features as f64);
-            (samples >= features).then_some(2.0 * targets as f64 * n * n * (3.0 * p + 400.0))
+        work: |sizes| {
+            let [n, p, targets] = sizes.real();
+            (n >= p).then_some(2.0 * targets * n * n * (3.0 * p + 400.0))
         },
         load: Support::load,
     },

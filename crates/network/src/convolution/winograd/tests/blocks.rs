@@ -1,11 +1,11 @@
 //! Errors by the number of channels per partial sum, on which `channels_at_once` is based.
 
-use super::super::products::{Products, channels_at_once};
+use super::super::products::{Products, RunValues, channels_at_once};
 use super::super::weights::to_points;
 use super::{Case, ConvolutionWeights, Numbers, batch_of, case, error, values};
 use crate::convolution::ConvolutionForm;
 use crate::convolution::TileRooms;
-use crate::convolution::ending::{Finish, Start};
+use crate::convolution::ending::Onto;
 use crate::convolution::tests::{forward, machines, passes};
 use crate::machine::Machine;
 use crate::panel::Aligned;
@@ -35,12 +35,15 @@ fn summed(case: &Case, machine: Machine, numbers: &Numbers, channels: usize) -> 
         let mut room = Aligned::zeros(products.transformed_len());
         let inputs = read.layout().picture.channels;
         to_points(machine, weights, inputs, is_turned, &mut room);
-        let output = (written.first_mut(case.batch), |_| {
-            (Start::Zero, Finish::Keep)
-        });
-        let each = (&mut vec![(); case.batch][..], |(): &mut (), _: &[f32]| {});
-        let read = (read.first(case.batch), &room[..]);
-        products.run(machine, read, output, each, &TileRooms::default());
+        let run_values = RunValues {
+            pictures: read.first(case.batch),
+            weights: &room,
+            output: written.first_mut(case.batch),
+        };
+        let rule = Onto::Nothing.rule();
+        let each = &mut vec![(); case.batch][..];
+        let (see, rooms) = (|(): &mut (), _: &[f32]| {}, TileRooms::default());
+        products.run(machine, run_values, |_| rule, each, see, &rooms);
         values(&written, case.batch)
     };
     [

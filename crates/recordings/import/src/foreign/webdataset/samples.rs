@@ -8,11 +8,18 @@ use std::sync::Arc;
 
 use crate::foreign::tar::{FileTape, Members, TarError};
 
+/// Place of a member in a shard, bytes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    at: u64,
+    size: u64,
+}
+
 #[derive(Debug, Default)]
 pub(super) struct Sample {
     pub(super) key: String,
-    /// Offset and length, in bytes, of each member, by the name behind its first dot.
-    pub(super) parts: BTreeMap<Arc<str>, (u64, u64)>,
+    /// Place of each member, by the name behind its first dot.
+    pub(super) parts: BTreeMap<Arc<str>, Extent>,
 }
 
 /// Samples of a shard in file order.
@@ -49,11 +56,12 @@ pub(super) fn samples(path: &Path) -> Result<Vec<Sample>, TarError> {
                 ..Sample::default()
             });
         }
+        let extent = Extent {
+            at: member.at,
+            size: member.size,
+        };
         if let Some(sample) = samples.last_mut()
-            && sample
-                .parts
-                .insert(ending, (member.at, member.size))
-                .is_some()
+            && sample.parts.insert(ending, extent).is_some()
         {
             return Err(TarError::Twice(member.name));
         }
@@ -61,11 +69,8 @@ pub(super) fn samples(path: &Path) -> Result<Vec<Sample>, TarError> {
     Ok(samples)
 }
 
-pub(super) fn bytes_at(
-    file: &mut File,
-    (at, size): (u64, u64),
-    cap: u64,
-) -> Result<Vec<u8>, String> {
+pub(super) fn bytes_at(file: &mut File, extent: Extent, cap: u64) -> Result<Vec<u8>, String> {
+    let Extent { at, size } = extent;
     if size > cap {
         return Err(format!(
             "{size} bytes, more than the {cap} that are accepted here"

@@ -96,7 +96,7 @@ fn copy_view(
     let alike = copying.alike;
     progress.end();
     outcome?;
-    let Some((_, info)) = alike else {
+    let Some(FrameForm { info, .. }) = alike else {
         return Ok((None, folders));
     };
     let reference = frames
@@ -134,7 +134,14 @@ struct Copying<'a> {
     /// Position of the view in the table, if rows have several pictures.
     view: Option<usize>,
     /// Common kind and format of all frames.
-    alike: Option<(ImageKind, FrameInfo)>,
+    alike: Option<FrameForm>,
+}
+
+/// Kind and format of a frame.
+#[derive(Clone, Copy, PartialEq)]
+struct FrameForm {
+    kind: ImageKind,
+    info: FrameInfo,
 }
 
 impl Copying<'_> {
@@ -220,7 +227,10 @@ impl Copying<'_> {
         }
         let named_at = || self.frames.of_rows[row].named_at.clone();
         let copied = copied.map_err(|error| error.named_at(named_at()))?;
-        let found = (copied.kind, copied.info);
+        let found = FrameForm {
+            kind: copied.kind,
+            info: copied.info,
+        };
         let expected = *self.alike.get_or_insert(found);
         check_alike(self.frames, row, expected, found)?;
         match self.view {
@@ -259,8 +269,8 @@ fn copy_reference(
 fn check_alike(
     frames: &PlannedFrames,
     row: usize,
-    expected: (ImageKind, FrameInfo),
-    found: (ImageKind, FrameInfo),
+    expected: FrameForm,
+    found: FrameForm,
 ) -> Result<(), ImportError> {
     if expected == found {
         return Ok(());
@@ -270,10 +280,10 @@ fn check_alike(
         planned.from.path(),
         format!(
             "{} {}, expected {} {} as the first frame",
-            found.0.extension(),
-            found.1,
-            expected.0.extension(),
-            expected.1
+            found.kind.extension(),
+            found.info,
+            expected.kind.extension(),
+            expected.info
         ),
     )
     .named_at(planned.named_at.clone()))

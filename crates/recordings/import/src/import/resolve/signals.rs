@@ -4,6 +4,7 @@ use super::Sources;
 use crate::csv_table::number;
 use crate::error::{ImportError, table_error};
 use crate::import::map::SignalsMap;
+use taceva_core::single;
 
 /// Values of every row, grouped by taxel, in the stored unit. A cell without a number gives NaN, which is an error if the row is kept.
 pub(super) fn numbers(
@@ -122,14 +123,10 @@ fn packed(cell: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Number in a cell, in the stored unit; NaN if there is none.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "signals are kept in single precision; this is the one rounding"
-)]
 fn read(cell: &str, map: &SignalsMap) -> f32 {
     let number = number::number_in_unit(cell.trim(), &map.unit);
     // Numbers beyond single precision are absent as well.
-    let number = number.ok().flatten().map(|number| number as f32);
+    let number = number.ok().flatten().map(single);
     number
         .filter(|number| number.is_finite())
         .unwrap_or(f32::NAN)

@@ -147,7 +147,6 @@ impl MappedTable<'_> {
                     "`{channel}` has no value in the rows of {whose} that [zero] averages: leave it out by `channels` of [zero]"
                 )));
             }
-            #[expect(clippy::cast_precision_loss, reason = "rows are far below 2^53")]
             means.push(at_zero.iter().sum::<f64>() / at_zero.len() as f64);
             let all: Vec<f64> = all.iter().filter_map(|labels| labels[*position]).collect();
             if all.len() > at_zero.len() && spread(&at_zero) > SPREAD * spread(&all) {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use taceva_arrays::{ArrayFile, ArrayFormat};
-use taceva_core::Progress;
+use taceva_core::{Progress, single};
 
 use crate::error::{ImportError, table_error};
 use crate::foreign::stated;
@@ -203,10 +203,6 @@ impl ArraySignals {
 }
 
 /// Converts a number to the stored unit.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "signals are kept in single precision; this is the one rounding"
-)]
 fn kept(value: f64, map: &SignalsMap) -> f32 {
-    map.unit.convert(value) as f32
+    single(map.unit.convert(value))
 }

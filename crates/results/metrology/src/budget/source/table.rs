@@ -1,12 +1,12 @@
 //! Sources whose table states the numbers.
 
-use taceva_core::shown;
+use taceva_core::{Coverage, shown};
 use taceva_metrics::ExactSum;
 use toml::Spanned;
 
 use super::{FACTOR, Numbers, PROBABILITY, Reader, SHARE, deviations, unknown};
 use crate::budget::amount::Wanted;
-use crate::budget::certificate::Coverage;
+use crate::budget::certificate::factor;
 use crate::budget::error::{BudgetError, BudgetProblem};
 use crate::budget::freedom::Freedom;
 use crate::budget::schema::WrittenSource;
@@ -38,11 +38,12 @@ impl Reader<'_> {
                 (None, p) => {
                     let p = p.as_ref().map(|p| self.number(p, "p", &PROBABILITY));
                     let p = p.transpose()?.unwrap_or_default();
-                    Coverage::Probability { p, freedom }
+                    let dof = freedom.number();
+                    Coverage::Probability { p, dof }
                 }
             };
             let expanded = self.width(expanded, "U", wanted)?;
-            let u = expanded / coverage.factor().unwrap_or(1.0);
+            let u = expanded / factor(coverage).unwrap_or(1.0);
             return Ok(Numbers::normal(u, freedom));
         }
         if let Some(s) = &of.s {

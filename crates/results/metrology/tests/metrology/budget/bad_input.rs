@@ -1,6 +1,7 @@
 //! Bad input of a budget file: each is refused with its line, key and expectation.
 
-use taceva_metrology::budget::{BudgetText, Certificate, Coverage, Evidence};
+use taceva_core::Coverage;
+use taceva_metrology::budget::{BudgetText, Certificate, Evidence};
 
 use super::overlaps::figures;
 use super::{budgets, refusal};

@@ -1,7 +1,7 @@
 //! Certificates of recordings, reduced to one channel.
 
-use taceva_core::{Instrument, Traceability};
-use taceva_metrology::budget::{Certificate, Coverage, Evidence, Freedom};
+use taceva_core::{Coverage, Instrument, Traceability};
+use taceva_metrology::budget::{Certificate, Evidence};
 
 use super::refusal;
 
@@ -9,7 +9,7 @@ use super::refusal;
 fn a_certificate_of_a_recording_is_reduced_to_one_channel() {
     let day = |text: &str| text.parse().expect("a day");
     let amount = |text: &str| text.parse().expect("an amount");
-    let coverage = taceva_core::Coverage::Probability {
+    let coverage = Coverage::Probability {
         p: 0.95,
         dof: Some(9.0),
     };
@@ -28,9 +28,20 @@ fn a_certificate_of_a_recording_is_reduced_to_one_channel() {
     assert_eq!(reduced.range, Some([0.05, 50.0]));
     assert_eq!(reduced.instrument_serial.as_deref(), Some("43"));
     assert_eq!(reduced.recorded_on.as_deref(), Some("2027-01-02"));
-    let freedom = Freedom::Finite(9.0);
-    assert_eq!(reduced.coverage, Coverage::Probability { p: 0.95, freedom });
+    assert_eq!(reduced.coverage, coverage);
     assert_eq!(Certificate::of(&traced, "Tz", None), None);
+}
+
+#[test]
+fn a_probability_has_the_factor_of_its_distribution() {
+    let u = |coverage| {
+        let mut certificate = Certificate::new("D-K-1", "a laboratory", "42", coverage);
+        certificate.absolute = 1.0;
+        certificate.standard_uncertainty(0.0).expect("a factor")
+    };
+    let normal = Coverage::Probability { p: 0.95, dof: None };
+    assert!((1.0 / u(normal) - 1.96).abs() < 1e-4);
+    assert_eq!(u(Coverage::Factor(2.0)).to_bits(), 0.5_f64.to_bits());
 }
 
 #[test]

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
 use pdf_writer::{Content, Name};
+use taceva_core::single;
 
 use super::face::Face;
 use super::text::{self, Used};
@@ -171,18 +172,13 @@ pub(super) fn state_name(hundredths: u8) -> String {
 }
 
 /// A factor rounded to a millionth, as in the file.
-#[expect(clippy::cast_possible_truncation, reason = "a factor near one")]
 fn factor(value: f64) -> f32 {
-    ((value * 1e6).round() / 1e6) as f32
+    single((value * 1e6).round() / 1e6)
 }
 
 /// A number rounded to a hundredth, as in the file.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "hundredths on a page of some hundreds"
-)]
 pub(super) fn number(value: f64) -> f32 {
-    ((value * 100.0).round() / 100.0) as f32
+    single((value * 100.0).round() / 100.0)
 }
 
 /// Colour on white paper.

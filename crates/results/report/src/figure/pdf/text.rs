@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use pdf_writer::{Content, Name, Str};
 use subsetter::GlyphRemapper;
 
+use super::code_point_box;
 use super::content::number;
 use super::face::{Face, Found, find};
-use super::missing;
 use crate::figure::canvas::{Anchor, Label};
 
 /// Glyphs of a font that a figure uses.
@@ -58,7 +58,9 @@ pub(super) fn draw(label: &Label, at: [f64; 2], fonts: &mut [Used; 3], content: 
                 content.next_line(number(*pen), 0.0);
                 content.show(Str(&codes)).end_text();
             }
-            Piece::Missing(letter) => missing::draw(*letter, *pen, label.size, fonts, content),
+            Piece::Missing(letter) => {
+                code_point_box::draw(*letter, *pen, label.size, fonts, content)
+            }
         }
     }
 }
@@ -91,7 +93,7 @@ fn pieces(label: &Label, fonts: &mut [Used; 3]) -> (Vec<(Piece, f64)>, f64) {
             Found::Nothing => {}
             Found::Nowhere => {
                 pieces.push((Piece::Missing(letter), pen));
-                pen += missing::advance(letter) * label.size;
+                pen += code_point_box::advance(letter) * label.size;
             }
         }
     }

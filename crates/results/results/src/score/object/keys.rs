@@ -6,7 +6,7 @@ use taceva_metrics::{Band, Curve, Map, Matrix, Standing};
 
 use super::Reason;
 use crate::interval::Interval;
-use crate::ordered::Ordered;
+use crate::ordered_map::Ordered;
 use crate::score::{Score, Variant};
 use crate::value::Value;
 

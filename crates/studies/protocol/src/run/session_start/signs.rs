@@ -1,6 +1,6 @@
 //! Measured axes of a gentle touch, compared with the axes of the rig file.
 
-use crate::rig_file::SignedAxes;
+use crate::rig_file::{Along, SignedAxes};
 use crate::text::SceneProblem;
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
@@ -26,7 +26,7 @@ impl Felt {
         let mut wrong = Vec::new();
         for (went, felt) in along.iter().enumerate() {
             if let Some(felt) = felt
-                && *felt != (went, 1.0)
+                && *felt != Along::positive(went)
             {
                 let did = if went == 2 { "pressed" } else { "pushed" };
                 wrong.push(format!(
@@ -44,29 +44,32 @@ impl Felt {
             felt: wrong.join("; "),
             expected: expected.map(|axes| axes.to_string()),
             // A robot that moved in another direction than down would have touched nothing.
-            may_be_robot: along[2] == Some((2, 1.0)),
+            may_be_robot: along[2] == Some(Along::positive(2)),
         })
     }
 }
 
-fn name((axis, sign): (usize, f64)) -> String {
-    let sign = if sign < 0.0 { '-' } else { '+' };
-    format!("{sign}{}", NAMES[axis])
+fn name(along: Along) -> String {
+    let sign = if along.sign < 0.0 { '-' } else { '+' };
+    format!("{sign}{}", NAMES[along.axis])
 }
 
 /// Axis of the greatest component of a force, and its sign.
-fn greatest(force: &[f64; 3]) -> (usize, f64) {
+fn greatest(force: &[f64; 3]) -> Along {
     let mut found = (0, force[0]);
     for (axis, component) in force.iter().enumerate().skip(1) {
         if component.abs() > found.1.abs() {
             found = (axis, *component);
         }
     }
-    (found.0, found.1.signum())
+    Along {
+        axis: found.0,
+        sign: found.1.signum(),
+    }
 }
 
 /// Completes three signed axes if at most one is unknown, by the cross product of the others.
-fn whole(along: [Option<(usize, f64)>; 3]) -> Option<[(usize, f64); 3]> {
+fn whole(along: [Option<Along>; 3]) -> Option<[Along; 3]> {
     let missing: Vec<usize> = (0..3).filter(|axis| along[*axis].is_none()).collect();
     match missing[..] {
         [] => Some(along.map(|along| along.unwrap_or_default())),
@@ -81,13 +84,15 @@ fn whole(along: [Option<(usize, f64)>; 3]) -> Option<[(usize, f64); 3]> {
 }
 
 /// Cross product of two signed axes; `None` for parallel ones.
-fn cross(one: (usize, f64), other: (usize, f64)) -> Option<(usize, f64)> {
-    let sign = one.1 * other.1;
-    match (3 + other.0 - one.0) % 3 {
-        1 => Some(((one.0 + 2) % 3, sign)),
-        2 => Some(((one.0 + 1) % 3, -sign)),
-        _ => None,
-    }
+fn cross(one: Along, other: Along) -> Option<Along> {
+    let sign = one.sign * other.sign;
+    let (step, sign) = match (3 + other.axis - one.axis) % 3 {
+        1 => (2, sign),
+        2 => (1, -sign),
+        _ => return None,
+    };
+    let axis = (one.axis + step) % 3;
+    Some(Along { axis, sign })
 }
 
 #[cfg(test)]

@@ -12,6 +12,7 @@ use crate::run::error::StopCause;
 use crate::run::reference_touch::{ReferenceTouch, SessionRecord, SessionSpec, TouchFault};
 use crate::run::session::Run;
 use crate::run::supervisor::MotionStage;
+use crate::run::surface_fit::Surface;
 use crate::run::tip::{Step, Tip};
 use crate::text::SceneProblem;
 
@@ -52,7 +53,7 @@ impl Run<'_> {
         let earlier = earlier
             .clone()
             .find(|earlier| earlier.unit == *unit && earlier.specimen == specimen);
-        let Some(Surface { height_mm, u_mm }) = self.tip.feel_down(pace.air_n)? else {
+        let Some(surface) = self.tip.feel_down(pace.air_n)? else {
             let problem = SceneProblem::NothingTouched {
                 search_mm: self.plan.contact.search_mm.value,
             };
@@ -60,6 +61,7 @@ impl Run<'_> {
             let at = robot.and_then(|robot| robot.origin_mm.at());
             return Err(StopCause::Rig(Box::new(session.rig.error(at, problem))));
         };
+        let (height_mm, u_mm) = (surface.height_mm, surface.deviation_mm);
         let press = self.press_on(height_mm)?;
         let pushes = self.push_aside()?;
         let felt = Felt {
@@ -269,11 +271,14 @@ impl Tip<'_> {
             let height_mm = z_mm - self.pace.step_mm * (1.0 - part);
             let of_pose_mm = self.pace.slack_mm / 3.0;
             let u_mm = between_steps_mm(self.pace.step_mm, force.single_n(), rise_n);
-            let u_mm = u_mm.hypot(of_pose_mm);
+            let deviation_mm = u_mm.hypot(of_pose_mm);
             self.contact_mm = Some(height_mm);
             self.is_felt_at(height_mm);
             self.watch(MotionStage::Press { height_mm });
-            return Ok(Some(Surface { height_mm, u_mm }));
+            return Ok(Some(Surface {
+                height_mm,
+                deviation_mm,
+            }));
         }
         Ok(None)
     }
@@ -312,13 +317,6 @@ impl Tip<'_> {
             error_n: (variance / (count - 1.0)).sqrt(),
         })
     }
-}
-
-/// Height of the first contact and its standard uncertainty, in mm.
-#[derive(Clone, Copy, Debug)]
-struct Surface {
-    height_mm: f64,
-    u_mm: f64,
 }
 
 /// Standard uncertainty of a height between two steps, in mm, from the noise of a reading and the rise of the force over the step, in N.

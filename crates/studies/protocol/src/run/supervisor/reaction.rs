@@ -1,5 +1,7 @@
 //! Reaction time of a guard, from an exceeded limit to a sent halt.
 
+use taceva_core::whole_size;
+
 /// Time to send a halt, in s.
 const SEND_S: f64 = 0.001;
 /// Percentile of the reaction time; one in a thousand may be later.
@@ -31,12 +33,7 @@ impl Lateness {
         let periods = u32::try_from(periods).map_or(f64::INFINITY, f64::from);
         let period_s = (last_s - first_s) / periods;
         self.ages_s.sort_by(f64::total_cmp);
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a part of a count is no larger than it"
-        )]
-        let place = (SOONER * periods).ceil() as usize;
+        let place = whole_size((SOONER * periods).ceil());
         let age_s = self.ages_s.get(place).or(self.ages_s.last())?;
         Some(period_s + age_s + SEND_S)
     }

@@ -84,8 +84,10 @@ impl Check<'_> {
             self.one_of(
                 model.at(),
                 "[model]",
-                ("name", &model.value.name),
-                ("file", &model.value.file),
+                "name",
+                &model.value.name,
+                "file",
+                &model.value.file,
             )?;
         }
         let own = self.frames(&study.recording)?;
@@ -136,12 +138,7 @@ impl Check<'_> {
             footprint,
             ..
         } = &sensor.value;
-        self.one_of(
-            sensor.at(),
-            SENSOR,
-            ("driver", driver),
-            ("dataset", dataset),
-        )?;
+        self.one_of(sensor.at(), SENSOR, "driver", driver, "dataset", dataset)?;
         self.distinct("units", units.as_ref())?;
         match footprint {
             Some(written) => written
@@ -157,8 +154,10 @@ impl Check<'_> {
         &self,
         at: Option<usize>,
         table: &str,
-        (first, one): (&str, &Option<Setting<T>>),
-        (second, other): (&str, &Option<Setting<T>>),
+        first: &str,
+        one: &Option<Setting<T>>,
+        second: &str,
+        other: &Option<Setting<T>>,
     ) -> Checked {
         match (one, other) {
             (Some(_), Some(other)) => {

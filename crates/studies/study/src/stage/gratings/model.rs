@@ -2,6 +2,7 @@
 
 use taceva_core::{
     Channel, Channels, FeatureShape, Features, Nanometre, Regressor, Targets, TrainingSet, Unit,
+    single,
 };
 
 use crate::classifier::ModelClassifier;
@@ -35,12 +36,8 @@ pub(super) fn predict(
     Ok(found.iter().filter_map(nearest).collect())
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "features are kept in single precision"
-)]
 fn features(spectra: &[Vec<f64>]) -> Result<Features, EvaluateError> {
     let width = spectra.first().map_or(0, Vec::len);
-    let values = spectra.iter().flatten().map(|&value| value as f32);
+    let values = spectra.iter().flatten().copied().map(single);
     Ok(Features::new(FeatureShape::flat(width), values.collect())?)
 }

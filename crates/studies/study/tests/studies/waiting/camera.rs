@@ -29,9 +29,6 @@ calibration = { points = 6, indentations = 2, shear_mm = 0.0 }
 struct Spoils<'a>(&'a World, ErrorKind, AtomicBool);
 
 impl Progress for Spoils<'_> {
-    fn begin(&self, _: &str, _: Option<u64>) {}
-    fn advance(&self, _: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         if depth_mm(self.0) > 0.1 && !self.2.swap(true, Ordering::SeqCst) {
             self.0.state().camera = Some(self.1);

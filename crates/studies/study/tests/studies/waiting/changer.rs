@@ -323,9 +323,6 @@ fn a_changer_that_is_none_or_holds_nothing_is_refused_with_its_line() {
 struct StopsMeanwhile(Instant);
 
 impl Progress for StopsMeanwhile {
-    fn begin(&self, _: &str, _: Option<u64>) {}
-    fn advance(&self, _: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         self.0.elapsed() > Duration::from_millis(300)
     }

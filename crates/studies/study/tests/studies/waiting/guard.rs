@@ -22,9 +22,6 @@ struct Wishes {
 }
 
 impl<F: Fn(&World) -> Wishes + Send + Sync> Progress for Looking<'_, F> {
-    fn begin(&self, _: &str, _: Option<u64>) {}
-    fn advance(&self, _: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         (self.1)(self.0).is_cancelled
     }

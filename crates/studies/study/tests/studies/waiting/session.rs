@@ -51,9 +51,6 @@ fn rows(folder: &Path) -> Vec<String> {
 struct StopsInPress<'a>(&'a World, PathBuf, AtomicBool);
 
 impl Progress for StopsInPress<'_> {
-    fn begin(&self, _: &str, _: Option<u64>) {}
-    fn advance(&self, _: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         let now_s = taceva_drivers::MonotonicClock.now_s();
         let is_deep = self.0.state().tip(now_s)[2] > 0.3;
@@ -178,9 +175,6 @@ impl StopsAfter {
 }
 
 impl Progress for StopsAfter {
-    fn begin(&self, _: &str, _: Option<u64>) {}
-    fn advance(&self, _: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         taceva_drivers::MonotonicClock.now_s() >= self.0
     }
@@ -284,8 +278,6 @@ impl Progress for Blocks {
     fn begin(&self, _: &str, _: Option<u64>) {
         std::fs::create_dir_all(&self.0).expect("made");
     }
-    fn advance(&self, _: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         false
     }

@@ -79,9 +79,6 @@ impl<'a> LetsGo<'a> {
 }
 
 impl Progress for LetsGo<'_> {
-    fn begin(&self, _: &str, _: Option<u64>) {}
-    fn advance(&self, _: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         let depth_mm = depth_mm(self.world);
         let looks = self.looks.load(Ordering::SeqCst);
@@ -138,9 +135,6 @@ fn a_switch_that_nobody_holds_lets_nothing_move_and_the_run_ends_when_the_patien
 struct Unplugs<'a>(&'a World);
 
 impl Progress for Unplugs<'_> {
-    fn begin(&self, _: &str, _: Option<u64>) {}
-    fn advance(&self, _: u64) {}
-    fn end(&self) {}
     fn is_cancelled(&self) -> bool {
         if depth_mm(self.0) > 0.3 {
             self.0.state().is_unplugged = true;

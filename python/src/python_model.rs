@@ -12,7 +12,7 @@ use crate::buffer::{Buffer, Number};
 use crate::dataset::{Recording, jobs_of};
 use crate::errors::{study_error, value_error};
 use crate::evaluate::part_of;
-use crate::{results, watched};
+use crate::{results, worker};
 
 /// Rows of a recording for a model held in Python.
 #[pyclass(module = "taceva._taceva", frozen)]
@@ -107,7 +107,7 @@ impl Given {
         let rows = rows.ok_or_else(|| value_error("already scored"))?;
         let model = GivenModel { name, settings };
         // Runs watched, so that Ctrl-C is handled at once.
-        let scored = watched::run(py, None, |_| {
+        let scored = worker::run(py, None, |_| {
             rows.score(&recording.dataset, model, numbers, metrics, jobs_of(jobs))
         })?;
         results::sealed_with_samples(&scored.map_err(|error| study_error(&error))?.report)
@@ -125,7 +125,7 @@ pub(crate) fn features(
     jobs: usize,
     bar: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(Buffer, String, [usize; 3])> {
-    let taken = watched::run(py, bar, |progress| -> Result<_, EvaluateError> {
+    let taken = worker::run(py, bar, |progress| -> Result<_, EvaluateError> {
         let settings = ModelSettings::parse(settings.iter().map(String::as_str))?;
         let work = Work {
             jobs: jobs_of(jobs),

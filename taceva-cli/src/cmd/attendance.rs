@@ -6,7 +6,7 @@ use taceva_acquire::Viewer;
 use taceva_live::{Live, PageOperator};
 use taceva_protocol::Operator;
 
-use super::on_page::OnPage;
+use super::device_page::OnPage;
 use super::operator;
 use crate::args::Run;
 use crate::stderr;

@@ -1,0 +1,25 @@
+//! Outputs of the passes.
+
+use super::ending::{Epilogue, Onto};
+use crate::planes::Planes;
+
+/// Output of a forward pass.
+pub(crate) struct Target<'a> {
+    pub(crate) pictures: &'a mut Planes,
+    /// Bias and operations on the sums.
+    pub(crate) epilogue: Epilogue<'a>,
+}
+
+/// Output of an input-gradient pass.
+pub(crate) struct GradientTarget<'a> {
+    pub(crate) gradient: &'a mut Planes,
+    /// Write mode.
+    pub(crate) onto: Onto,
+}
+
+impl GradientTarget<'_> {
+    /// Writes to `gradient` in the mode `onto`.
+    pub(crate) fn new(gradient: &mut Planes, onto: Onto) -> GradientTarget<'_> {
+        GradientTarget { gradient, onto }
+    }
+}

@@ -1,0 +1,46 @@
+//! Rounding to single precision.
+
+/// The nearest number of single precision, in which features, signals and weights are kept.
+///
+/// ```
+/// use taceva_core::single;
+/// assert_eq!(single(0.5), 0.5_f32);
+/// assert_eq!(f64::from(single(1.0 + 1e-9)), 1.0);
+/// ```
+#[expect(clippy::cast_possible_truncation, reason = "the rounding is wanted")]
+#[inline]
+pub const fn single(value: f64) -> f32 {
+    value as f32
+}
+
+/// The whole part as an index or a size: 0 for NaN and below 0, the greatest number beyond it.
+///
+/// ```
+/// use taceva_core::whole_size;
+/// assert_eq!([2.9, -1.0, f64::NAN].map(whole_size), [2, 0, 0]);
+/// ```
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a cast drops the fraction and saturates"
+)]
+#[inline]
+pub const fn whole_size(value: f64) -> usize {
+    value as usize
+}
+
+/// The whole part as a count: 0 for NaN and below 0, the greatest number beyond it.
+///
+/// ```
+/// use taceva_core::whole_count;
+/// assert_eq!([2.9, -1.0, 1e30].map(whole_count), [2, 0, u64::MAX]);
+/// ```
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a cast drops the fraction and saturates"
+)]
+#[inline]
+pub const fn whole_count(value: f64) -> u64 {
+    value as u64
+}
