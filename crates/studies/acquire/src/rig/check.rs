@@ -356,15 +356,13 @@ fn listen_to_force(force: &mut dyn ForceTransducer) -> Result<Stream, DriverErro
         let (wrench, stamp) = force.read(READ_DEADLINE)?;
         listener.hear(stamp.valid_s, MonotonicClock.now_s());
         listener.measure(wrench.force.map(|force| force.0));
-        if let Some(number) = force.sequence() {
-            listener.number(number);
-        }
         Ok(())
     });
+    let lost = force.lost();
     let stopped = force.stop();
     let heard = heard?;
     stopped?;
-    Ok(heard)
+    Ok(Stream { lost, ..heard })
 }
 
 fn listen_to_robot(robot: &mut dyn Robot) -> Result<Stream, DriverError> {

@@ -77,6 +77,28 @@ fn numbers_that_are_left_out_are_seen_in_the_sequence_and_no_reading_comes_twice
 }
 
 #[test]
+fn readings_that_a_slow_reader_leaves_are_not_lost_and_those_that_never_came_are() {
+    each_transducer(|bench, transducer| {
+        transducer.read(MOMENT).expect("a reading");
+        let before = transducer.sequence().expect("they are numbered");
+        std::thread::sleep(Duration::from_millis(60));
+        transducer.read(MOMENT).expect("a reading");
+        let after = transducer.sequence().expect("they are numbered");
+        assert!(
+            after > before + 2,
+            "{before} {after}: nothing was overtaken"
+        );
+        assert_eq!(transducer.lost(), Some(0));
+        inject(bench, Device::Force, FaultKind::Gap, BAD_MS);
+        let until = Instant::now() + Duration::from_millis(BAD_MS);
+        while Instant::now() < until {
+            transducer.read(MOMENT).expect("a reading");
+        }
+        assert!(transducer.lost() >= Some(7), "{:?}", transducer.lost());
+    });
+}
+
+#[test]
 fn bytes_of_others_and_absurd_lengths_are_typed_errors_and_readings_follow_them() {
     each_transducer(|bench, transducer| {
         for kind in [FaultKind::Foreign, FaultKind::Hostile] {
