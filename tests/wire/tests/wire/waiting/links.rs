@@ -14,7 +14,7 @@ use crate::waiting::setup::Setup;
 use crate::waiting::support::{MOMENT, PATIENCE, inject, lower, speed};
 
 /// Allowed errors of a driver on a faulty link.
-const TYPED: [ErrorKind; 4] = [
+pub(crate) const TYPED: [ErrorKind; 4] = [
     ErrorKind::Protocol,
     ErrorKind::Timeout,
     ErrorKind::Disconnected,
@@ -164,13 +164,13 @@ impl<E: Arm> Setup<E> {
     }
 }
 
-fn xarm() -> Setup<xarm::Emulator> {
+pub(crate) fn xarm() -> Setup<xarm::Emulator> {
     Setup::new(XarmFactory::new().expect("a factory"), |bench| {
         xarm::Emulator::start(bench, xarm::Ports::ANY)
     })
 }
 
-fn ur() -> Setup<ur::Emulator> {
+pub(crate) fn ur() -> Setup<ur::Emulator> {
     Setup::new(UrFactory::new().expect("a factory"), |bench| {
         ur::Emulator::start(bench, Ipv4Addr::LOCALHOST, [0, 0])
     })
