@@ -313,7 +313,7 @@ impl Machine {
             "$" => lines(SETTINGS),
             "#" => lines(OFFSETS),
             "G" => lines(&["[GC:G1 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]"]),
-            "I" => lines(&["[VER:1.1h.20190825:TACEVA-SIM]", "[OPT:V,15,128]"]),
+            "I" => lines(&["[VER:1.1h.20190825:]", "[OPT:V,15,128]"]),
             "X" => {
                 self.inside().is_alarmed = false;
                 lines(&["[MSG:Caution: Unlocked]"])

@@ -157,7 +157,7 @@ impl Wanted {
                     says.extend(pose.into_iter().flat_map(f64::to_be_bytes));
                 }
                 ("speed_scaling" | "target_speed_fraction", _) => {
-                    says.extend(1.0_f64.to_be_bytes());
+                    says.extend(controller.slider().to_be_bytes());
                 }
                 (_, "BOOL") => says.push(0),
                 (_, "VECTOR6D") => says.extend([0; 48]),
