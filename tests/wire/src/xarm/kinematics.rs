@@ -64,7 +64,7 @@ impl Link {
 
 /// Angles near `from` that bring the flange to `target`; `None` if none are found.
 pub(super) fn angles_at(target: &Placement, from: Angles) -> Option<Angles> {
-    const STEPS: u32 = 50;
+    const STEPS: u32 = 20;
     /// Greatest change of an angle in a step, and the difference of angles by which derivatives are taken, rad.
     const STEP_MAX: f64 = 0.3;
     const SMALL: f64 = 1e-6;

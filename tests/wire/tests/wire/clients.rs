@@ -5,6 +5,7 @@ mod ffmpeg;
 mod grbl;
 #[cfg(unix)]
 mod marlin;
+mod mjpeg;
 mod netft;
 mod printer;
 mod python;
