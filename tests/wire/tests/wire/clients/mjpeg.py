@@ -26,6 +26,12 @@ def change():
 
 
 threading.Thread(target=change, daemon=True).start()
+for _ in range(200):
+    try:
+        socket.create_connection(("127.0.0.1", port)).close()
+        break
+    except OSError:
+        time.sleep(0.05)
 print("\n= " + str(port), flush=True)
 # It ends with its input.
 sys.stdin.read()
