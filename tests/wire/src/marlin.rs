@@ -1,6 +1,6 @@
 //! Emulated printer with Marlin 2 at the other end of a pseudo-terminal.
 //!
-//! Supported: queued `G1` (with `G21 G90`, with some coordinates or all, with and without blanks), `M105` without heaters, `M110`, `M114`
+//! Supported: queued `G0` and `G1` (with `G21 G90`, with some coordinates or all, with and without blanks), `M105` without heaters, `M110`, `M114`
 //! with the planned position, `M115`, `M118`, `M400`, and immediate `M410`; line numbers and checksums with requests to resend. Not
 //! supported: heating, homing, acceleration, lost steps.
 
@@ -219,7 +219,9 @@ impl Printer {
                 )
             }
             "M118" => format!("{}\n{OK}", line[4..].trim_start()),
-            _ => match Words::read(line).filter(|words| words.has('G', 1)) {
+            _ => match Words::read(line)
+                .filter(|words| [0, 1].iter().any(|code| words.has('G', *code)))
+            {
                 Some(words) => {
                     self.go(inside, &words);
                     OK.to_owned()

@@ -45,7 +45,7 @@ fn frames_of_the_public_server_are_read_and_none_is_damaged() {
     assert_eq!((info.width, info.height), (64, 48));
     assert_eq!(info.format, PixelFormat::Rgb8);
     sensor.start(PATIENCE).expect("it starts");
-    let mut last = None;
+    let mut last: Option<u8> = None;
     let mut changes = 0;
     for _ in 0..40 {
         let mut pixels = vec![0; info.byte_len().expect("small")];
