@@ -9,7 +9,7 @@ use taceva_drivers::ur::rtde::UrFactory;
 use taceva_wire::Arm;
 use taceva_wire::xarm::Port;
 
-use crate::waiting::links::{TYPED, ur, xarm};
+use crate::waiting::links::{TYPED, ur_setup, xarm_setup};
 use crate::waiting::setup::Setup;
 use crate::waiting::support::{PATIENCE, lower, speed};
 
@@ -92,25 +92,25 @@ impl<E: Arm> Setup<E> {
 
 #[test]
 fn an_arm_whose_controller_answers_in_one_byte_pieces_arrives() {
-    let setup = xarm();
+    let setup = xarm_setup();
     assert!(setup.arrives(setup.emulator.address(Port::Command), Arrival::Bytewise));
-    let setup = ur();
+    let setup = ur_setup();
     assert!(setup.arrives(setup.emulator.states_address(), Arrival::Bytewise));
 }
 
 #[test]
 fn an_arm_whose_controller_answers_twice_arrives_or_stands_with_a_typed_error() {
-    let setup = xarm();
+    let setup = xarm_setup();
     setup.arrives(setup.emulator.address(Port::Command), Arrival::Twice);
-    let setup = ur();
+    let setup = ur_setup();
     setup.arrives(setup.emulator.states_address(), Arrival::Twice);
 }
 
 #[test]
 fn an_arm_whose_controller_answers_late_arrives_or_stands_with_a_typed_error() {
-    let setup = xarm();
+    let setup = xarm_setup();
     setup.arrives(setup.emulator.address(Port::Command), Arrival::Late);
-    let setup = ur();
+    let setup = ur_setup();
     setup.arrives(setup.emulator.states_address(), Arrival::Late);
 }
 

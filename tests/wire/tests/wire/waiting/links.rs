@@ -164,13 +164,13 @@ impl<E: Arm> Setup<E> {
     }
 }
 
-pub(crate) fn xarm() -> Setup<xarm::Emulator> {
+pub(crate) fn xarm_setup() -> Setup<xarm::Emulator> {
     Setup::new(XarmFactory::new().expect("a factory"), |bench| {
         xarm::Emulator::start(bench, xarm::Ports::ANY)
     })
 }
 
-pub(crate) fn ur() -> Setup<ur::Emulator> {
+pub(crate) fn ur_setup() -> Setup<ur::Emulator> {
     Setup::new(UrFactory::new().expect("a factory"), |bench| {
         ur::Emulator::start(bench, Ipv4Addr::LOCALHOST, [0, 0])
     })
@@ -178,12 +178,12 @@ pub(crate) fn ur() -> Setup<ur::Emulator> {
 
 #[test]
 fn a_motion_arrives_however_the_reports_of_the_arm_are_split_and_merged() {
-    xarm().arrives_in_pieces_and_heaps();
-    ur().arrives_in_pieces_and_heaps();
+    xarm_setup().arrives_in_pieces_and_heaps();
+    ur_setup().arrives_in_pieces_and_heaps();
 }
 
 #[test]
 fn bytes_of_others_among_the_reports_end_in_a_typed_error_and_an_arm_that_stands() {
-    xarm().stands_among_bytes_of_others();
-    ur().stands_among_bytes_of_others();
+    xarm_setup().stands_among_bytes_of_others();
+    ur_setup().stands_among_bytes_of_others();
 }
