@@ -1,8 +1,8 @@
 //! Emulated machine with GRBL 1.1 at the other end of a pseudo-terminal.
 //!
-//! Supported: `?` with the work offset in some reports, `!`, `~`, reset, `$$`, `$#`, `$G`, `$I`, `$X`, `G53 G1` (with `G21 G90 G94`, with
-//! and without blanks), modes alone on a line, one motion and one waiting, alarm at a reset during a motion. Not supported: changes of
-//! settings, offsets, arcs, homing, acceleration.
+//! Supported queries: `?` with the work offset in some reports, `!`, `~`, reset, `$$`, `$#`, `$G`, `$I`, `$X`. Supported lines: `G53 G1`
+//! (with `G21 G90 G94`, with and without blanks) and modes alone. The machine keeps one motion and one waiting. A reset during a motion is
+//! an alarm. Not supported: changes of settings, offsets, arcs, homing, acceleration.
 
 use std::fs::File;
 use std::io::{Read, Write};

@@ -1,8 +1,8 @@
 //! Emulated printer with Marlin 2 at the other end of a pseudo-terminal.
 //!
-//! Supported: queued `G0` and `G1` (with `G21 G90`, with some coordinates or all, with and without blanks), `M105` without heaters, `M110`, `M114`
-//! with the planned position, `M115`, `M118`, `M400`, and immediate `M410`; line numbers and checksums with requests to resend. Not
-//! supported: heating, homing, acceleration, lost steps.
+//! Supported: queued `G0` and `G1` (with `G21 G90`, with some coordinates or all, with and without blanks), line numbers and checksums with
+//! requests to resend. Supported too: `M105` without heaters, `M110`, `M114` with the planned position, `M115`, `M118`, `M400`, immediate
+//! `M410`. Not supported: heating, homing, acceleration, lost steps.
 
 use std::collections::VecDeque;
 use std::fs::File;

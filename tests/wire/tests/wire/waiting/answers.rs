@@ -67,8 +67,8 @@ fn pass(mut from: TcpStream, mut to: TcpStream, arrival: Option<Arrival>) {
 }
 
 impl<E: Arm> Setup<E> {
-    /// A motion ends at its target or in a typed error, after which the arm stands, if what its port at `address` says comes like `arrival`.
-    /// True if it arrived.
+    /// Moves while what the port at `address` says comes like `arrival`: ends at the target, or in a typed error and at rest. True if it
+    /// arrived.
     fn arrives(&self, address: SocketAddr, arrival: Arrival) -> bool {
         let port = before(address, arrival);
         let direct = format!(";port={};", address.port());
