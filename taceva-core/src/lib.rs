@@ -90,7 +90,8 @@ pub use stamp::{Clock, Stamp};
 pub use stream::{SampleSink, Select, SinkError, Tee};
 pub use suggestion::{nearest, suggestion};
 pub use traceability::{
-    Certificate, CertificateError, Coverage, Instrument, StatedCorrelation, Traceability,
+    Certificate, CertificateContradiction, CertificateError, CertificateFault, Coverage,
+    Instrument, StatedCorrelation, Traceability,
 };
 pub use unit::{Amount, AmountError, SourceUnit, Unit, UnitError};
 pub use wrench::Wrench;

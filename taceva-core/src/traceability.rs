@@ -3,6 +3,7 @@
 mod certificate;
 mod coverage;
 mod error;
+mod fault;
 mod instrument;
 #[cfg(feature = "serde")]
 mod schema;
@@ -10,6 +11,7 @@ mod schema;
 pub use certificate::{Certificate, StatedCorrelation};
 pub use coverage::Coverage;
 pub use error::CertificateError;
+pub use fault::{CertificateContradiction, CertificateFault};
 pub use instrument::Instrument;
 
 use crate::date::Date;

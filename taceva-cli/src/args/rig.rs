@@ -11,6 +11,7 @@ Order for a new rig (docs/rig.md):
   taceva init rig --out lab.toml               asks for devices and limits; writes the file
   taceva rig teach lab.toml                    origin and axes of the robot, which you jog
   taceva rig check lab.toml                    every device for 2 s, and one halt
+  taceva rig check lab.toml --weight 100g      the unit and calibration of the force
   taceva init scene                            asks what is measured; then taceva plan
   taceva run scene.toml --rig lab.toml --air   every contact point in the air
   taceva rig tap lab.toml                      latencies
@@ -43,13 +44,39 @@ pub(crate) enum RigSubject {
 /// halt states why it was skipped. The exit code is 1 after any error or problem.
 ///
 /// Do this once before the first run on a rig, and again after every change of its network, its machine or a device.
+///
+/// With --weight nothing moves and only the force transducer is opened: you take every load off it and hang a known weight on it once. The
+/// change of Fz is compared with m·g, and the result is written into the rig file. A factor of a mistaken unit of force is named.
 #[derive(Debug, Args)]
 pub(crate) struct RigCheckArgs {
     /// The rig file
     #[arg(value_name = "FILE")]
     pub(crate) rig: PathBuf,
+    /// Compare only the force under this known weight with m·g: 100g, 0.2kg
+    #[arg(long, value_name = "MASS", value_parser = mass_g)]
+    pub(crate) weight: Option<f64>,
     #[command(flatten)]
     pub(crate) output: Output<ListFormat>,
+}
+
+/// Greatest accepted mass, in g.
+const GREATEST_MASS_G: f64 = 100_000.0;
+
+/// Mass in g.
+fn mass_g(text: &str) -> Result<f64, String> {
+    let is_of_unit = |letter: char| letter.is_ascii_alphabetic();
+    let (number, unit) = text.split_at(text.find(is_of_unit).unwrap_or(text.len()));
+    let per_g = match unit {
+        "g" => Some(1.0),
+        "kg" => Some(1e3),
+        "mg" => Some(1e-3),
+        _ => None,
+    };
+    let number: Option<f64> = number.trim().parse().ok();
+    let mass_g = number.zip(per_g).map(|(number, per_g)| number * per_g);
+    mass_g
+        .filter(|mass_g| *mass_g > 0.0 && *mass_g <= GREATEST_MASS_G)
+        .ok_or_else(|| "expected a mass in mg, g or kg, such as 100g, up to 100kg".to_owned())
 }
 
 /// This program moves nothing: you jog the robot by its own pendant or program, and this one reads its position.

@@ -3,6 +3,7 @@
 mod check;
 mod tap;
 mod teach;
+mod weight;
 
 use std::fs;
 use std::io;

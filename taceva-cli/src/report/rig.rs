@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use serde::Serialize;
-use taceva_acquire::{RigCheck, RigProblem, RigTap, Stream};
+use taceva_acquire::{RigCheck, RigProblem, RigTap, RigWeight, Stream};
 use taceva_core::counted;
 use taceva_protocol::{Contact, calm_threshold_n};
 
@@ -23,6 +23,14 @@ struct WrittenTap<'a> {
     schema: &'static str,
     #[serde(flatten)]
     tap: &'a RigTap,
+}
+
+/// Schema `taceva.rig-weight/1`.
+#[derive(Serialize)]
+struct WrittenWeight<'a> {
+    schema: &'static str,
+    #[serde(flatten)]
+    found: &'a RigWeight,
 }
 
 pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::Result<()> {
@@ -75,6 +83,30 @@ pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::
         )?;
     }
     Ok(())
+}
+
+pub(crate) fn weight(found: &RigWeight, format: ListFormat, out: &mut dyn Write) -> io::Result<()> {
+    if let ListFormat::Json = format {
+        let schema = "taceva.rig-weight/1";
+        serde_json::to_writer_pretty(&mut *out, &WrittenWeight { schema, found })?;
+        return writeln!(out);
+    }
+    unmeasured(found.simulated, out)?;
+    let [x_n, y_n, z_n] = found.change_n;
+    let weighing = &found.weighing;
+    writeln!(
+        out,
+        "change  ({x_n:.4}, {y_n:.4}, {z_n:.4}) N along x, y and z under {} g",
+        weighing.mass_g
+    )?;
+    match &found.problem {
+        Some(problem) => writeln!(out, "problem {problem}"),
+        None => writeln!(
+            out,
+            "force   ok: Fz changed by {:.4} N, expected {:.4} ± {:.4} N",
+            weighing.measured_n, weighing.expected_n, weighing.tolerance_n
+        ),
+    }
 }
 
 pub(crate) fn check(check: &RigCheck, format: ListFormat, out: &mut dyn Write) -> io::Result<()> {

@@ -120,6 +120,19 @@ driver = "camera/v4l2:device=/dev/video-of-nobody"
 }
 
 #[test]
+fn a_weight_needs_a_mass_with_its_unit_and_a_person_at_a_terminal() {
+    let bench = Bench::new();
+    let force = "[force]\ndriver = \"ati/netft:host=127.0.0.1\"\naxes = [\"x\", \"y\", \"z\"]\n";
+    bench.write("lab.toml", &format!("rig_version = 1\n{force}"));
+    for mass in ["100", "1lb", "0g", "NaNg", "101kg"] {
+        let expected = "expected a mass in mg, g or kg, such as 100g, up to 100kg";
+        bench.refused(&format!("rig check lab.toml --weight {mass}"), 2, expected);
+    }
+    let expected = "a person hangs the weight: start taceva rig check --weight from a terminal";
+    bench.refused("rig check lab.toml --weight 0.1kg", 2, expected);
+}
+
+#[test]
 fn a_wrong_argument_in_a_rig_file_is_refused_with_its_line_before_a_device_is_opened() {
     let bench = Bench::new();
     let sensor = "[sensor]\ndriver = \"camera/v4l2:device=/dev/video-of-nobody\"\n";

@@ -8,4 +8,5 @@ mod plugin_allow;
 mod plugin_carousel;
 mod plugin_dmx;
 mod plugin_line;
+mod rig_check;
 mod sweep_slurm;

@@ -116,6 +116,11 @@ pub trait Robot: Send {
         BTreeMap::new()
     }
 
+    /// Remarks for the operator on a robot that works: a slower speed than asked for, limits that are unknown. Each states its remedy.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Stops the robot. Legal in every state and idempotent.
     ///
     /// # Errors

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::printable::shown;
+use crate::suggestion::nearest;
 
 /// A certificate that contradicts itself or cannot be read.
 ///
@@ -26,6 +27,15 @@ pub enum CertificateError {
         /// Values that are accepted.
         expected: String,
     },
+    /// A key that no certificate has.
+    UnknownKey {
+        /// Key as written.
+        key: String,
+        /// Keys of a certificate.
+        known: Vec<&'static str>,
+    },
+    /// All required keys that are missing.
+    MissingKeys(Vec<&'static str>),
     /// `U` without `k` and without `p`.
     NoCoverage,
     /// Both `k` and `p`, or `k` and `dof`.
@@ -35,6 +45,23 @@ pub enum CertificateError {
 }
 
 impl CertificateError {
+    /// Key of the table at whose line the error is; `None` if it is of the whole table.
+    ///
+    /// ```
+    /// use taceva_core::CertificateError;
+    /// assert_eq!(CertificateError::NoCoverage.key(), Some("U"));
+    /// assert_eq!(CertificateError::NoUncertainty.key(), None);
+    /// ```
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            CertificateError::Value { key, .. } => key.split('.').next(),
+            CertificateError::UnknownKey { key, .. } => Some(key),
+            CertificateError::NoCoverage => Some("U"),
+            CertificateError::TwoCoverages => Some("k"),
+            CertificateError::MissingKeys(_) | CertificateError::NoUncertainty => None,
+        }
+    }
+
     /// The error of a value that is not accepted.
     pub(super) fn value(
         key: impl Into<String>,
@@ -62,6 +89,17 @@ impl fmt::Display for CertificateError {
                 shown(key),
                 shown(found)
             ),
+            CertificateError::UnknownKey { key, known } => {
+                write!(f, "`{}`: unknown key", shown(key))?;
+                if let Some(nearest) = nearest(key, known.iter().copied()) {
+                    write!(f, ", did you mean `{nearest}`?")?;
+                }
+                write!(f, "; known here: {}", known.join(", "))
+            }
+            CertificateError::MissingKeys(keys) => match keys.as_slice() {
+                [key] => write!(f, "the key `{key}` is missing"),
+                keys => write!(f, "the keys `{}` are missing", keys.join("`, `")),
+            },
             CertificateError::NoCoverage => f.write_str(
                 "`U` is stated without its coverage, expected `k = 2.0`, or `p = 0.95` with `dof`",
             ),

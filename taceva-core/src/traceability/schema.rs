@@ -1,5 +1,7 @@
 //! Forms of a certificate in files: dates and amounts as texts.
 
+mod entries;
+
 use std::collections::BTreeMap;
 use std::fmt;
 

@@ -234,6 +234,34 @@ fn another_serial_number_and_an_expired_day_are_found() {
 }
 
 #[test]
+fn a_certificate_issued_after_the_first_day_of_the_labels_is_a_fault_unless_an_earlier_one_covers_it()
+ {
+    let day = |text: &str| text.parse().expect("a day");
+    let days = day("2026-05-11")..=day("2026-05-13");
+    let traced = Traceability::new(Instrument::Force).with_driver("ati/netft", None);
+    let traced = traced.with_certificate(certificate()).expect("accepted");
+    let all = [traced.clone()];
+    let faults = traced.faults(Some(&days), &all);
+    let [fault] = faults.as_slice() else {
+        panic!("{faults:?}");
+    };
+    assert!(!fault.is_error());
+    assert_eq!(
+        fault.to_string(),
+        "the certificate D-K-1 of the force transducer was issued on 2026-05-12, the measurement is of 2026-05-11"
+    );
+    let on_its_day = day("2026-05-12")..=day("2026-05-13");
+    assert_eq!(traced.faults(Some(&on_its_day), &all), Vec::new());
+    assert_eq!(traced.faults(None, &all), Vec::new());
+    let mut before = traced.clone();
+    before.certificate.as_mut().expect("its certificate").issued = day("2025-05-12");
+    assert_eq!(
+        traced.faults(Some(&days), &[before, traced.clone()]),
+        Vec::new()
+    );
+}
+
+#[test]
 fn a_certificate_that_a_later_one_of_its_instrument_replaced_has_not_expired() {
     let traced = |instrument: Instrument, until: &str| {
         let mut traced = Traceability::new(instrument);

@@ -1,5 +1,6 @@
 //! Serial link to a machine: writes bytes and commands; a separate thread reads lines. Each dialect parses its lines.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -59,6 +60,8 @@ pub(super) enum Answer {
     Mark(u32),
     /// Name of a capability, and true if the machine has it.
     Can(String, bool),
+    /// Facts that the machine states about itself, by name: `firmware`.
+    Facts(BTreeMap<String, String>),
 }
 
 /// Failure of a command.
@@ -271,8 +274,8 @@ fn read<S: Clone>(
     Ok(())
 }
 
-/// Maximum length of a line, bytes. Longer lines are dropped.
-const LINE_MAX: usize = 256;
+/// Maximum length of a line, bytes. Longer lines are dropped. A printer states all facts about itself in one line.
+const LINE_MAX: usize = 512;
 
 /// Splits bytes that arrive in pieces of any size into lines.
 #[derive(Debug, Default)]

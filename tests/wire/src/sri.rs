@@ -1,7 +1,7 @@
 //! Emulated interface box of SRI: commands and a stream of frames on one port.
 //!
-//! Supported: rate, checksums by sum and CRC32, engineering units, start, stop, zero (without an answer while it streams, as public drivers
-//! report). Not supported: counts, several readings per frame, persistent settings.
+//! Supported: queries of the decoupling matrix and its unit, rate, checksums by sum and CRC32, engineering units, start, stop and zero. Zero is
+//! not answered while it streams, as public drivers report. Not supported: counts, several readings per frame, persistent settings.
 
 mod session;
 

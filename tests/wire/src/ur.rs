@@ -81,12 +81,12 @@ impl Controller {
         self.inside().stop_number
     }
 
-    fn fault(&self) -> Option<ArmFault> {
-        self.inside().fault
-    }
-
     fn slider(&self) -> f64 {
         self.inside().slider
+    }
+
+    fn fault(&self) -> Option<ArmFault> {
+        self.inside().fault
     }
 
     /// Ends a protective stop, and no emergency stop.

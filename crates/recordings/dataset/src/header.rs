@@ -111,6 +111,8 @@ pub struct Header {
     pub clock: Clock,
     /// UTC day on which the recording began; `None` if nothing was measured, or for an import.
     pub recorded_on: Option<Date>,
+    /// UTC day of its last session, if that is another one. Joined recordings have the first and the last day of all.
+    pub recorded_until: Option<Date>,
     /// Facts about the sensor.
     pub sensor: SensorFacts,
     /// Sensing area, if known.
@@ -171,6 +173,8 @@ struct Written {
     clock: Clock,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     recorded_on: Option<Date>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    recorded_until: Option<Date>,
     attributes: Vec<String>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     unmentioned_columns: Vec<String>,
@@ -269,6 +273,7 @@ impl Header {
             source: written.source,
             clock: written.clock,
             recorded_on: written.recorded_on,
+            recorded_until: written.recorded_until,
             sensor: written.sensor,
             footprint: written.footprint,
             settings: written.settings,
@@ -303,6 +308,7 @@ impl Header {
             source: self.source,
             clock: self.clock,
             recorded_on: self.recorded_on,
+            recorded_until: self.recorded_until,
             sensor: self.sensor.clone(),
             footprint: self.footprint,
             settings: self.settings.clone(),
@@ -333,6 +339,7 @@ impl Header {
             source: self.source,
             clock: self.clock,
             recorded_on: self.recorded_on,
+            recorded_until: self.recorded_until,
             attributes: self.attributes.clone(),
             unmentioned_columns: self.unmentioned_columns.clone(),
             rotations: self.rotations.clone(),

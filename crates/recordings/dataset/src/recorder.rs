@@ -193,7 +193,7 @@ impl Recorder {
         if !path.exists() {
             return Recorder::create(path, spec);
         }
-        let recorder = match Recorder::resume(path) {
+        let mut recorder = match Recorder::resume(path) {
             Err(DatasetError::NoDataset { .. }) => return Recorder::create(path, spec),
             resumed => resumed?,
         };
@@ -214,7 +214,12 @@ impl Recorder {
         }
         match before.other_instrument(&spec.facts, path) {
             Some(problem) => Err(DatasetError::request(path, problem)),
-            None => Ok(recorder),
+            None => {
+                let later = spec.facts.recorded_on;
+                recorder.facts.recorded_until =
+                    later.filter(|_| later > recorder.facts.recorded_on);
+                Ok(recorder)
+            }
         }
     }
 

@@ -65,6 +65,7 @@ pub fn write_table_and_header(
         source: facts.source,
         clock: facts.clock,
         recorded_on: facts.recorded_on,
+        recorded_until: facts.recorded_until,
         sensor: facts.sensor.clone(),
         footprint: facts.footprint,
         settings: facts.settings.clone(),

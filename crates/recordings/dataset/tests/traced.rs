@@ -122,7 +122,40 @@ fn a_recording_that_goes_on_the_next_day_keeps_the_day_on_which_it_began() {
     let recorder = Recorder::open(&path, &on(20_780)).expect("goes on");
     recorder.close().expect("closed");
     let header = Dataset::open(&path).expect("opens").header().clone();
-    assert_eq!(header.recorded_on, Some(Date::of_unix_s(86_400 * 20_779)));
+    let [first, last] = [20_779, 20_780].map(|day| Date::of_unix_s(86_400 * day));
+    assert_eq!(header.recorded_on, Some(first));
+    assert_eq!(header.recorded_until, Some(last));
+    assert_eq!(header.days(&[]), Some(first..=last));
+}
+
+#[test]
+fn joined_recordings_keep_the_first_and_the_last_of_their_days() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let day = |day: u64| Some(Date::of_unix_s(86_400 * day));
+    let on = |name: &str, begun: Option<Date>, force: f64| {
+        let path = folder.path().join(name);
+        let mut spec = spec("D-K-1");
+        spec.facts.recorded_on = begun;
+        let mut recorder = Recorder::create(&path, &spec).expect("created");
+        recorder.append(&sample("1", force)).expect("recorded");
+        recorder.close().expect("closed");
+        Dataset::open(&path).expect("opens")
+    };
+    let recordings = vec![
+        on("two", day(20_780), 0.5),
+        on("one", day(20_779), 0.6),
+        on("three", day(20_785), 0.7),
+        on("unknown", None, 0.8),
+    ];
+    let joined = Dataset::joined(recordings).expect("alike");
+    let header = joined.header();
+    assert_eq!(
+        (header.recorded_on, header.recorded_until),
+        (day(20_779), day(20_785))
+    );
+    let same = vec![on("a", day(20_779), 0.5), on("b", day(20_779), 0.6)];
+    let joined = Dataset::joined(same).expect("alike");
+    assert_eq!(joined.header().recorded_until, None);
 }
 
 #[test]

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use taceva_core::{Certificate, Date, Instrument, Traceability};
+use taceva_core::{
+    Certificate, CertificateContradiction, CertificateFault, Date, Instrument, Traceability,
+};
 use taceva_dataset::Source;
 use taceva_drivers::Selector;
 use taceva_protocol::RigFile;
@@ -47,8 +49,47 @@ pub(crate) fn kept(
 
 /// Today, in UTC, for a recording that measures; certificates are valid for a time.
 pub(crate) fn day_of(source: Source) -> Option<Date> {
+    today().filter(|_| source == Source::Recorded)
+}
+
+/// Today, in UTC.
+pub(crate) fn today() -> Option<Date> {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).ok()?;
-    (source == Source::Recorded).then(|| Date::of_unix_s(since.as_secs()))
+    Some(Date::of_unix_s(since.as_secs()))
+}
+
+/// Contradictions of the certificates of `instruments` with the serial numbers that were read, and with today.
+pub(crate) fn faults_today(instruments: &[Traceability]) -> Vec<CertificateFault> {
+    let days = today().map(|today| today..=today);
+    let faults = instruments.iter();
+    let faults = faults.flat_map(|of| of.faults(days.as_ref(), instruments));
+    faults.collect()
+}
+
+/// Warnings of labels that are measured today, for the certificates of `instruments` and the `settings` of the devices.
+pub(crate) fn warnings_today(
+    instruments: Vec<Traceability>,
+    settings: &BTreeMap<String, String>,
+) -> Vec<String> {
+    let instruments = kept(instruments, Source::Recorded, settings);
+    faults_today(&instruments).iter().map(remedy).collect()
+}
+
+/// Sentence of `fault` with its remedy.
+pub(crate) fn remedy(fault: &CertificateFault) -> String {
+    let mended = match fault.contradiction {
+        CertificateContradiction::IssuedLater { .. } => {
+            "correct `issued`, or the clock of this machine"
+        }
+        CertificateContradiction::Expired { .. } => {
+            "have it calibrated again and write the new certificate, or correct `valid_until`"
+        }
+        _ => "write the certificate of this device, or correct `serial`",
+    };
+    format!(
+        "{fault}: {mended} under [{}.certificate] of the rig file",
+        fault.instrument
+    )
 }
 
 /// The instrument of the device `driver`, a selector. Its serial number is the argument that chose it, if it has one.
@@ -111,6 +152,39 @@ driver = "lab/camera"
         assert_eq!(drawn, std::slice::from_ref(force));
         assert_eq!(day_of(Source::Simulated), None);
         assert!(day_of(Source::Recorded).is_some());
+    }
+
+    #[test]
+    fn a_certificate_that_contradicts_today_or_the_device_is_a_warning_with_its_remedy() {
+        let warned = |text: &str, settings: &[(&str, &str)]| {
+            let rig = RigFile::parse("lab.toml", text).expect("a rig");
+            let pairs = settings.iter();
+            let pairs = pairs.map(|(name, value)| ((*name).to_owned(), (*value).to_owned()));
+            warnings_today(of_rig(&rig), &pairs.collect())
+        };
+        let read = [("force_serial", "B3"), ("serial", "D2")];
+        let long_ago = RIG.replace("2026-05-12", "2020-05-12");
+        assert_eq!(warned(&long_ago, &read), Vec::<String>::new());
+        let expired = long_ago.replace(
+            "serial = \"B3\"",
+            "serial = \"B3\"\nvalid_until = 2021-05-12",
+        );
+        let found = warned(&expired, &read);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].contains("was valid until 2021-05-12"), "{found:?}");
+        assert!(found[0].contains("under [force.certificate]"), "{found:?}");
+        let later = warned(&RIG.replace("2026-05-12", "9026-05-12"), &read);
+        assert!(later[0].contains("was issued on 9026-05-12"), "{later:?}");
+        // The serial number of the sensor is compared like that of the transducer.
+        let (_, certificate) = long_ago.split_once("[force.certificate]").expect("one");
+        let (certificate, _) = certificate.split_once("[sensor]").expect("a sensor");
+        let of_sensor = format!("{long_ago}[sensor.certificate]{certificate}");
+        let other = warned(&of_sensor, &read);
+        assert_eq!(other.len(), 1, "{other:?}");
+        assert!(
+            other[0].contains("of the sensor with serial number B3, the driver read D2"),
+            "{other:?}"
+        );
     }
 
     #[test]

@@ -18,8 +18,8 @@ pub use presses::{
     AIR_MM, HeldRigs, Surroundings, SurroundingsOf, Upcoming, Workshop, rehearse_scene,
 };
 pub use rig::{
-    HaltTrip, RigCheck, RigProblem, RigTap, Stock, Stream, SwitchCheck, check_rig, read_rig,
-    tap_rig, teach_rig,
+    HaltTrip, RigCheck, RigProblem, RigTap, RigWeight, Stock, Stream, SwitchCheck, check_rig,
+    read_rig, tap_rig, teach_rig, weigh_rig,
 };
 pub use scene::{Overrides, PlannedScene, PlannedStudy, SceneText};
 pub use viewer::Viewer;

@@ -1,12 +1,15 @@
 //! Setup of a rig: registration of its robot, latencies, and checks of its devices.
 
+mod certificates;
 mod check;
+mod listen;
 mod problem;
 mod stock;
 mod stream;
 mod switch;
 mod tap;
 mod teach;
+mod weight;
 
 use std::path::Path;
 
@@ -20,6 +23,7 @@ pub use stream::Stream;
 pub use switch::SwitchCheck;
 pub use tap::{RigTap, tap_rig};
 pub use teach::teach_rig;
+pub use weight::{RigWeight, weigh_rig};
 
 /// Reads the rig file at `path`.
 ///

@@ -41,7 +41,8 @@ fn add_recording(provenance: &mut Provenance, dataset: &Dataset, folder: &str) {
         provenance.presses.insert(digest, header.presses.clone());
     }
     if !header.traceability.is_empty() {
-        let day = header.last_day(dataset.table().t_s());
+        let days = header.days(dataset.table().t_s());
+        let day = days.map(|days| *days.end());
         provenance.recorded_on = provenance.recorded_on.max(day);
     }
     let edits = header.seal.history.iter();

@@ -30,7 +30,7 @@ pub use press::{Motion, Press, Waypoint};
 pub use reason::{Cause, PlanReason, PlanSkip, Subject};
 pub use rig_file::{
     Carried, Jogged, Latency, Registration, RigChangers, RigFile, RigForce, RigLatencies,
-    RigOperator, RigRobot, RigSensor, SignedAxes, Taught, TeachError,
+    RigOperator, RigRobot, RigSensor, SignedAxes, Taught, TeachError, Weighing,
 };
 pub use run::{
     Answer, Cancel, ChangedTouch, Controls, DepthZero, Devices, Enabling, Event, Left, Mode,

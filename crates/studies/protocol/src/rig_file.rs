@@ -1,11 +1,13 @@
 //! Rig file: drivers, mounting and limits of the devices of a rig.
 
 mod axes;
+mod certificate;
 mod changers;
 mod latency;
 mod registration;
 mod sensor;
 mod teach;
+mod weighing;
 
 pub use axes::SignedAxes;
 pub use changers::RigChangers;
@@ -13,10 +15,12 @@ pub use latency::{Latency, RigLatencies};
 pub use registration::Registration;
 pub use sensor::RigSensor;
 pub use teach::{Jogged, Taught, TeachError};
+pub use weighing::Weighing;
 
 use serde::Deserialize;
 use taceva_core::{Certificate, Instrument};
 
+use certificate::WrittenCertificate;
 use changers::WrittenChangers;
 use sensor::WrittenSensor;
 
@@ -106,6 +110,8 @@ pub struct RigForce {
     pub axes: Setting<SignedAxes>,
     /// Delay between a reading and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
+    /// Last comparison with a known weight, if any.
+    pub weighing: Option<Setting<Weighing>>,
     /// Calibration certificate.
     pub certificate: Option<Certificate>,
 }
@@ -144,7 +150,7 @@ struct WrittenRobot {
     axes: Setting<[String; 3]>,
     turned_deg: Option<Setting<[f64; 3]>>,
     latency_ms: Option<Setting<f64>>,
-    certificate: Option<Setting<Certificate>>,
+    certificate: Option<WrittenCertificate>,
 }
 
 #[derive(Deserialize)]
@@ -153,7 +159,8 @@ struct WrittenForce {
     driver: Setting<String>,
     axes: Setting<[String; 3]>,
     latency_ms: Option<Setting<f64>>,
-    certificate: Option<Setting<Certificate>>,
+    weighing: Option<Setting<Weighing>>,
+    certificate: Option<WrittenCertificate>,
 }
 
 #[derive(Deserialize)]
@@ -304,25 +311,9 @@ impl Check<'_> {
             driver: force.driver,
             axes: self.axes(force.axes)?,
             latency_ms: self.latency(force.latency_ms)?,
+            weighing: self.weighing(force.weighing)?,
             certificate: self.certificate(Instrument::Force, force.certificate)?,
         })
-    }
-
-    fn certificate(
-        &self,
-        of: Instrument,
-        certificate: Option<Setting<Certificate>>,
-    ) -> Result<Option<Certificate>, SceneError> {
-        let Some(Setting { value, .. }) = &certificate else {
-            return Ok(None);
-        };
-        match value.check(of) {
-            Ok(()) => Ok(certificate.map(|certificate| certificate.value)),
-            Err(error) => self.refuse(
-                certificate.as_ref().and_then(Setting::at),
-                format!("[{of}.certificate]: {error}"),
-            ),
-        }
     }
 
     fn axes(&self, axes: Setting<[String; 3]>) -> Result<Setting<SignedAxes>, SceneError> {

@@ -1,4 +1,4 @@
-//! `taceva rig check`.
+//! `taceva rig check` without a weight.
 
 use taceva_acquire::{HeldRigs, check_rig, read_rig};
 use taceva_drivers::Drivers;
@@ -11,6 +11,9 @@ use crate::{exit, output, report};
 pub(super) fn run(args: &RigCheckArgs, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = args.output.path.as_deref() {
         output::check_free(path, args.output.force)?;
+    }
+    if let Some(mass_g) = args.weight {
+        return super::weight::run(args, mass_g, context);
     }
     let host = context.plugins(None)?;
     let drivers = Drivers::builtin()?.with_plugins(&host)?;

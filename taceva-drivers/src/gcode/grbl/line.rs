@@ -1,6 +1,9 @@
 //! Parser of the machine's lines. No I/O.
 
+use std::collections::BTreeMap;
+
 use crate::gcode::link::{Answer, Heard};
+use crate::text::shown;
 
 /// Status of the machine at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,12 +37,27 @@ pub(super) fn read(line: &str) -> Heard<Status> {
         Heard::answer(Answer::Refused(why))
     } else if let Some(code) = line.strip_prefix("ALARM:") {
         Heard::answer(Answer::Fault(format!("ALARM {}", number(code))))
+    } else if let Some(facts) = facts(line) {
+        Heard::answer(Answer::Facts(facts))
     } else {
         Heard {
             answer: None,
             status: Status::read(line),
         }
     }
+}
+
+/// Parses a version such as `[VER:1.1h.20190825:the press]`, whose last part is a text of the owner.
+fn facts(line: &str) -> Option<BTreeMap<String, String>> {
+    let version = line.strip_prefix("[VER:")?.strip_suffix(']')?;
+    let (firmware, machine) = version.split_once(':').unwrap_or((version, ""));
+    let stated = [("firmware", firmware), ("machine", machine)].into_iter();
+    let stated = stated.filter(|(_, value)| !value.is_empty());
+    Some(
+        stated
+            .map(|(name, value)| (name.to_owned(), shown(value)))
+            .collect(),
+    )
 }
 
 impl Status {
@@ -105,6 +123,22 @@ mod tests {
                 expected,
                 "in pieces of {piece}"
             );
+        }
+    }
+
+    #[test]
+    fn a_machine_states_its_version_and_the_text_of_its_owner() {
+        let pair = |name: &str, value: &str| (name.to_owned(), value.to_owned());
+        let firmware = pair("firmware", "1.1h.20190825");
+        for (line, expected) in [
+            ("[VER:1.1h.20190825:]", vec![firmware.clone()]),
+            (
+                "[VER:1.1h.20190825:the press]",
+                vec![firmware, pair("machine", "the press")],
+            ),
+        ] {
+            let facts = expected.into_iter().collect();
+            assert_eq!(read(line), Heard::answer(Answer::Facts(facts)));
         }
     }
 

@@ -1,5 +1,6 @@
 //! Robot over a GRBL machine.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -11,7 +12,7 @@ use taceva_core::{
 use super::KEY;
 use super::line::{State, Status, read};
 use crate::gcode::limits::SerialOptions;
-use crate::gcode::link::SerialLink;
+use crate::gcode::link::{Answer, SerialLink};
 use crate::gcode::stop::Stop;
 use crate::link::{Seen, monotonic};
 
@@ -21,10 +22,14 @@ pub(super) struct Machine {
     pub(super) link: SerialLink<Status>,
     pub(super) stop: Arc<Stop>,
     options: SerialOptions,
+    /// Facts that the machine states about itself; empty of a machine in motion.
+    facts: BTreeMap<String, String>,
 }
 
 /// Real-time commands.
 const ASK_STATUS: &[u8] = b"?";
+/// Query for the version.
+const ASK_FACTS: &str = "$I";
 pub(super) const HOLD: &[u8] = b"!";
 const RESET: &[u8] = &[0x18];
 
@@ -55,6 +60,7 @@ impl Machine {
             link,
             stop,
             options,
+            facts: BTreeMap::new(),
         };
         let until = monotonic() + AWAKE;
         while let Err(error) = machine.look(AGAIN) {
@@ -62,6 +68,15 @@ impl Machine {
                 return Err(error);
             }
         }
+        let mut facts = BTreeMap::new();
+        let stated = machine.link.command(ASK_FACTS, ANSWER, |answer| {
+            if let Answer::Facts(found) = answer {
+                facts = found;
+            }
+        });
+        // A machine in motion may refuse.
+        drop(stated);
+        machine.facts = facts;
         Ok(machine)
     }
 
@@ -113,6 +128,10 @@ pub(super) fn alarm(doing: &'static str) -> DriverError {
 }
 
 impl Robot for Machine {
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.facts.clone()
+    }
+
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let seen = self.look(deadline.remaining())?;
         let [x, y, z] = seen.what.place_mm.map(Millimetre);

@@ -19,7 +19,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(MarlinFactory::new()?)));
 /// - Positions are those of `M114`, in mm, in the frame set by homing: **home it first**, which this program never does. The printer has
 ///   three axes and does not rotate.
 /// - Opening locks the serial port, which resets many boards; nothing moves. Firmware without `EMERGENCY_PARSER` is rejected, since a stop
-///   would wait for the end of the motion.
+///   would wait for the end of the motion. The firmware, the type and the UUID that `M115` states are settings.
 /// - A move is one `G1` followed by the wait `M400`. It ends once the wait is answered and `M114` is within 0.02 mm of the target. The
 ///   printer reports no position during the move. After 5 s without output it counts as gone. Its firmware therefore needs
 ///   `HOST_KEEPALIVE_FEATURE`, which is on by default.

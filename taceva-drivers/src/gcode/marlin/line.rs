@@ -1,12 +1,24 @@
 //! Parser of the printer's lines. No I/O.
 
+use std::collections::BTreeMap;
+
 use crate::gcode::link::{Answer, Heard};
+use crate::text::shown;
 
 /// Reported position of the tip, current or planned, mm; may contain NaN.
 pub(super) type Place = [f64; 3];
 
 /// Prefix of a number that the printer must echo.
 pub(super) const MARK: &str = "taceva mark ";
+
+/// Key that begins the line of facts.
+const FIRMWARE_NAME: &str = "FIRMWARE_NAME:";
+/// Keys of facts, and their names as settings.
+const FACTS: [(&str, &str); 3] = [
+    ("FIRMWARE_NAME", "firmware"),
+    ("MACHINE_TYPE", "machine"),
+    ("UUID", "uuid"),
+];
 
 /// Parses a line.
 pub(super) fn read(line: &str) -> Heard<Place> {
@@ -44,9 +56,42 @@ fn answer(line: &str) -> Option<Answer> {
         let (name, value) = capability.split_once(':')?;
         return Some(Answer::Can(name.to_owned(), value == "1"));
     }
+    if line.starts_with(FIRMWARE_NAME) {
+        return Some(Answer::Facts(facts(line)));
+    }
     // `Error:`, or `!!` of other firmware: the printer stopped and reports it once.
     let why = line.strip_prefix("Error:").or(line.strip_prefix("!!"))?;
     Some(Answer::Fault(format!("`{}`", why.trim())))
+}
+
+/// Parses facts such as `FIRMWARE_NAME:Marlin 2.1.2 (Nov 27 2026) MACHINE_TYPE:Ender-3 UUID:cede2a2f`. Values may have blanks.
+fn facts(line: &str) -> BTreeMap<String, String> {
+    let mut facts: BTreeMap<String, String> = BTreeMap::new();
+    let mut name = None;
+    for word in line.split_whitespace() {
+        let keyed = word.split_once(':').filter(|(key, _)| is_key(key));
+        let value = match keyed {
+            Some((key, value)) => {
+                let known = FACTS.iter().find(|(known, _)| *known == key);
+                name = known.map(|(_, name)| *name);
+                value
+            }
+            None => word,
+        };
+        if let Some(name) = name {
+            let whole = facts.entry(name.to_owned()).or_default();
+            if !whole.is_empty() {
+                whole.push(' ');
+            }
+            whole.push_str(&shown(value));
+        }
+    }
+    facts
+}
+
+fn is_key(word: &str) -> bool {
+    let is_of_key = |letter: char| letter.is_ascii_uppercase() || letter == '_';
+    !word.is_empty() && word.chars().all(is_of_key)
 }
 
 /// Parses a position such as `X:1.00 Y:2.00 Z:-3.00 E:0.00 Count X:80 Y:160 Z:-1200`.
@@ -70,11 +115,12 @@ mod tests {
     #[test]
     fn lines_of_the_printer_are_read_however_they_are_split() {
         let text = b"start\necho:Marlin 2.1.2\nFIRMWARE_NAME:Marlin 2.1.2 PROTOCOL_VERSION:1.0\nCap:EMERGENCY_PARSER:1\nCap:AUTOREPORT_POS:0\nok\nok P15 B3\nokay\nX:1.50 Y:-2.00 Z:3.25 E:0.00 Count X:120 Y:-160 Z:1300\nok X:0.0 Y:1.0 Z:2.0 E:0.0 Count: A:0 B:100 C:200\necho:busy: processing\necho:Unknown command: \"M999999\"\ntaceva mark 7\necho:taceva mark 8\nError:Printer halted. kill() called!\n T:21.3 /0.0\n";
+        let firmware = [("firmware".to_owned(), "Marlin 2.1.2".to_owned())];
         let can = |name: &str, is| Heard::answer(Answer::Can(name.to_owned(), is));
         let expected = [
             Heard::NOTHING,
             Heard::NOTHING,
-            Heard::NOTHING,
+            Heard::answer(Answer::Facts(BTreeMap::from(firmware))),
             can("EMERGENCY_PARSER", true),
             can("AUTOREPORT_POS", false),
             Heard::answer(Answer::Ok),
@@ -102,6 +148,20 @@ mod tests {
                 "in pieces of {piece}"
             );
         }
+    }
+
+    #[test]
+    fn a_printer_states_its_firmware_its_type_and_its_number_in_one_line() {
+        let line = "FIRMWARE_NAME:Marlin 2.1.2 (Nov 27 2026 10:11:12) SOURCE_CODE_URL:https://example.org/a PROTOCOL_VERSION:1.0 MACHINE_TYPE:My printer EXTRUDER_COUNT:1 UUID:cede2a2f-41a2\u{1b}";
+        let facts = facts(line);
+        for (name, expected) in [
+            ("firmware", "Marlin 2.1.2 (Nov 27 2026 10:11:12)"),
+            ("machine", "My printer"),
+            ("uuid", "cede2a2f-41a2\\u{1b}"),
+        ] {
+            assert_eq!(facts[name], expected, "{name}");
+        }
+        assert_eq!(facts.len(), 3, "{facts:?}");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Robot over a Marlin printer.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -24,6 +25,8 @@ pub(super) struct Printer {
     /// Last number sent to the printer for an echo.
     mark: u32,
     is_emulated: bool,
+    /// Facts that the printer states about itself.
+    facts: BTreeMap<String, String>,
 }
 
 /// Command that ends every motion at once, if the printer accepts it during a motion.
@@ -52,6 +55,7 @@ impl Printer {
             options,
             mark: 0,
             is_emulated: false,
+            facts: BTreeMap::new(),
         };
         let until = monotonic() + AWAKE;
         // A printer that wakes up drops input.
@@ -61,17 +65,16 @@ impl Printer {
             }
         }
         let (mut stops_at_once, mut is_emulated) = (None, false);
-        let listed = printer.link.command("M115", ANSWER, |answer| {
-            if let Answer::Can(name, is) = answer {
-                match name.as_str() {
-                    STOPS_AT_ONCE => stops_at_once = Some(is),
-                    EMULATED => is_emulated = is,
-                    _ => {}
-                }
-            }
+        let mut facts = BTreeMap::new();
+        let listed = printer.link.command("M115", ANSWER, |answer| match answer {
+            Answer::Can(name, is) if name == STOPS_AT_ONCE => stops_at_once = Some(is),
+            Answer::Can(name, is) if name == EMULATED => is_emulated = is,
+            Answer::Facts(stated) => facts = stated,
+            _ => {}
         });
         listed.map_err(|error| error.met(&KEY, CONNECT))?;
         printer.is_emulated = is_emulated;
+        printer.facts = facts;
         if stops_at_once != Some(true) {
             let why = "the printer does not report `Cap:EMERGENCY_PARSER:1`, so a stop would wait for the end of the motion: build its firmware with EMERGENCY_PARSER";
             return Err(DriverError::new(ErrorKind::Unsupported, &KEY, CONNECT).because(why));
@@ -115,6 +118,10 @@ impl Printer {
 impl Robot for Printer {
     fn is_emulated(&self) -> bool {
         self.is_emulated
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        self.facts.clone()
     }
 
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {

@@ -99,12 +99,12 @@ impl BoxLink {
             .map_err(|source| LinkError::Broken { address, source })
     }
 
-    /// Sends `command` and waits for a positive answer.
+    /// Sends `command` and waits for a positive answer, which is returned.
     pub(super) fn command(
         &mut self,
         command: Command,
         patience: Duration,
-    ) -> Result<(), CommandError> {
+    ) -> Result<String, CommandError> {
         let began = Instant::now();
         // Discard answers to earlier commands.
         while self.lines.try_recv().is_ok() {}
@@ -118,7 +118,7 @@ impl BoxLink {
                 });
             };
             match command.answered_by(&line) {
-                Some(true) => return Ok(()),
+                Some(true) => return Ok(line),
                 Some(false) => {
                     return Err(CommandError::Refused {
                         command: command.line(),

@@ -19,6 +19,10 @@ pub(super) enum Command {
     Stop,
     /// Set the current load to zero.
     Zero,
+    /// Ask for the decoupling matrix, the calibration of the transducer.
+    AskMatrix,
+    /// Ask for the unit of the matrix.
+    AskUnit,
 }
 
 impl Command {
@@ -33,6 +37,8 @@ impl Command {
             Command::Start => "GSD".to_owned(),
             Command::Stop => "GSD=STOP".to_owned(),
             Command::Zero => "ADJZF=1;1;1;1;1;1".to_owned(),
+            Command::AskMatrix => "DCPM=?".to_owned(),
+            Command::AskUnit => "DCPCU=?".to_owned(),
         };
         format!("AT+{text}\r\n")
     }
@@ -46,7 +52,16 @@ impl Command {
             Command::Units => "SGDM",
             Command::Start | Command::Stop => "GSD",
             Command::Zero => "ADJZF",
+            Command::AskMatrix => "DCPM",
+            Command::AskUnit => "DCPCU",
         }
+    }
+
+    /// Value in the positive answer `line` to a query; `None` if it has none.
+    pub(super) fn value_in(self, line: &str) -> Option<&str> {
+        let answer = line.strip_prefix("ACK+")?.strip_prefix(self.word())?;
+        let value = answer.strip_prefix('=')?.trim_end().strip_suffix("$OK")?;
+        Some(value.trim()).filter(|value| !value.is_empty() && *value != "?")
     }
 
     /// True for a positive answer in `line`, false for a negative one; `None` if it answers another command.
@@ -63,6 +78,17 @@ impl Command {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_value_of_a_query_is_between_its_word_and_the_confirmation() {
+        let matrix = "(1.0,0.0);(0.0,2.5)";
+        let answer = format!("ACK+DCPM={matrix}$OK");
+        assert_eq!(Command::AskMatrix.value_in(&answer), Some(matrix));
+        for line in ["ACK+DCPM=?$OK", "ACK+DCPM=?$ERROR", "ACK+DCPCU=MVPV$OK", ""] {
+            assert_eq!(Command::AskMatrix.value_in(line), None, "{line}");
+        }
+        assert_eq!(Command::AskUnit.value_in("ACK+DCPCU=MVPV$OK"), Some("MVPV"));
+    }
 
     #[test]
     fn answers_are_distinguished() {

@@ -19,7 +19,8 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
 /// # The physical contract
 /// - Forces and torques are in the transducer's own axes, in N and N·mm, as in its certificate. The axis that presses into the gel depends
 ///   on the mounting in the rig.
-/// - Opening changes nothing in the box. Starting sets rate, checksum and units, and starts the readings.
+/// - Opening changes nothing in the box. It asks for the decoupling matrix and its unit, which are settings if the box states them.
+///   Starting sets rate, checksum and units, and starts the readings.
 /// - A reading is the newest frame received. Frames are checked by their checksum (`check=crc32`: CRC32 with the polynomial of zlib) and
 ///   their number. Damaged and repeated frames are dropped. After a loss of synchronisation, two frames with consecutive numbers restore
 ///   it. A value that is not finite is a `DeviceFault` of that reading.
@@ -28,8 +29,8 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
 ///
 /// # Verification
 /// Two published frames, whose values and checksums are tested, and an emulated box on which the driver passes its suite. There is no
-/// public client. **Not verified without the device**: the answer to a stop, zero in the box, the unit of torque (N·m unless `torque=N
-/// mm`), and frames with CRC32. The CRC's polynomial and byte order come from a single public driver.
+/// public client. **Not verified without the device**: the answers to queries and to a stop, zero in the box, and frames with CRC32. The
+/// unit of torque is not either (N·m unless `torque=N mm`). The CRC's polynomial and byte order come from a single public driver.
 ///
 /// ```
 /// use taceva_core::Factory;

@@ -1,5 +1,6 @@
 //! Force transducer over an SRI box.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -13,6 +14,7 @@ use super::box_link::{BoxLink, CommandError, Counted};
 use super::command::Command;
 use super::frame::{Check, Reading};
 use crate::link::Seen;
+use crate::text::shown;
 use crate::zero::{HostZero, READ, ZERO};
 
 /// Options of a box.
@@ -45,6 +47,8 @@ pub(super) struct Transducer {
     options: M8128Options,
     /// Zero offset, subtracted from every reading.
     zero: HostZero,
+    /// Facts that the box states about itself.
+    facts: BTreeMap<String, String>,
     is_running: bool,
     /// Sequence number of the last reading.
     sequence: Option<u64>,
@@ -56,6 +60,8 @@ pub(super) struct Transducer {
 const ANSWER: Duration = Duration::from_millis(800);
 /// Timeout for the answer to a stop, which some boxes omit.
 const STOPPED: Duration = Duration::from_millis(150);
+/// Timeout for the answer to a query, which old boxes may omit.
+const ASKED: Duration = Duration::from_millis(300);
 /// Timeout for zeroing in the box.
 const ZEROED: Duration = Duration::from_secs(4);
 
@@ -67,15 +73,33 @@ fn failed(
     DriverError::new(kind, &KEY, doing).because(why)
 }
 
+/// Facts by name that the box states; those that it does not state are absent.
+fn stated_facts(link: &mut BoxLink) -> BTreeMap<String, String> {
+    let mut facts = BTreeMap::new();
+    for (name, query) in [
+        ("decoupling", Command::AskMatrix),
+        ("decoupling_unit", Command::AskUnit),
+    ] {
+        let answer = link.command(query, ASKED).ok();
+        let value = answer.as_deref().and_then(|line| query.value_in(line));
+        if let Some(value) = value {
+            facts.insert(name.to_owned(), shown(value));
+        }
+    }
+    facts
+}
+
 impl Transducer {
     /// Connects to a box. Its settings change only at the start.
     pub(super) fn open(options: M8128Options) -> Result<Transducer, DriverError> {
-        let link = BoxLink::open(&options.host, options.port)
+        let mut link = BoxLink::open(&options.host, options.port)
             .map_err(|error| failed(error.kind(), "connect to the box", error))?;
+        let facts = stated_facts(&mut link);
         Ok(Transducer {
             link,
             zero: HostZero::new(KEY, options.force_max_n),
             options,
+            facts,
             is_running: false,
             sequence: None,
             last: 0,
@@ -98,7 +122,7 @@ impl Transducer {
             Err(CommandError::Refused { .. }) => {
                 self.link.command(Command::OldRate(rate), ANSWER)?;
             }
-            done => done?,
+            done => drop(done?),
         }
         self.link
             .command(Command::Check(self.options.check), ANSWER)?;
@@ -156,6 +180,18 @@ impl Transducer {
 impl ForceTransducer for Transducer {
     fn axes(&self) -> Axes {
         Axes::SIX
+    }
+
+    fn settings(&self) -> BTreeMap<String, String> {
+        let mut settings = self.facts.clone();
+        // The box confirms both before its first reading.
+        let check = match self.options.check {
+            Check::Sum => "sum",
+            Check::Crc32 => "crc32",
+        };
+        settings.insert("rate_hz".to_owned(), self.options.rate_hz.to_string());
+        settings.insert("check".to_owned(), check.to_owned());
+        settings
     }
 
     fn start(&mut self, _: Deadline) -> Result<(), DriverError> {

@@ -178,6 +178,16 @@ impl Robot for Arm {
         settings(&self.version)
     }
 
+    fn warnings(&self) -> Vec<String> {
+        let port = self.options.rich_port;
+        let unheld = self.limits.is_none().then(|| {
+            format!(
+                "the controller sends no complete report on port {port}, so the limits of its speed are unknown: it replaces a speed beyond them without an error; open this port between both, or state `rich_port`"
+            )
+        });
+        unheld.into_iter().collect()
+    }
+
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let seen = self
             .observer

@@ -133,6 +133,8 @@ pub(super) fn failed(
     DriverError::new(kind, &KEY, doing).because(why)
 }
 
+/// Timeout for the first state.
+const FIRST: Duration = Duration::from_secs(2);
 /// Maximum age of a state for a first look.
 const FRESH: Duration = Duration::from_millis(50);
 pub(super) const M_A_MM: f64 = 1e-3;
@@ -247,6 +249,20 @@ impl Robot for Arm {
         let version = Some(self.states.version()).filter(|version| !version.is_empty());
         let named = version.map(|version| ("firmware".to_owned(), version.to_owned()));
         named.into_iter().collect()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        // No setting: a person may move the slider between the sessions of a recording.
+        let percent = self
+            .look(None, FIRST)
+            .map(|seen| (100.0 * seen.what.slider).round());
+        let reduced = percent.ok().filter(|percent| *percent < 100.0);
+        let warned = reduced.map(|percent| {
+            format!(
+                "the speed slider is at {percent} %, so the arm moves slower than commanded: set it to 100 % on the pendant"
+            )
+        });
+        warned.into_iter().collect()
     }
 
     fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {

@@ -24,7 +24,8 @@ submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 /// - A halt sends a program with one `stopl` over a separate connection, which replaces the running program; the controller confirms none.
 ///   Without that connection no move begins.
 /// - Emergency, protective and safeguard stops end a move with `DeviceFault`.
-/// - A controller without one of the six outputs that the driver reads is refused by the name of the output and its own version.
+/// - A speed slider of the pendant below 100 % is warned of, since every motion is then slower.
+/// - A controller without one of the seven outputs that the driver reads is refused by the name of the output and its own version.
 /// - During a move, the states that the arm sends are watched; they report these stops too.
 ///
 /// # Verification

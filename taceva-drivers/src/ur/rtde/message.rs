@@ -27,12 +27,13 @@ const fn output(name: &'static str, kind: &'static str, since: &'static str) -> 
 }
 
 /// Requested outputs, in this order. The last is the register to which stops write their number: the first register for external programs.
-static ASKED: [Output; 6] = [
+static ASKED: [Output; 7] = [
     output("timestamp", "DOUBLE", ""),
     output("actual_TCP_pose", "VECTOR6D", ""),
     output("robot_mode", "INT32", ""),
     output("safety_status_bits", "UINT32", "3.10 and 5.4"),
     output("runtime_state", "UINT32", ""),
+    output("target_speed_fraction", "DOUBLE", ""),
     output("output_int_register_24", "INT32", "3.9 and 5.3"),
 ];
 /// Type that the controller reports for an output it lacks.
@@ -40,7 +41,7 @@ const NOT_FOUND: &str = "NOT_FOUND";
 /// Number of that register in script.
 pub(super) const STOP_REGISTER: u8 = 24;
 /// Size of a data message, bytes: recipe number and outputs.
-const DATA_LENGTH: usize = 1 + 8 + 48 + 4 + 4 + 4 + 4;
+const DATA_LENGTH: usize = 1 + 8 + 48 + 4 + 4 + 4 + 8 + 4;
 /// Maximum length of an answer, bytes.
 const LENGTH_MAX: usize = 4096;
 /// Size of the header, bytes: length and type.
@@ -54,6 +55,8 @@ pub(super) struct ArmState {
     pub(super) robot_mode: i32,
     pub(super) safety: u32,
     pub(super) runtime: u32,
+    /// Position of the speed slider, 0 to 1; may be NaN.
+    pub(super) slider: f64,
     /// Number of the last stop that the controller began.
     pub(super) stop: i32,
 }
@@ -221,7 +224,8 @@ fn state(says: &[u8]) -> ArmState {
         robot_mode: word(56).cast_signed(),
         safety: word(60),
         runtime: word(64),
-        stop: word(68).cast_signed(),
+        slider: double(68),
+        stop: word(76).cast_signed(),
     }
 }
 
@@ -236,7 +240,9 @@ mod tests {
         for number in [12.5, 0.3, 0.0, 0.25, 0.0, 3.125, 0.0] {
             says.extend_from_slice(&f64::to_be_bytes(number));
         }
-        says.extend_from_slice(&hexadecimal("00000007 00000001 00000002 0000002a"));
+        says.extend_from_slice(&hexadecimal("00000007 00000001 00000002"));
+        says.extend_from_slice(&f64::to_be_bytes(0.5));
+        says.extend_from_slice(&hexadecimal("0000002a"));
         message(DATA, &says)
     }
 
@@ -246,8 +252,8 @@ mod tests {
         assert_eq!(ask_start(), hexadecimal("0003 53"));
         assert_eq!(ask_controller(), hexadecimal("0003 76"));
         let outputs = ask_outputs(125.0);
-        assert_eq!(outputs[..11], hexadecimal("0067 4f 405f400000000000"));
-        assert_eq!(outputs.len(), 0x67);
+        assert_eq!(outputs[..11], hexadecimal("007d 4f 405f400000000000"));
+        assert_eq!(outputs.len(), 0x7d);
     }
 
     #[test]
@@ -284,6 +290,7 @@ mod tests {
             );
             let words = (state.robot_mode, state.safety, state.runtime, state.stop);
             assert_eq!(words, (7, 1, 2, 42));
+            assert_eq!(state.slider.to_bits(), 0.5_f64.to_bits());
         }
     }
 
@@ -323,9 +330,9 @@ mod tests {
 
     #[test]
     fn a_missing_output_is_named_with_the_versions_that_have_it() {
-        let all = "DOUBLE,VECTOR6D,INT32,UINT32,UINT32,INT32";
+        let all = "DOUBLE,VECTOR6D,INT32,UINT32,UINT32,DOUBLE,INT32";
         assert_eq!(missing_outputs(all), Ok(Vec::new()));
-        let without = "DOUBLE,VECTOR6D,INT32,NOT_FOUND,UINT32,NOT_FOUND";
+        let without = "DOUBLE,VECTOR6D,INT32,NOT_FOUND,UINT32,DOUBLE,NOT_FOUND";
         let expected = [
             "`safety_status_bits` (since 3.10 and 5.4)",
             "`output_int_register_24` (since 3.9 and 5.3)",

@@ -112,6 +112,7 @@ mod tests {
                 robot_mode,
                 safety,
                 runtime: 1,
+                slider: 1.0,
                 stop: 0,
             })
         };

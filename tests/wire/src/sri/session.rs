@@ -81,6 +81,10 @@ pub(super) fn serve(mut stream: TcpStream, bench: &WallBench, end: &End) {
     let _ = sender.join();
 }
 
+/// Decoupling matrix of the box.
+const MATRIX: &str =
+    "(1,0,0,0,0,0);(0,1,0,0,0,0);(0,0,1,0,0,0);(0,0,0,1,0,0);(0,0,0,0,1,0);(0,0,0,0,0,1)";
+
 /// Answer to a command; `None` for a command without an answer.
 fn answer(command: &str, session: &Session, bench: &WallBench) -> Option<String> {
     let (word, value) = command.split_once('=').unwrap_or((command, ""));
@@ -100,6 +104,8 @@ fn answer(command: &str, session: &Session, bench: &WallBench) -> Option<String>
             _ => false,
         },
         "SGDM" => value == "(A01,A02,A03,A04,A05,A06);E;1;(WMA:1)",
+        "DCPM" if value == "?" => return Some(format!("DCPM={MATRIX}$OK")),
+        "DCPCU" if value == "?" => return Some("DCPCU=MVPV$OK".to_owned()),
         "GSD" if value == "STOP" => {
             session.settings().is_streaming = false;
             true

@@ -1,6 +1,6 @@
-//! TAC028: label instruments without a certificate, with an expired one, or with a certificate for another serial number.
+//! TAC028: label instruments without a certificate, or with one that contradicts the instrument or the days of the labels.
 
-use taceva_core::{Instrument, Traceability, shown};
+use taceva_core::{Instrument, Traceability};
 use taceva_dataset::Source;
 
 use crate::evidence::Evidence;
@@ -9,8 +9,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC028",
     name: "certificates",
-    looks_for: "instruments of a recording without a calibration certificate, a certificate that had expired on the day of the recording, \
-        and one of another serial number than the driver read",
+    looks_for: "instruments of a recording without a calibration certificate, a certificate that had expired on the day of the recording \
+        or was issued after it, and one of another serial number than the driver read",
     hint: "state the certificate of each instrument in the rig file or in the map, such as [force.certificate], and record or import again",
     reads: None,
     find,
@@ -18,32 +18,18 @@ pub(super) static CHECK: Check = Check {
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let instruments = &evidence.header.traceability;
-    let mut found = Vec::new();
-    for traced in instruments {
-        if let Some((certificate, read)) = traced.other_serial() {
-            let message = format!(
-                "the certificate {} is of the {} with serial number {}, the driver read {}",
-                shown(&certificate.number),
-                traced.instrument.noun(),
-                shown(&certificate.serial),
-                shown(read)
-            );
-            found.push(Found::overall(Severity::Error, message));
-        }
-    }
-    let day = evidence.header.last_day(evidence.table.t_s());
-    for traced in instruments {
-        if let Some(day) = day
-            && let Some((certificate, until)) = traced.expired_on(day, instruments)
-        {
-            let message = format!(
-                "the certificate {} of the {} was valid until {until}, the recording is of {day}",
-                shown(&certificate.number),
-                traced.instrument.noun()
-            );
-            found.push(Found::overall(Severity::Warning, message));
-        }
-    }
+    let days = evidence.header.days(evidence.table.t_s());
+    let faults = instruments.iter();
+    let faults = faults.flat_map(|traced| traced.faults(days.as_ref(), instruments));
+    let found = faults.map(|fault| {
+        let severity = match fault.is_error() {
+            true => Severity::Error,
+            false => Severity::Warning,
+        };
+        Found::overall(severity, fault.to_string())
+    });
+    let mut found: Vec<Found> = found.collect();
+    found.sort_by_key(|found| std::cmp::Reverse(found.severity));
     let makes_labels = |of: &&Traceability| of.instrument != Instrument::Sensor;
     let without = instruments.iter().filter(makes_labels);
     let without = without.filter(|of| of.certificate.is_none());

@@ -65,8 +65,22 @@ fn a_certificate_that_had_expired_on_the_day_of_the_recording_is_warned_of() {
     assert_eq!(codes(&report), [("TAC028", Severity::Warning)]);
     assert_eq!(
         message(&report, "TAC028"),
-        "the certificate D-K-1 of the force transducer was valid until 2027-05-12, the recording is of 2027-05-13"
+        "the certificate D-K-1 of the force transducer was valid until 2027-05-12, the measurement is of 2027-05-13"
     );
+}
+
+#[test]
+fn a_certificate_that_was_issued_after_the_recording_is_warned_of() {
+    let later = CERTIFICATE.replace("issued = 2026-05-12", "issued = 2026-11-30");
+    let report = checked(&[0.5, 1.5], VALID_S, &later);
+    assert_eq!(codes(&report), [("TAC028", Severity::Warning)]);
+    assert_eq!(
+        message(&report, "TAC028"),
+        "the certificate D-K-1 of the force transducer was issued on 2026-11-30, the measurement is of 2026-11-29"
+    );
+    let same_day = CERTIFICATE.replace("issued = 2026-05-12", "issued = 2026-11-29");
+    let report = checked(&[0.5, 1.5], VALID_S, &same_day);
+    assert!(codes(&report).is_empty(), "{:#?}", report.findings);
 }
 
 #[test]

@@ -297,9 +297,11 @@ fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
         if header.clock != other.clock {
             header.clock = Clock::Unknown;
         }
-        if header.recorded_on != other.recorded_on {
-            header.recorded_on = None;
-        }
+        let last = |of: &Header| of.recorded_until.max(of.recorded_on);
+        let until = last(&header).max(last(other));
+        let begun = [header.recorded_on, other.recorded_on];
+        header.recorded_on = begun.into_iter().flatten().min();
+        header.recorded_until = until.filter(|_| until != header.recorded_on);
         for (own, theirs) in [
             (&mut header.sensor.serial, &other.sensor.serial),
             (&mut header.sensor.gel, &other.sensor.gel),

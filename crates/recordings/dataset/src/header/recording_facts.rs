@@ -1,6 +1,7 @@
 //! Facts about a recording that are known before its first sample.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::time::Duration;
 
@@ -28,6 +29,8 @@ pub struct RecordingFacts {
     pub clock: Clock,
     /// UTC day on which the recording began; `None` if nothing was measured, or for an import.
     pub recorded_on: Option<Date>,
+    /// UTC day of its last session, if that is another one.
+    pub recorded_until: Option<Date>,
     /// Model, serial number and gel of the sensor.
     pub sensor: SensorFacts,
     /// Sensing area, if known.
@@ -45,6 +48,7 @@ impl RecordingFacts {
             source,
             clock,
             recorded_on: None,
+            recorded_until: None,
             sensor,
             footprint: None,
             settings: BTreeMap::new(),
@@ -89,6 +93,7 @@ impl RecordingFacts {
     pub(crate) fn resuming(self, before: &RecordingFacts) -> RecordingFacts {
         RecordingFacts {
             recorded_on: before.recorded_on,
+            recorded_until: before.recorded_until,
             settings: before.settings.clone(),
             traceability: before.traceability.clone(),
             ..self
@@ -132,14 +137,19 @@ impl RecordingFacts {
 }
 
 impl Header {
-    /// UTC day of the last of these sample times, or of the start of the recording; `None` if the clock gives no date.
-    pub fn last_day(&self, t_s: &[Option<f64>]) -> Option<Date> {
+    /// First and last UTC day of these sample times, or of the sessions of the recording; `None` if the clock gives no date.
+    pub fn days(&self, t_s: &[Option<f64>]) -> Option<RangeInclusive<Date>> {
         if self.clock != Clock::Unix {
-            return self.recorded_on;
+            let first = self.recorded_on?;
+            return Some(first..=self.recorded_until.unwrap_or(first));
         }
+        let day = |time_s: f64| {
+            let since = Duration::try_from_secs_f64(time_s).ok()?;
+            Some(Date::of_unix_s(since.as_secs()))
+        };
         let times = t_s.iter().flatten();
-        let last = times.copied().fold(f64::NEG_INFINITY, f64::max);
-        let since = Duration::try_from_secs_f64(last).ok()?;
-        Some(Date::of_unix_s(since.as_secs()))
+        let first_s = times.clone().copied().fold(f64::INFINITY, f64::min);
+        let last_s = times.copied().fold(f64::NEG_INFINITY, f64::max);
+        Some(day(first_s)?..=day(last_s)?)
     }
 }

@@ -82,6 +82,7 @@ impl WrittenStart {
                 source: written.source,
                 clock: written.clock,
                 recorded_on: written.recorded_on,
+                recorded_until: None,
                 sensor: written.sensor,
                 footprint: written.footprint,
                 settings: written.settings,

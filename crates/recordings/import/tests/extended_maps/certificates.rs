@@ -56,6 +56,29 @@ fn numbers(header: &Header) -> Vec<Option<&str>> {
 }
 
 #[test]
+fn an_error_in_a_certificate_of_a_map_names_the_line_of_its_key() {
+    let folder = lab(&[("labels.csv", "Fz\n1\n")]);
+    let wrong = certified().replace("k = 2.0", "k = \"two\"");
+    let before = wrong.split("k = \"two\"").next().unwrap_or_default();
+    // After the line of the version.
+    let line = before.matches('\n').count() + 2;
+    let problem = planned(folder.path(), &wrong).err().unwrap_or_default();
+    for part in [
+        format!("line {line}"),
+        "[force.certificate]: `k` is `\"two\"`, expected a number".to_owned(),
+    ] {
+        assert!(problem.contains(&part), "{problem}");
+    }
+    let missing = certified().replace("serial = \"M3813B-0042\"\nk = 2.0\n", "k = 2.0\n");
+    let missing = missing.replace("number = \"D-K-1\"\n", "");
+    let problem = planned(folder.path(), &missing).err().unwrap_or_default();
+    assert!(
+        problem.contains("the keys `number`, `serial` are missing"),
+        "{problem}"
+    );
+}
+
+#[test]
 fn a_dataset_keeps_the_certificates_of_its_map() {
     let folder = lab(&[("labels.csv", "Fz\n1\n")]);
     let header = import(folder.path(), &certified());

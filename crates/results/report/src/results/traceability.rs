@@ -22,10 +22,15 @@ pub(super) fn traceability_line(provenance: &Provenance) -> String {
     let stated = provenance.traceability.iter();
     let stated = stated.filter(|of| of.certificate.is_some());
     let stated = stated.map(|of| {
-        let day = provenance.recorded_on;
-        match day.filter(|day| of.expired_on(*day, &provenance.traceability).is_some()) {
-            Some(day) => format!("{of}, expired on the day of the recording, {day}"),
-            None => of.to_string(),
+        let all = &provenance.traceability;
+        match provenance.recorded_on {
+            Some(day) if of.expired_on(day, all).is_some() => {
+                format!("{of}, expired on the day of the recording, {day}")
+            }
+            Some(day) if of.issued_after(day, all).is_some() => {
+                format!("{of}, issued after the recording of {day}")
+            }
+            _ => of.to_string(),
         }
     });
     let lines = missing.into_iter().chain(stated);
@@ -90,6 +95,15 @@ mod tests {
                 "valid until 2027-05-12, expired on the day of the recording, 2027-05-13"
             ),
             "{expired}"
+        );
+        let later = traceability_line(&Provenance {
+            traceability: vec![force.clone()],
+            recorded_on: Some("2026-05-11".parse().expect("a day")),
+            ..Provenance::default()
+        });
+        assert!(
+            later.ends_with("serial 42, issued after the recording of 2026-05-11"),
+            "{later}"
         );
         let joined = line(vec![force, Traceability::new(Instrument::Force)]);
         assert!(joined.starts_with("not traceable in part: "), "{joined}");

@@ -20,7 +20,7 @@ use super::streams::{Counts, Streams};
 use super::track::Track;
 use super::transducer::Transducer;
 use crate::error::AcquireError;
-use crate::instruments::traced;
+use crate::instruments::{traced, warnings_today};
 use crate::presses::{HeldRigs, Opened, Turned, add_settings};
 use crate::scene::read_rig_file;
 
@@ -274,10 +274,12 @@ impl LiveDevices {
         Some(1e-3 * exposure_ms)
     }
 
-    /// Remarks of the transducer on its readings, each with its remedy.
+    /// Remarks of the transducer on its readings, and contradictions of the certificates, each with its remedy.
     pub fn warnings(&self) -> Vec<String> {
         let force = self.force.as_ref();
-        force.map_or_else(Vec::new, |force| force.device.warnings())
+        let mut warnings = force.map_or_else(Vec::new, |force| force.device.warnings());
+        warnings.extend(warnings_today(self.traceability(), &self.settings()));
+        warnings
     }
 
     /// True if a device is simulated or emulated, so that nothing is measured.

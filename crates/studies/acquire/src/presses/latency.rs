@@ -125,6 +125,10 @@ impl Robot for Late<dyn Robot> {
         self.device.settings()
     }
 
+    fn warnings(&self) -> Vec<String> {
+        self.device.warnings()
+    }
+
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let (pose, stamp) = self.device.pose(deadline)?;
         Ok((pose, self.true_stamp(stamp)))

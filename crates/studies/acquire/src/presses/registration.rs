@@ -51,6 +51,10 @@ impl Robot for Registered {
         self.robot.settings()
     }
 
+    fn warnings(&self) -> Vec<String> {
+        self.robot.warnings()
+    }
+
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let (base, stamp) = self.robot.pose(deadline)?;
         Ok((self.registration.to_sensor(&base), stamp))

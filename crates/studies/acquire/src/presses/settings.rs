@@ -1,10 +1,11 @@
-//! Settings of the devices of a rig, with names that differ by device, and remarks of its transducer.
+//! Settings of the devices of a rig, with names that differ by device, and remarks on its readings.
 
 use std::collections::BTreeMap;
 use std::sync::PoisonError;
 
 use super::devices::OpenRig;
 use super::workshop::Workshop;
+use crate::instruments;
 
 impl OpenRig {
     /// Settings of the devices, read back. Those of the transducer and of the robot begin with `force_` and `robot_`.
@@ -16,13 +17,19 @@ impl OpenRig {
         settings
     }
 
-    /// Shows the operator, if any, the remarks of the transducer that are not in `shown`, and adds them to it.
+    /// Shows the operator, if any, the remarks of the devices and the contradictions of certificates. Leaves out those in `shown`, and adds the
+    /// others to it.
     pub(super) fn warn(&self, workshop: Workshop<'_>, shown: &mut Vec<String>) {
         let Some(operator) = workshop.operator else {
             return;
         };
         let mut operator = operator.lock().unwrap_or_else(PoisonError::into_inner);
-        for warning in self.force.warnings() {
+        let rig = self.rig_file.as_deref();
+        let instruments = rig.map(instruments::of_rig).unwrap_or_default();
+        let mut warnings = self.force.warnings();
+        warnings.extend(self.robot.warnings());
+        warnings.extend(instruments::warnings_today(instruments, &self.settings()));
+        for warning in warnings {
             if !shown.contains(&warning) {
                 operator.warn(&warning);
                 shown.push(warning);

@@ -2,27 +2,20 @@
 
 use std::time::Duration;
 
-use taceva_core::{
-    Deadline, Descriptor, DriverError, EnablingSwitch, ErrorKind, ForceTransducer, FrameMut, Pose,
-    Robot, Sensor, Speed,
-};
+use taceva_core::{Deadline, Descriptor, DriverError, EnablingSwitch, ErrorKind, Robot, Speed};
 use taceva_drivers::{Drivers, MonotonicClock};
 use taceva_protocol::{Answer, Cancel, Operator, Question, RigFile};
 
+use super::listen::{LISTENED, listen_to_force, listen_to_robot, listen_to_sensor, without_answer};
 use super::problem::{HALT_MS, RigProblem};
 use super::stock::{Stock, TriedStock, take_stock};
-use super::stream::{Listener, Stream};
+use super::stream::Stream;
 use super::switch::{SwitchCheck, look_at};
 use crate::error::AcquireError;
 use crate::presses::{FileOpener, add_settings};
 use crate::scene::{check_switch, is_untaught, open_switch};
 
-/// Duration of the measurement of each device.
-const LISTENED: Duration = Duration::from_secs(2);
 const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
-const READ_DEADLINE: Deadline = Deadline::after(Duration::from_millis(100));
-/// Interval between readings of the pose.
-const LOOK: Duration = Duration::from_millis(10);
 /// Motion during which the robot is halted: straight up, away from the gel, in mm, and its speed, in mm/s.
 const WAY_MM: f64 = 5.0;
 const WAY_MM_S: f64 = 5.0;
@@ -61,7 +54,7 @@ pub struct RigCheck {
     pub halt_left_out: Option<String>,
     /// Settings of the devices, read back; those of the transducer and of the robot begin with `force_` and `robot_`.
     pub settings: std::collections::BTreeMap<String, String>,
-    /// Remarks of the force transducer on its readings, with their remedies.
+    /// Remarks of the devices on their readings and contradictions of certificates, with their remedies.
     pub warnings: Vec<String>,
     /// Problems that would reject or stop a run, and devices that failed.
     pub problems: Vec<RigProblem>,
@@ -89,7 +82,7 @@ pub struct HaltTrip {
 pub fn check_rig(
     rig: &RigFile,
     drivers: &Drivers,
-    mut operator: Option<&mut dyn Operator>,
+    operator: Option<&mut dyn Operator>,
 ) -> Result<RigCheck, AcquireError> {
     let opener = FileOpener::new(rig, drivers);
     check_switch(rig, drivers)?;
@@ -98,78 +91,9 @@ pub fn check_rig(
         simulated: rig.simulated,
         ..RigCheck::default()
     };
-    // The switch comes first: without it, no robot moves.
-    let switch = check.of("switch", open_switch(rig, drivers)).flatten();
-    let sensor = check.of("sensor", opener.sensor()).flatten();
-    let robot = check.of("robot", opener.robot()).flatten();
-    let force = check.of("force", opener.force()).flatten();
-    for TriedStock { key, holds } in take_stock(rig, &opener) {
-        if let Some(holds) = check.of(key, holds).flatten() {
-            check.changers.push(Stock { key, holds });
-        }
-    }
-    if let Some((mut force, descriptor)) = force {
-        let heard = listen_to_force(&mut *force).map_err(without_answer);
-        if let Some(heard) = check.of("force", heard) {
-            check.hear_force(heard, &descriptor);
-        }
-        add_settings(&mut check.settings, "force", force.settings());
-        check.warnings = force.warnings();
-    }
-    if let Some((mut sensor, _)) = sensor {
-        let heard = listen_to_sensor(&mut *sensor);
-        check.settings.extend(sensor.settings());
-        if let Some(heard) = check.of("sensor", heard) {
-            check.note("sensor", &heard, None);
-            check.sensor = Some(heard);
-        }
-    }
-    if let Some(switch) = &switch {
-        let felt = check.feel(&**switch, &mut operator).map_err(without_answer);
-        check.of("switch", felt);
-    }
-    let Some((mut robot, descriptor)) = robot else {
-        check.halt_left_out = Some(match rig.robot {
-            Some(_) => check.obstacle().unwrap_or_default(),
-            None => "the rig file has no [robot]".to_owned(),
-        });
-        return Ok(check);
-    };
-    check.simulated |= robot.is_emulated();
-    add_settings(&mut check.settings, "robot", robot.settings());
-    let heard = listen_to_robot(&mut *robot).map_err(without_answer);
-    if let Some(heard) = check.of("robot", heard) {
-        let facts = descriptor.robot();
-        let stated = facts.and_then(|facts| facts.pose_noise.or(facts.repeatability));
-        check.note("robot", &heard, stated.map(|noise| noise.0));
-        check.robot = Some(heard);
-        let pose = robot.pose(DEADLINE).ok().filter(|_| heard.count > 0);
-        let depth_mm = pose.map_or(0.0, |(tip, _)| tip.position.z.0);
-        if is_untaught(rig, drivers) {
-            check.problems.push(RigProblem::Untaught);
-        } else if depth_mm > 0.0 {
-            check.problems.push(RigProblem::InGel { depth_mm });
-        }
-    }
-    let name = descriptor.key().to_string();
-    check.halt_left_out = check.obstacle();
-    if check.halt_left_out.is_some() {
-        return Ok(check);
-    }
-    if rig.simulated || operator.is_some_and(|operator| is_let_move(operator, name)) {
-        let halted = check.halt_on_its_way(&mut *robot, switch.as_deref());
-        check.of("robot", halted.map_err(without_answer));
-    } else {
-        check.halt_left_out = Some("nobody permitted the robot to move".to_owned());
-    }
+    check.measure(rig, drivers, operator);
+    check.look_at_certificates(rig);
     Ok(check)
-}
-
-/// Error of an open device, with its remedy.
-fn without_answer(error: DriverError) -> String {
-    format!(
-        "{error}; check its cable and power, and whether another program uses it, then run `taceva rig check` again"
-    )
 }
 
 fn is_let_move(operator: &mut dyn Operator, robot: String) -> bool {
@@ -178,6 +102,81 @@ fn is_let_move(operator: &mut dyn Operator, robot: String) -> bool {
 }
 
 impl RigCheck {
+    /// Opens and measures each device.
+    fn measure(
+        &mut self,
+        rig: &RigFile,
+        drivers: &Drivers,
+        mut operator: Option<&mut dyn Operator>,
+    ) {
+        let opener = FileOpener::new(rig, drivers);
+        // The switch comes first: without it, no robot moves.
+        let switch = self.of("switch", open_switch(rig, drivers)).flatten();
+        let sensor = self.of("sensor", opener.sensor()).flatten();
+        let robot = self.of("robot", opener.robot()).flatten();
+        let force = self.of("force", opener.force()).flatten();
+        for TriedStock { key, holds } in take_stock(rig, &opener) {
+            if let Some(holds) = self.of(key, holds).flatten() {
+                self.changers.push(Stock { key, holds });
+            }
+        }
+        if let Some((mut force, descriptor)) = force {
+            let heard = listen_to_force(&mut *force).map_err(without_answer);
+            if let Some(heard) = self.of("force", heard) {
+                self.hear_force(heard, &descriptor);
+            }
+            add_settings(&mut self.settings, "force", force.settings());
+            self.warnings = force.warnings();
+        }
+        if let Some((mut sensor, _)) = sensor {
+            let heard = listen_to_sensor(&mut *sensor);
+            self.settings.extend(sensor.settings());
+            if let Some(heard) = self.of("sensor", heard) {
+                self.note("sensor", &heard, None);
+                self.sensor = Some(heard);
+            }
+        }
+        if let Some(switch) = &switch {
+            let felt = self.feel(&**switch, &mut operator).map_err(without_answer);
+            self.of("switch", felt);
+        }
+        let Some((mut robot, descriptor)) = robot else {
+            self.halt_left_out = Some(match rig.robot {
+                Some(_) => self.obstacle().unwrap_or_default(),
+                None => "the rig file has no [robot]".to_owned(),
+            });
+            return;
+        };
+        self.simulated |= robot.is_emulated();
+        self.warnings.extend(robot.warnings());
+        add_settings(&mut self.settings, "robot", robot.settings());
+        let heard = listen_to_robot(&mut *robot).map_err(without_answer);
+        if let Some(heard) = self.of("robot", heard) {
+            let facts = descriptor.robot();
+            let stated = facts.and_then(|facts| facts.pose_noise.or(facts.repeatability));
+            self.note("robot", &heard, stated.map(|noise| noise.0));
+            self.robot = Some(heard);
+            let pose = robot.pose(DEADLINE).ok().filter(|_| heard.count > 0);
+            let depth_mm = pose.map_or(0.0, |(tip, _)| tip.position.z.0);
+            if is_untaught(rig, drivers) {
+                self.problems.push(RigProblem::Untaught);
+            } else if depth_mm > 0.0 {
+                self.problems.push(RigProblem::InGel { depth_mm });
+            }
+        }
+        let name = descriptor.key().to_string();
+        self.halt_left_out = self.obstacle();
+        if self.halt_left_out.is_some() {
+            return;
+        }
+        if rig.simulated || operator.is_some_and(|operator| is_let_move(operator, name)) {
+            let halted = self.halt_on_its_way(&mut *robot, switch.as_deref());
+            self.of("robot", halted.map_err(without_answer));
+        } else {
+            self.halt_left_out = Some("nobody permitted the robot to move".to_owned());
+        }
+    }
+
     /// Value of a step of `device`; a failure becomes a problem and gives `None`.
     fn of<T>(&mut self, device: &'static str, tried: Result<T, impl ToString>) -> Option<T> {
         match tried {
@@ -333,66 +332,4 @@ impl RigCheck {
         self.halt_left_out = None;
         Ok(())
     }
-}
-
-/// Calls `hear` until the measurement ends.
-fn listen(
-    mut hear: impl FnMut(&mut Listener) -> Result<(), DriverError>,
-) -> Result<Stream, DriverError> {
-    let mut listener = Listener::default();
-    let until_s = MonotonicClock.now_s() + LISTENED.as_secs_f64();
-    while MonotonicClock.now_s() < until_s {
-        match hear(&mut listener) {
-            Err(error) if error.kind() != ErrorKind::Timeout => return Err(error),
-            _ => {}
-        }
-    }
-    Ok(listener.heard())
-}
-
-fn listen_to_force(force: &mut dyn ForceTransducer) -> Result<Stream, DriverError> {
-    force.start(DEADLINE)?;
-    let heard = listen(|listener| {
-        let (wrench, stamp) = force.read(READ_DEADLINE)?;
-        listener.hear(stamp.valid_s, MonotonicClock.now_s());
-        listener.measure(wrench.force.map(|force| force.0));
-        Ok(())
-    });
-    let lost = force.lost();
-    let stopped = force.stop();
-    let heard = heard?;
-    stopped?;
-    Ok(Stream { lost, ..heard })
-}
-
-fn listen_to_robot(robot: &mut dyn Robot) -> Result<Stream, DriverError> {
-    listen(|listener| {
-        std::thread::sleep(LOOK);
-        let (Pose { position, .. }, stamp) = robot.pose(READ_DEADLINE)?;
-        listener.hear(stamp.valid_s, MonotonicClock.now_s());
-        listener.measure([position.x.0, position.y.0, position.z.0]);
-        Ok(())
-    })
-}
-
-fn listen_to_sensor(sensor: &mut dyn Sensor) -> Result<Stream, String> {
-    sensor.start(DEADLINE).map_err(without_answer)?;
-    let info = sensor.frame_info();
-    let too_large = || format!("frames of {info} are too large for this machine");
-    let mut bytes = vec![0; info.byte_len().ok_or_else(too_large)?];
-    let heard = listen(|listener| {
-        let into = FrameMut::new(info, &mut bytes)
-            .expect("the buffer was made with the length of the frame");
-        match sensor.capture(into, Deadline::after(Duration::from_secs(1))) {
-            Ok(stamp) => listener.hear(stamp.valid_s, MonotonicClock.now_s()),
-            // A damaged frame counts as a gap.
-            Err(error) if error.kind() == ErrorKind::Protocol => {}
-            Err(error) => return Err(error),
-        }
-        Ok(())
-    });
-    let stopped = sensor.stop();
-    heard
-        .and_then(|heard| stopped.map(|()| heard))
-        .map_err(without_answer)
 }

@@ -16,6 +16,13 @@ pub enum RigProblem {
         /// Failure and its remedy.
         why: String,
     },
+    /// The certificate of a device is of another serial number than the device reports.
+    Certificate {
+        /// `force`, `robot` or `sensor`.
+        device: &'static str,
+        /// Contradiction and its remedy.
+        why: String,
+    },
     /// A device gave no readings.
     Unheard {
         /// `force`, `robot` or `sensor`.
@@ -58,7 +65,9 @@ pub enum RigProblem {
 impl fmt::Display for RigProblem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            RigProblem::Failed { why, .. } => f.write_str(why),
+            RigProblem::Failed { why, .. } | RigProblem::Certificate { why, .. } => {
+                f.write_str(why)
+            }
             RigProblem::Unheard { device } => write!(
                 f,
                 "the {device} sent nothing: check its cable, its address in the rig file, and whether another program uses it"
@@ -101,6 +110,7 @@ impl RigProblem {
     pub fn device(&self) -> Option<&'static str> {
         match self {
             RigProblem::Failed { device, .. }
+            | RigProblem::Certificate { device, .. }
             | RigProblem::Unheard { device }
             | RigProblem::Noise { device, .. } => Some(device),
             RigProblem::Gaps { .. } => Some("force"),

@@ -49,6 +49,13 @@ impl Listener {
         }
     }
 
+    /// Mean of each component, and the standard error of that of the last; `None` without values.
+    pub(super) fn mean(&self) -> Option<([f64; 3], f64)> {
+        let (count, mean, squares) = self.spread.as_ref()?;
+        let variance = squares[2] / (count - 1.0).max(1.0);
+        Some((*mean, (variance / count).sqrt()))
+    }
+
     pub(super) fn heard(&self) -> Stream {
         let count = self.valid_s.len();
         let gaps = self.valid_s.windows(2).map(|pair| pair[1] - pair[0]);
@@ -93,6 +100,10 @@ mod tests {
         // Three times 5.1 and twice 4.9: the variance is 0.012.
         let noise = stream.noise.expect("numbers");
         assert!((noise - 0.012_f64.sqrt()).abs() < 1e-9, "{noise}");
+        let (mean, error) = listener.mean().expect("numbers");
+        assert!((mean[1] - 5.02).abs() < 1e-9, "{mean:?}");
+        assert!((error - (0.003_f64 / 5.0).sqrt()).abs() < 1e-9, "{error}");
+        assert_eq!(Listener::default().mean(), None);
         assert_eq!(Listener::default().heard(), Stream::default());
     }
 }

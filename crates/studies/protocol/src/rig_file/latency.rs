@@ -128,7 +128,11 @@ fn put(
         text.replace_range(at..end, &format!("{latency_ms:?}"));
         return Some(());
     }
-    let from = driver.at()?;
+    insert_after(text, driver.at()?, &format!("latency_ms = {latency_ms:?}"))
+}
+
+/// Inserts `line` after the line of the byte offset `from`.
+pub(super) fn insert_after(text: &mut String, from: usize, line: &str) -> Option<()> {
     let end = text
         .get(from..)?
         .find('\n')
@@ -139,8 +143,8 @@ fn put(
         false => "\n",
     };
     let line = match end == text.len() {
-        true => format!("{ending}latency_ms = {latency_ms:?}"),
-        false => format!("latency_ms = {latency_ms:?}{ending}"),
+        true => format!("{ending}{line}"),
+        false => format!("{line}{ending}"),
     };
     text.insert_str((end + 1).min(text.len()), &line);
     Some(())

@@ -4,6 +4,7 @@ use serde::Deserialize;
 use taceva_core::{Certificate, Instrument};
 
 use super::Check;
+use super::certificate::WrittenCertificate;
 use crate::footprint_spec::FootprintSpec;
 use crate::text::{SceneError, Setting};
 
@@ -32,7 +33,7 @@ pub(super) struct WrittenSensor {
     opaque: Option<Setting<bool>>,
     markers: Option<Setting<bool>>,
     footprint: Option<Setting<FootprintSpec>>,
-    certificate: Option<Setting<Certificate>>,
+    certificate: Option<WrittenCertificate>,
 }
 
 impl WrittenSensor {

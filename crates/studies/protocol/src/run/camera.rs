@@ -1,6 +1,8 @@
 //! Captures frames of the resting tip.
 
+mod cycle;
 mod freeze;
+mod moment;
 
 use std::time::Duration;
 
@@ -9,7 +11,8 @@ use taceva_core::{Deadline, ErrorKind, Frame, FrameMut, Sensor, Stamp};
 use super::error::StopCause;
 use super::event::Event;
 use super::tip::{Step, Tip};
-use freeze::{Freeze, Moment};
+use freeze::Freeze;
+use moment::Moment;
 
 /// Number of lost, damaged or outdated frames after which the run stops.
 const FRAME_TRIES: u32 = 10;

@@ -58,7 +58,7 @@ pub enum StopCause {
     },
     /// A frame repeats the one before to the last bit although the force changed.
     #[error(
-        "a frame equals the one before to the last bit although the force changed: the camera is frozen; restart it, check it with `taceva preview`, and continue with `--resume`"
+        "frames repeat earlier ones to the last bit although the force changed: the camera is frozen; restart it, check it with `taceva preview`, and continue with `--resume`"
     )]
     FrozenFrame,
     /// A motion would leave the workspace. It was not made.

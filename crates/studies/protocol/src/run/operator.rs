@@ -40,6 +40,13 @@ pub enum Question {
     Light(String),
     /// Check and acknowledge this fault at the robot. The robot moves again afterwards.
     Acknowledge(Fault),
+    /// Take every load off the force transducer.
+    Unload,
+    /// Hang a weight of this mass, in g, on the force transducer.
+    Hang {
+        /// Mass, in g.
+        mass_g: f64,
+    },
     /// Jog the tip to this place with the controls of the robot.
     Jog(Spot),
     /// Do this step by hand, because the changer failed.
@@ -97,6 +104,13 @@ impl fmt::Display for Question {
                 f,
                 "`{}` is about to move: {way}; keep your hands clear and the emergency stop within reach",
                 taceva_core::shown(robot)
+            ),
+            Question::Unload => f.write_str(
+                "take every load off the force transducer, and touch nothing until the next question",
+            ),
+            Question::Hang { mass_g } => write!(
+                f,
+                "hang {mass_g} g on the force transducer, or lay it on, so that it pulls or presses along z only; let it rest, and touch nothing",
             ),
             Question::Jog(Spot::Middle) => f.write_str(
                 "jog the tip with the robot's own controls until it just touches the middle of the gel, then let go",
@@ -181,6 +195,8 @@ mod tests {
                 "it is stuck; check that it has stopped and is out of the way, then by hand: mount the dot",
             ),
             (Question::Light("S1".to_owned()), "`S1`"),
+            (Question::Unload, "take every load off the force transducer"),
+            (Question::Hang { mass_g: 100.0 }, "hang 100 g on the force"),
             (Question::GoOn, "keep your hands clear"),
             (Question::Acknowledge(Fault::Collision), "collision"),
             (

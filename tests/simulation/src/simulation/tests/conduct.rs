@@ -209,6 +209,15 @@ fn a_camera_that_freezes_for_good_ends_the_run_above_the_gel_without_a_repeated_
 }
 
 #[test]
+fn a_camera_that_freezes_after_five_frames_ends_the_run_within_a_few_presses() {
+    let (bench, log, done) = frozen(6..u32::MAX);
+    let error = done.expect_err("blind");
+    assert!(matches!(error.cause, StopCause::FrozenFrame), "{error}");
+    assert!(bench.height() < 0.0);
+    assert!(log.records.len() < 20, "{}", log.records.len());
+}
+
+#[test]
 fn a_press_with_one_frozen_frame_is_broken_off_and_made_again() {
     let (bench, log, done) = frozen(18..19);
     let report = done.expect("it sees again");

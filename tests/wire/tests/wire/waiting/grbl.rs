@@ -21,6 +21,11 @@ fn the_suite_passes() {
 }
 
 #[test]
+fn the_version_of_a_machine_is_a_setting() {
+    assert_eq!(setup().open().settings()["firmware"], "1.1h.20190825");
+}
+
+#[test]
 fn a_press_reaches_the_gel_and_a_turn_is_refused() {
     setup().presses_and_does_not_turn();
 }

@@ -30,6 +30,11 @@ fn an_emulated_printer_reports_that_it_is_one() {
 }
 
 #[test]
+fn the_firmware_of_a_printer_is_a_setting() {
+    assert_eq!(setup().open().settings()["firmware"], "Marlin 2.1 emulated");
+}
+
+#[test]
 fn a_press_reaches_the_gel_and_a_turn_is_refused() {
     setup().presses_and_does_not_turn();
 }

@@ -55,6 +55,21 @@ fn the_suite_passes() {
 }
 
 #[test]
+fn the_matrix_of_a_box_its_rate_and_its_checksum_are_settings() {
+    let setup = setup();
+    let transducer = opened(&setup.arguments(";rate=500 Hz;check=crc32")).expect("a box");
+    let settings = transducer.settings();
+    for (name, expected) in [
+        ("decoupling_unit", "MVPV"),
+        ("rate_hz", "500"),
+        ("check", "crc32"),
+    ] {
+        assert_eq!(settings[name], expected, "{name}");
+    }
+    assert!(settings["decoupling"].starts_with("(1,0,0,0,0,0);(0,1"));
+}
+
+#[test]
 fn every_reading_has_the_number_that_the_box_gave_it() {
     let setup = setup();
     let mut transducer = setup.started("");

@@ -51,6 +51,24 @@ fn a_controller_without_an_output_is_refused_by_the_name_of_the_output_and_its_v
 }
 
 #[test]
+fn a_reduced_speed_slider_is_a_warning_with_its_remedy_and_no_setting_that_a_resumed_recording_must_have()
+ {
+    let setup = setup();
+    let arm = setup.open();
+    let settings = arm.settings();
+    assert_eq!(arm.warnings(), Vec::<String>::new());
+    setup.emulator.set_slider(0.7);
+    // The reports of the next 100 ms state it.
+    std::thread::sleep(Duration::from_millis(100));
+    assert_eq!(arm.settings(), settings);
+    let warnings = arm.warnings();
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    for words in ["is at 70 %", "set it to 100 % on the pendant"] {
+        assert!(warnings[0].contains(words), "{warnings:?}");
+    }
+}
+
+#[test]
 fn a_press_reaches_the_gel_where_the_driver_sent_it() {
     let setup = setup();
     let mut arm = setup.open();

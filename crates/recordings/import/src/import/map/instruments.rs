@@ -1,11 +1,16 @@
 //! Instruments of the labels in a map, with their certificates.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 use taceva_core::{Certificate, Instrument, Traceability};
-use toml::Spanned;
+use toml::{Spanned, Value};
 
 use super::check::Check;
 use taceva_dataset::{DatasetError, Known, SensorFacts};
+
+/// Entries of a certificate as written.
+type WrittenCertificate = Spanned<BTreeMap<Spanned<String>, Value>>;
 
 /// A transducer or a robot.
 #[derive(Deserialize)]
@@ -13,7 +18,7 @@ use taceva_dataset::{DatasetError, Known, SensorFacts};
 pub(super) struct WrittenInstrument {
     driver: Option<String>,
     serial: Option<String>,
-    certificate: Option<Spanned<Certificate>>,
+    certificate: Option<WrittenCertificate>,
 }
 
 /// The sensor.
@@ -24,7 +29,7 @@ pub(super) struct WrittenSensor {
     serial: String,
     gel: String,
     opaque: Known<bool>,
-    certificate: Option<Spanned<Certificate>>,
+    certificate: Option<WrittenCertificate>,
 }
 
 impl WrittenSensor {
@@ -60,8 +65,19 @@ impl Check<'_> {
         let Some(certificate) = written.certificate else {
             return Ok(traced);
         };
-        let offset = certificate.span().start;
-        let traced = traced.with_certificate(certificate.into_inner());
-        traced.map_err(|error| self.at(offset, &format!("[{instrument}.certificate]: {error}")))
+        let at_table = certificate.span().start;
+        let (mut places, mut entries) = (BTreeMap::new(), BTreeMap::new());
+        for (key, value) in certificate.into_inner() {
+            places.insert(key.get_ref().clone(), key.span().start);
+            entries.insert(key.into_inner(), value);
+        }
+        let read = Certificate::of_entries::<Value, toml::de::Error>(instrument, &entries);
+        let certificate = read.map_err(|error| {
+            let at_key = error.key().and_then(|key| places.get(key).copied());
+            let problem = format!("[{instrument}.certificate]: {error}");
+            self.at(at_key.unwrap_or(at_table), &problem)
+        })?;
+        traced.certificate = Some(certificate);
+        Ok(traced)
     }
 }

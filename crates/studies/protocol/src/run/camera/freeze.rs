@@ -1,53 +1,25 @@
-//! Detects a frozen camera: a frame that repeats the one before to the last bit although the force on the gel changed.
+//! Detects a frozen camera: frames that repeat earlier ones to the last bit although the force on the gel changed.
 
-use taceva_core::{Frame, Pose};
+use taceva_core::Frame;
 
-use crate::run::load_limit::Felt;
-use crate::run::tip::Tip;
-use crate::run::way::distance;
+use super::cycle::Cycle;
+use super::moment::Moment;
 
 /// Number of changed frames after which a camera counts as live. An earlier repeat shows a camera that is too coarse to be checked.
 const LIVE_FRAMES: u32 = 8;
 /// Number of changed frames of the untouched gel after which a camera counts as noisy. Then no two of its frames are equal.
 const NOISY_FRAMES: u32 = 4;
-/// Least change of the force that changes the frame of any camera, in multiples of the least force in the air.
-const FORCE_STEPS: f64 = 5.0;
+/// Number of repeats of one frame after which a camera with fewer changes counts as frozen. It must have shown such a change of the force before.
+const STUCK_REPEATS: u32 = 3;
+/// Part of the greatest shown change that shows again. Presses to one depth differ in force.
+const SHOWN_PART: f64 = 0.75;
+/// Number of returns to older frames after which a noisy camera counts as frozen, and the number for any other one.
+const NOISY_RETURNS: u32 = 3;
+const CYCLE_RETURNS: u32 = 6;
 /// Distance of a sample from black or from full scale, up to which it shows nothing.
 const CLIPPED: u16 = 4;
 /// Greatest part of the samples of a blank frame that are not clipped, as of hot pixels.
 const SEEN_PART: f64 = 0.01;
-/// Least way of the tip that changes the frame of a camera without noise, in mm. A gel at rest may creep under it unseen.
-const MOVED_MM: f64 = 0.05;
-
-/// State of the tip at a frame.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Moment {
-    felt: Felt,
-    pose: Pose,
-    /// True from a retreat to the next search: a light touch is not in the air, whatever its force.
-    is_in_air: bool,
-    /// Least force that counts as contact in the air, in N.
-    air_n: f64,
-}
-
-impl Moment {
-    /// The present state of `tip`.
-    pub(super) fn of(tip: &Tip<'_>) -> Moment {
-        Moment {
-            felt: tip.felt,
-            pose: tip.at,
-            is_in_air: tip.contact_mm.is_none(),
-            air_n: tip.pace.air_n,
-        }
-    }
-
-    /// True if the force changed so far since `earlier` that every camera shows it.
-    fn is_pressed_otherwise_than(&self, earlier: &Moment) -> bool {
-        let normal_n = self.felt.normal_n - earlier.felt.normal_n;
-        let shear_n = self.felt.shear_n - earlier.felt.shear_n;
-        normal_n.hypot(shear_n) > FORCE_STEPS * self.air_n
-    }
-}
 
 /// Last distinct frame of a run, and the evidence that this camera does not repeat frames.
 #[derive(Default)]
@@ -55,6 +27,9 @@ pub(super) struct Freeze {
     last: Option<Distinct>,
     changes: u32,
     changes_in_air: u32,
+    /// Greatest change of the force that changed the frame, in N.
+    shown_n: f64,
+    cycle: Cycle,
     is_coarse: bool,
     is_noiseless: bool,
 }
@@ -65,6 +40,10 @@ struct Distinct {
     moment: Moment,
     /// True if the tip left the gel since.
     is_left: bool,
+    /// Number of repeats that should have differed.
+    repeats: u32,
+    /// True if it was seen in the air and in contact, or in two presses, over a change of the force that was shown before.
+    is_seen_across: bool,
 }
 
 impl Freeze {
@@ -75,24 +54,31 @@ impl Freeze {
         }
     }
 
-    /// True if `frame`, captured at `moment`, repeats the one before although the force changed.
+    /// True if `frame`, captured at `moment`, repeats the one before or older ones in turn although the force changed.
     ///
     /// A blank frame, as of a camera in the dark, is never counted as a repeat.
     pub(super) fn is_frozen(&mut self, frame: &Frame, moment: Moment) -> bool {
-        let Some(last) = &self.last else {
+        let Some(last) = &mut self.last else {
+            self.cycle.returns(frame, moment);
             self.keep(frame, moment);
             return false;
         };
+        let change_n = moment.change_n(&last.moment);
         let stays_in_air = last.moment.is_in_air && moment.is_in_air;
         if last.frame.bytes() != frame.bytes() {
             self.changes = self.changes.saturating_add(1);
             self.changes_in_air += u32::from(stays_in_air);
+            self.shown_n = self.shown_n.max(change_n);
             self.keep(frame, moment);
-            return false;
+            let allowed = match self.changes_in_air >= NOISY_FRAMES && !self.is_noiseless {
+                true => NOISY_RETURNS,
+                false => CYCLE_RETURNS,
+            };
+            return self.cycle.returns(frame, moment) >= allowed && !is_blank(frame);
         }
         self.is_noiseless |= stays_in_air;
         let is_noisy = self.changes_in_air >= NOISY_FRAMES && !self.is_noiseless;
-        let is_moved = distance(&last.moment.pose, &moment.pose) > MOVED_MM;
+        let is_moved = moment.is_moved_from(&last.moment);
         let is_new_force = moment.is_pressed_otherwise_than(&last.moment);
         let must_differ = match is_noisy {
             true => !stays_in_air && (last.is_left || is_moved || is_new_force),
@@ -101,8 +87,19 @@ impl Freeze {
         if !must_differ || is_blank(frame) {
             return false;
         }
+        let is_other_press = last.is_left || last.moment.is_in_air != moment.is_in_air;
+        // Presses of two places look different by the force of either.
+        let contrast_n = match moment.is_beside(&last.moment) {
+            true => change_n
+                .max(moment.felt.normal_n)
+                .max(last.moment.felt.normal_n),
+            false => change_n,
+        };
+        let was_shown = self.changes > 0 && contrast_n >= SHOWN_PART * self.shown_n;
+        last.repeats += 1;
+        last.is_seen_across |= is_other_press && was_shown;
         self.is_coarse |= self.changes < LIVE_FRAMES;
-        !self.is_coarse
+        !self.is_coarse || (last.repeats >= STUCK_REPEATS && last.is_seen_across)
     }
 
     fn keep(&mut self, frame: &Frame, moment: Moment) {
@@ -110,6 +107,8 @@ impl Freeze {
             frame: frame.clone(),
             moment,
             is_left: false,
+            repeats: 0,
+            is_seen_across: false,
         });
     }
 }
@@ -137,6 +136,7 @@ fn is_blank(frame: &Frame) -> bool {
 mod tests {
     use taceva_core::{FrameInfo, PixelFormat};
 
+    use super::super::moment::pressed;
     use super::*;
 
     fn frame(pixels: [u8; 2]) -> Frame {
@@ -146,21 +146,6 @@ mod tests {
             format: PixelFormat::Gray8,
         };
         Frame::new(info, pixels.to_vec()).expect("its size")
-    }
-
-    /// Tip on a gel of 2 N/mm, under this force.
-    fn pressed(normal_n: f64) -> Moment {
-        let mut pose = Pose::default();
-        pose.position.z.0 = normal_n / 2.0;
-        Moment {
-            felt: Felt {
-                normal_n,
-                ..Felt::default()
-            },
-            pose,
-            is_in_air: normal_n < 0.01,
-            air_n: 0.02,
-        }
     }
 
     /// A camera after nine frames of the untouched gel that differ, or repeat.
@@ -192,6 +177,79 @@ mod tests {
         assert!(!freeze.is_frozen(&first, pressed(0.5)));
         freeze.leave();
         assert!(freeze.is_frozen(&first, pressed(0.5)));
+    }
+
+    #[test]
+    fn a_camera_that_freezes_before_its_eighth_change_is_found_in_its_second_press() {
+        // A camera without noise shows the touch at the start, then repeats the frame after it.
+        let mut freeze = Freeze::default();
+        for (pixel, force_n) in [(0, 0.0), (90, 0.6), (1, 0.0)] {
+            assert!(!freeze.is_frozen(&frame([pixel, 50]), pressed(force_n)));
+        }
+        let stuck = frame([1, 50]);
+        freeze.leave();
+        assert!(!freeze.is_frozen(&stuck, pressed(0.5)));
+        assert!(!freeze.is_frozen(&stuck, pressed(0.9)));
+        freeze.leave();
+        assert!(freeze.is_frozen(&stuck, pressed(0.7)));
+        assert!(!freeze.is_frozen(&frame([80, 50]), pressed(0.7)));
+    }
+
+    #[test]
+    fn a_static_scene_without_contact_and_lighter_touches_than_the_camera_showed_are_not_frozen() {
+        let mut freeze = Freeze::default();
+        for (pixel, force_n) in [(0, 0.0), (90, 0.6), (0, 0.0)] {
+            assert!(!freeze.is_frozen(&frame([pixel, 50]), pressed(force_n)));
+        }
+        let still = frame([0, 50]);
+        for force_n in [0.0, 0.3, 0.4, 0.2, 0.0, 0.4, 0.3] {
+            freeze.leave();
+            assert!(!freeze.is_frozen(&still, pressed(force_n)), "{force_n}");
+        }
+        let mut never = Freeze::default();
+        for _ in 0..20 {
+            assert!(!never.is_frozen(&still, pressed(0.0)));
+        }
+    }
+
+    #[test]
+    fn presses_of_one_place_within_a_step_of_a_coarse_camera_are_not_frozen() {
+        let mut freeze = Freeze::default();
+        assert!(!freeze.is_frozen(&frame([0, 50]), pressed(0.0)));
+        for force_n in [0.6, 0.8, 0.95, 0.6, 0.8] {
+            assert!(!freeze.is_frozen(&frame([90, 50]), pressed(force_n)));
+            freeze.leave();
+        }
+    }
+
+    #[test]
+    fn a_camera_that_returns_old_frames_in_turn_is_found_while_the_force_changes() {
+        for (is_noiseless, allowed) in [(false, NOISY_RETURNS), (true, CYCLE_RETURNS)] {
+            let mut freeze = after_nine(!is_noiseless);
+            let cycled = [frame([100, 7]), frame([120, 9])];
+            let mut found = None;
+            for number in 0..12_u8 {
+                let force_n = 0.5 + 0.2 * f64::from(number);
+                let shown = &cycled[usize::from(number % 2)];
+                if freeze.is_frozen(shown, pressed(force_n)) {
+                    found = Some(u32::from(number));
+                    break;
+                }
+            }
+            // The first two are new.
+            assert_eq!(found, Some(allowed + 1), "{is_noiseless}");
+        }
+    }
+
+    #[test]
+    fn old_frames_at_their_own_forces_and_in_the_air_are_no_cycle() {
+        let mut freeze = after_nine(true);
+        for _ in 0..10 {
+            for (pixel, force_n) in [(60, 0.0), (100, 0.5), (120, 0.9), (61, 0.0)] {
+                assert!(!freeze.is_frozen(&frame([pixel, 7]), pressed(force_n)));
+                freeze.leave();
+            }
+        }
     }
 
     #[test]

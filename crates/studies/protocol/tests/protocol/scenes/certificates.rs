@@ -145,5 +145,54 @@ fn an_unknown_key_and_a_missing_one_are_refused_by_their_names() {
         "{message}"
     );
     let message = refused("serial = \"M3813B-0042\"\n", "");
-    assert!(message.contains("serial"), "{message}");
+    assert!(
+        message.ends_with("[force.certificate]: the key `serial` is missing"),
+        "{message}"
+    );
+}
+
+#[test]
+fn all_missing_keys_are_named_at_once() {
+    let text = HEAD.replace("number = \"D-K-1\"\n", "");
+    let text = text.replace("issued = 2026-05-12\n", "");
+    let error = RigFile::parse("lab.toml", &text).expect_err("incomplete");
+    let message = error.to_string();
+    assert!(
+        message.ends_with("the keys `number`, `issued`, `k`, `U` are missing"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_wrong_value_is_named_by_its_line_its_key_and_the_expectation() {
+    for (from, to, expected) in [
+        (
+            "k = 2.0",
+            "k = \"two\"",
+            "lab.toml, line 11: [force.certificate]: `k` is `\"two\"`, expected a number such as 2.0",
+        ),
+        (
+            "laboratory = \"a laboratory\"",
+            "laboratory = 7",
+            "lab.toml, line 7: [force.certificate]: `laboratory` is `7`, expected a text in quotes",
+        ),
+        (
+            "\"2027-05-12\"",
+            "\"2027-02-29\"",
+            "lab.toml, line 9: [force.certificate]: `valid_until` is `2027-02-29`, expected a day such as 2026-05-12",
+        ),
+        (
+            "Fz = 0.001",
+            "Fz = 1.0",
+            "lab.toml, line 13: [force.certificate]: `U_relative.Fz` is `1`, expected 0 or more",
+        ),
+        (
+            "[\"0.05 N\", \"50 N\"]",
+            "\"50 N\"",
+            "lab.toml, line 14: [force.certificate]: `range` is `",
+        ),
+    ] {
+        let message = refused(from, to);
+        assert!(message.starts_with(expected), "{message}");
+    }
 }

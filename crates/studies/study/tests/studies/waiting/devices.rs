@@ -342,8 +342,12 @@ impl Sensor for Gel {
         }
         state.pictures += 1;
         let [_, _, z] = state.tip(now.as_secs_f64());
-        let touched = if z > 0.0 { 90 } else { 60 };
-        into.bytes_mut().copy_from_slice(&[60, 60, touched, 60]);
+        // Another depth looks otherwise, as a camera that is not frozen shows it.
+        let [touched, shade] = match z > 0.0 {
+            true => [90, z.to_be_bytes()[1]],
+            false => [60, 60],
+        };
+        into.bytes_mut().copy_from_slice(&[60, 60, touched, shade]);
         Ok(Stamp::at(now))
     }
 }

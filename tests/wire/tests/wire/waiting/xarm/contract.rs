@@ -37,6 +37,22 @@ fn a_speed_that_the_controller_would_change_is_refused_and_its_least_one_is_not(
 }
 
 #[test]
+fn a_closed_report_port_is_warned_of_because_speeds_are_then_unheld() {
+    let setup = setup(Ports::ANY);
+    assert_eq!(setup.open().warnings(), Vec::<String>::new());
+    let rich = setup.emulator.address(Port::Rich).port();
+    let arguments = setup.arguments();
+    // Nothing listens on port 1.
+    let closed = arguments.replace(&format!("rich_port={rich}"), "rich_port=1");
+    assert_ne!(closed, arguments);
+    let warnings = setup.opened(&closed).expect("an arm").warnings();
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    for words in ["no complete report on port 1", "open this port"] {
+        assert!(warnings[0].contains(words), "{warnings:?}");
+    }
+}
+
+#[test]
 fn an_arm_says_its_serial_numbers_and_its_firmware() {
     let setup = setup(Ports::ANY);
     let settings = setup.open().settings();

@@ -1,0 +1,70 @@
+//! Certificates of a rig file: compared with the devices and with today, and their files looked for.
+
+use std::fs::File;
+use std::io::ErrorKind;
+use std::path::Path;
+
+use taceva_core::{Certificate, Instrument, shown};
+use taceva_dataset::{Digest, Source};
+use taceva_protocol::RigFile;
+
+use super::check::RigCheck;
+use super::problem::RigProblem;
+use crate::instruments::{faults_today, kept, of_rig, remedy};
+
+impl RigCheck {
+    /// Compares the certificates of `rig` with the serial numbers in the settings and with today, and looks for their files.
+    pub(super) fn look_at_certificates(&mut self, rig: &RigFile) {
+        let instruments = kept(of_rig(rig), Source::Recorded, &self.settings);
+        for fault in faults_today(&instruments) {
+            let why = remedy(&fault);
+            match fault.is_error() {
+                true => self.problems.push(RigProblem::Certificate {
+                    device: fault.instrument.name(),
+                    why,
+                }),
+                false => self.warnings.push(why),
+            }
+        }
+        let folder = Path::new(rig.name()).parent().unwrap_or(Path::new(""));
+        for traced in &instruments {
+            if let Some(certificate) = &traced.certificate {
+                let found = file_problem(folder, traced.instrument, certificate);
+                self.warnings.extend(found);
+            }
+        }
+    }
+}
+
+/// Problem of the certificate's file in `folder`; `None` if the file agrees or none is named.
+fn file_problem(
+    folder: &Path,
+    instrument: Instrument,
+    certificate: &Certificate,
+) -> Option<String> {
+    let name = certificate.file.as_ref()?;
+    let path = folder.join(name);
+    let digest = File::open(&path).and_then(|mut file| Digest::of_reader(&mut file));
+    let digest = match digest {
+        Ok(digest) => digest.to_string(),
+        Err(error) => {
+            let why = match error.kind() {
+                ErrorKind::NotFound => "no such file".to_owned(),
+                _ => error.to_string(),
+            };
+            return Some(format!(
+                "[{instrument}.certificate]: `file` is `{}`, expected a file beside the rig file: {}: {why}; copy it there, or correct the key",
+                shown(name),
+                shown(&path)
+            ));
+        }
+    };
+    let stated = certificate.sha256.as_ref()?.to_ascii_lowercase();
+    let found = digest.trim_start_matches("sha256:");
+    (found != stated).then(|| {
+        format!(
+            "[{instrument}.certificate]: `sha256` is `{stated}`, but {} has {found}: name the file of this certificate, or correct the key",
+            shown(&path)
+        )
+    })
+}

@@ -1,0 +1,49 @@
+//! Detects a camera that returns old frames in turn, as from a ring of buffers that is filled no more.
+
+use std::collections::VecDeque;
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use taceva_core::Frame;
+
+use super::moment::Moment;
+
+/// Number of frames that are compared, at least the number of buffers of a camera.
+const COMPARED: usize = 16;
+
+/// Last distinct frames, by digest.
+#[derive(Default)]
+pub(super) struct Cycle {
+    frames: VecDeque<Old>,
+    returns: u32,
+}
+
+/// Frame that was new at its moment.
+struct Old {
+    digest: u64,
+    moment: Moment,
+}
+
+impl Cycle {
+    /// Number of returns to older frames since the last new one, with that of `frame`, captured at `moment`. A return counts if tip and force
+    /// changed since the older frame.
+    pub(super) fn returns(&mut self, frame: &Frame, moment: Moment) -> u32 {
+        let mut hasher = DefaultHasher::new();
+        frame.bytes().hash(&mut hasher);
+        let digest = hasher.finish();
+        match self.frames.iter().find(|old| old.digest == digest) {
+            Some(Old { moment: old, .. }) => {
+                let must_differ =
+                    moment.is_moved_from(old) && moment.is_pressed_otherwise_than(old);
+                self.returns += u32::from(must_differ);
+            }
+            None => {
+                self.returns = 0;
+                self.frames.push_back(Old { digest, moment });
+                if self.frames.len() > COMPARED {
+                    self.frames.pop_front();
+                }
+            }
+        }
+        self.returns
+    }
+}

@@ -1,0 +1,152 @@
+//! Contradictions of a certificate with the instrument or with the days of the labels.
+
+use std::fmt;
+use std::ops::RangeInclusive;
+
+use super::Traceability;
+use super::instrument::Instrument;
+use crate::date::Date;
+use crate::printable::shown;
+
+/// Contradiction of an instrument's certificate with the instrument, or with the days of its labels.
+///
+/// ```
+/// use taceva_core::{Certificate, Coverage, Instrument, Traceability};
+/// let issued = "2026-05-12".parse()?;
+/// let mut certificate = Certificate::new("D-K-1", "a laboratory", issued, "42", Coverage::Factor(2.0));
+/// certificate.expanded.insert("Fz".to_owned(), "3 mN".parse()?);
+/// let traced = Traceability::new(Instrument::Force).with_driver("ati/netft", Some("43".to_owned()));
+/// let traced = traced.with_certificate(certificate)?;
+/// let faults = traced.faults(None, &[]);
+/// assert!(faults[0].is_error());
+/// assert!(faults[0].to_string().ends_with("serial number 42, the driver read 43"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct CertificateFault {
+    /// Instrument of the certificate.
+    pub instrument: Instrument,
+    /// Number of the certificate.
+    pub number: String,
+    /// Values that contradict each other.
+    pub contradiction: CertificateContradiction,
+}
+
+/// Values of a certificate and of its instrument or labels that contradict each other.
+///
+/// ```
+/// use taceva_core::CertificateContradiction;
+/// let (until, last) = ("2027-05-12".parse()?, "2027-05-13".parse()?);
+/// assert_ne!(
+///     CertificateContradiction::Expired { until, last },
+///     CertificateContradiction::IssuedLater { issued: until, first: last },
+/// );
+/// # Ok::<(), taceva_core::DateError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum CertificateContradiction {
+    /// The instrument has another serial number.
+    OtherSerial {
+        /// Serial number of the certificate.
+        stated: String,
+        /// Serial number that the driver read.
+        read: String,
+    },
+    /// The certificate had expired on the last day of the labels.
+    Expired {
+        /// Last day of validity.
+        until: Date,
+        /// Last day of the labels.
+        last: Date,
+    },
+    /// The certificate was issued after the first day of the labels.
+    IssuedLater {
+        /// Day of issue.
+        issued: Date,
+        /// First day of the labels.
+        first: Date,
+    },
+}
+
+impl CertificateFault {
+    /// True if the certificate is of another instrument, so that it says nothing about the labels.
+    pub fn is_error(&self) -> bool {
+        matches!(
+            self.contradiction,
+            CertificateContradiction::OtherSerial { .. }
+        )
+    }
+}
+
+impl fmt::Display for CertificateFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let instrument = self.instrument.noun();
+        let number = shown(&self.number);
+        match &self.contradiction {
+            CertificateContradiction::OtherSerial { stated, read } => write!(
+                f,
+                "the certificate {number} is of the {instrument} with serial number {}, the driver read {}",
+                shown(stated),
+                shown(read)
+            ),
+            CertificateContradiction::Expired { until, last } => write!(
+                f,
+                "the certificate {number} of the {instrument} was valid until {until}, the measurement is of {last}"
+            ),
+            CertificateContradiction::IssuedLater { issued, first } => write!(
+                f,
+                "the certificate {number} of the {instrument} was issued on {issued}, the measurement is of {first}"
+            ),
+        }
+    }
+}
+
+impl Traceability {
+    /// Contradictions of the certificate, the serial number first. `days` are the days of the labels, if they are known. A certificate
+    /// of `all` that covers a day replaces this one on that day.
+    pub fn faults(
+        &self,
+        days: Option<&RangeInclusive<Date>>,
+        all: &[Traceability],
+    ) -> Vec<CertificateFault> {
+        let Some(certificate) = &self.certificate else {
+            return Vec::new();
+        };
+        let serial = self
+            .other_serial()
+            .map(|(_, read)| CertificateContradiction::OtherSerial {
+                stated: certificate.serial.clone(),
+                read: read.to_owned(),
+            });
+        let expired = days.and_then(|days| {
+            let last = *days.end();
+            let (_, until) = self.expired_on(last, all)?;
+            Some(CertificateContradiction::Expired { until, last })
+        });
+        let later = days.and_then(|days| {
+            let first = *days.start();
+            let issued = self.issued_after(first, all)?;
+            Some(CertificateContradiction::IssuedLater { issued, first })
+        });
+        let found = [serial, expired, later].into_iter().flatten();
+        found
+            .map(|contradiction| CertificateFault {
+                instrument: self.instrument,
+                number: certificate.number.clone(),
+                contradiction,
+            })
+            .collect()
+    }
+
+    /// Day of issue of the certificate, if it is after `day`, the first one of the labels. A certificate of `all` that was issued by then
+    /// holds for the earlier labels.
+    pub fn issued_after(&self, day: Date, all: &[Traceability]) -> Option<Date> {
+        let issued = |of: &Traceability| of.certificate.as_ref().map(|of| of.issued);
+        let own = issued(self).filter(|own| *own > day)?;
+        let mut others = all.iter().filter(|of| of.instrument == self.instrument);
+        let is_covered = others.any(|of| issued(of).is_some_and(|other| other <= day));
+        (!is_covered).then_some(own)
+    }
+}

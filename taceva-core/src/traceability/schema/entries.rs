@@ -1,0 +1,123 @@
+//! A certificate from the entries of its table in a file, whose errors name the key.
+
+use std::collections::BTreeMap;
+use std::fmt::Display;
+
+use serde::de::value::MapDeserializer;
+use serde::de::{Deserialize, Error, IntoDeserializer};
+
+use super::{DateText, WrittenCertificate, WrittenCorrelation};
+use crate::traceability::{Certificate, CertificateError, Instrument};
+
+/// Kind of the value of a key.
+#[derive(Clone, Copy)]
+enum Kind {
+    Text,
+    Day,
+    Number,
+    Amounts,
+    Shares,
+    Ranges,
+    Correlations,
+}
+
+/// Keys of a certificate, the required ones first.
+static KEYS: [(&str, Kind); 16] = [
+    ("number", Kind::Text),
+    ("laboratory", Kind::Text),
+    ("issued", Kind::Day),
+    ("serial", Kind::Text),
+    ("accreditation", Kind::Text),
+    ("valid_until", Kind::Day),
+    ("k", Kind::Number),
+    ("p", Kind::Number),
+    ("dof", Kind::Number),
+    ("U", Kind::Amounts),
+    ("U_relative", Kind::Shares),
+    ("range", Kind::Ranges),
+    ("correlation", Kind::Correlations),
+    ("temperature", Kind::Text),
+    ("file", Kind::Text),
+    ("sha256", Kind::Text),
+];
+/// Number of required keys at the begin of [`KEYS`].
+const REQUIRED: usize = 4;
+
+impl Kind {
+    const fn expected(self) -> &'static str {
+        match self {
+            Kind::Text => "a text in quotes",
+            Kind::Day => "a day such as 2026-05-12",
+            Kind::Number => "a number such as 2.0",
+            Kind::Amounts => "amounts by channel, such as { Fz = \"3.0 mN\" }",
+            Kind::Shares => "numbers by channel, such as { Fz = 0.001 }",
+            Kind::Ranges => "two amounts by channel, such as { Fz = [\"0.05 N\", \"50 N\"] }",
+            Kind::Correlations => "a list such as [[\"Fx\", \"Fy\", 0.0]]",
+        }
+    }
+
+    /// True if a `value` of this kind can be read.
+    fn reads<'de, V, E>(self, value: V) -> bool
+    where
+        V: IntoDeserializer<'de, E>,
+        E: Error,
+    {
+        let value = value.into_deserializer();
+        match self {
+            Kind::Text => String::deserialize(value).is_ok(),
+            Kind::Day => DateText::deserialize(value).is_ok(),
+            Kind::Number => f64::deserialize(value).is_ok(),
+            Kind::Amounts => BTreeMap::<String, String>::deserialize(value).is_ok(),
+            Kind::Shares => BTreeMap::<String, f64>::deserialize(value).is_ok(),
+            Kind::Ranges => BTreeMap::<String, [String; 2]>::deserialize(value).is_ok(),
+            Kind::Correlations => Vec::<WrittenCorrelation>::deserialize(value).is_ok(),
+        }
+    }
+}
+
+impl Certificate {
+    /// Certificate of `instrument` from the entries of its table in a file.
+    ///
+    /// # Errors
+    /// [`CertificateError`] with the key: an unknown key, all missing keys, a value of another type, or as of [`check`](Certificate::check).
+    pub fn of_entries<'de, V, E>(
+        instrument: Instrument,
+        entries: &BTreeMap<String, V>,
+    ) -> Result<Certificate, CertificateError>
+    where
+        V: IntoDeserializer<'de, E> + Clone + Display,
+        E: Error,
+    {
+        for (key, value) in entries {
+            let Some((_, kind)) = KEYS.iter().find(|(known, _)| known == key) else {
+                return Err(CertificateError::UnknownKey {
+                    key: key.clone(),
+                    known: KEYS.iter().map(|(known, _)| *known).collect(),
+                });
+            };
+            if !kind.reads::<V, E>(value.clone()) {
+                let found = value.to_string();
+                return Err(CertificateError::value(key, found, kind.expected()));
+            }
+        }
+        let is_missing = |key: &str| !entries.contains_key(key);
+        let required = KEYS.iter().take(REQUIRED).map(|(key, _)| *key);
+        let mut missing: Vec<&str> = required.filter(|key| is_missing(key)).collect();
+        if !missing.is_empty() {
+            // One of two each, which is an error of its own if no other key is missing.
+            let either = [("k", "p"), ("U", "U_relative")].into_iter();
+            let either = either.filter(|(one, other)| is_missing(one) && is_missing(other));
+            missing.extend(either.map(|(one, _)| one));
+            return Err(CertificateError::MissingKeys(missing));
+        }
+        let pairs = entries.iter();
+        let pairs = pairs.map(|(key, value)| (key.as_str(), value.clone()));
+        let pairs = MapDeserializer::<'de, _, E>::new(pairs);
+        let written = WrittenCertificate::deserialize(pairs).map_err(|error| {
+            CertificateError::value("certificate", "a table", error.to_string())
+        })?;
+        let certificate = Certificate::try_from(written)?;
+        certificate.check(instrument)?;
+        Ok(certificate)
+    }
+}
