@@ -76,6 +76,12 @@ pub trait ForceTransducer: Send {
         None
     }
 
+    /// Number of readings that were lost on their way to this host since the transducer was opened; `None` if the driver does not count
+    /// them. A reading that a newer one overtook before it was read is not lost.
+    fn lost(&self) -> Option<u64> {
+        None
+    }
+
     /// Stops the readings; may be called in every state.
     ///
     /// # Errors

@@ -1,7 +1,8 @@
 //! Emulated machine with GRBL 1.1 at the other end of a pseudo-terminal.
 //!
-//! Supported: `?`, `!`, `~`, `$I`, reset, `G53 G1` (with `G21 G90 G94`), one motion and one waiting, alarm at a reset during a motion. Not
-//! supported: settings, offsets, arcs, homing, acceleration.
+//! Supported queries: `?` with the work offset in some reports, `!`, `~`, reset, `$$`, `$#`, `$G`, `$I`, `$X`. Supported lines: `G53 G1`
+//! (with `G21 G90 G94`, with and without blanks) and modes alone. The machine keeps one motion and one waiting. A reset during a motion is
+//! an alarm. Not supported: changes of settings, offsets, arcs, homing, acceleration.
 
 use std::fs::File;
 use std::io::{Read, Write};
@@ -16,6 +17,7 @@ use crate::error::WireError;
 use crate::fault::{Arm, ArmFault, Device, FaultKind};
 use crate::server::End;
 use crate::terminal::ServedLine;
+use crate::words::Words;
 
 /// Emulated machine, unplugged on drop.
 #[derive(Debug)]
@@ -34,6 +36,8 @@ struct Machine {
 struct Inside {
     is_held: bool,
     is_alarmed: bool,
+    /// Number of status reports since the last reset.
+    reports: u32,
     /// Held or waiting motion.
     waiting: Option<Motion>,
     /// Motion in progress.
@@ -49,6 +53,65 @@ struct Motion {
 /// Interval at which the machine reads bytes.
 const LOOK: Duration = Duration::from_millis(1);
 const RESET: u8 = 0x18;
+const OK: &str = "ok\r\n";
+const BAD_NUMBER: &str = "error:2\r\n";
+const UNKNOWN_QUERY: &str = "error:3\r\n";
+const LOCKED: &str = "error:9\r\n";
+const UNSUPPORTED: &str = "error:20\r\n";
+const NO_FEED: &str = "error:22\r\n";
+/// Every so many status reports state the offset of the work, the first one among them.
+const OFFSET_EVERY: u32 = 10;
+/// Settings of a machine of 400 mm with 5 m/min.
+const SETTINGS: &[&str] = &[
+    "$0=10",
+    "$1=25",
+    "$2=0",
+    "$3=0",
+    "$4=0",
+    "$5=0",
+    "$6=0",
+    "$10=1",
+    "$11=0.010",
+    "$12=0.002",
+    "$13=0",
+    "$20=0",
+    "$21=0",
+    "$22=0",
+    "$23=0",
+    "$24=25.000",
+    "$25=500.000",
+    "$26=250",
+    "$27=1.000",
+    "$30=1000",
+    "$31=0",
+    "$32=0",
+    "$100=250.000",
+    "$101=250.000",
+    "$102=250.000",
+    "$110=5000.000",
+    "$111=5000.000",
+    "$112=5000.000",
+    "$120=100.000",
+    "$121=100.000",
+    "$122=100.000",
+    "$130=400.000",
+    "$131=400.000",
+    "$132=400.000",
+];
+/// Offsets of the works, which are all zero.
+const OFFSETS: &[&str] = &[
+    "[G54:0.000,0.000,0.000]",
+    "[G55:0.000,0.000,0.000]",
+    "[G56:0.000,0.000,0.000]",
+    "[G57:0.000,0.000,0.000]",
+    "[G58:0.000,0.000,0.000]",
+    "[G59:0.000,0.000,0.000]",
+    "[G28:0.000,0.000,0.000]",
+    "[G30:0.000,0.000,0.000]",
+    "[G92:0.000,0.000,0.000]",
+    "[TLO:0.000]",
+    "[PRB:0.000,0.000,0.000:0]",
+];
 const BANNER: &str = "\r\nGrbl 1.1h ['$' for help]\r\n";
 
 impl Emulator {
@@ -141,7 +204,12 @@ impl Machine {
 
     fn status(&self) -> String {
         self.turn();
-        let inside = self.inside();
+        let mut inside = self.inside();
+        let offset = match inside.reports % OFFSET_EVERY {
+            0 => "|WCO:0.000,0.000,0.000",
+            _ => "",
+        };
+        inside.reports = inside.reports.wrapping_add(1);
         let state = if inside.is_alarmed {
             "Alarm"
         } else if inside.is_held {
@@ -156,7 +224,7 @@ impl Machine {
         if self.bench.is_faulty(Device::Robot, FaultKind::NotANumber) {
             z = f64::NAN;
         }
-        format!("<{state}|MPos:{x:.3},{y:.3},{z:.3}|FS:0,0>\r\n")
+        format!("<{state}|MPos:{x:.3},{y:.3},{z:.3}|FS:0,0{offset}>\r\n")
     }
 
     fn hold(&self) -> String {
@@ -193,38 +261,65 @@ impl Machine {
     }
 
     fn take(&self, command: &str) -> String {
-        const LOCKED: &str = "error:9\r\n";
-        const UNSUPPORTED: &str = "error:20\r\n";
-        const OK: &str = "ok\r\n";
-        let words: Vec<&str> = command.split_whitespace().collect();
-        if words.is_empty() {
-            return OK.to_owned();
+        if let Some(query) = command.trim().strip_prefix('$') {
+            return self.answer(query);
         }
-        if words == ["$I"] {
-            return format!("[VER:1.1h.20190825:]\r\n[OPT:V,15,128]\r\n{OK}");
-        }
-        let number = |letter: char| {
-            let word = words.iter().find_map(|word| word.strip_prefix(letter));
-            word.and_then(|number| number.parse::<f64>().ok())
+        let Some(words) = Words::read(command) else {
+            return BAD_NUMBER.to_owned();
         };
-        let is_line = ["G53", "G1"].iter().all(|word| words.contains(word));
-        let place = [number('X'), number('Y'), number('Z')];
-        let ([Some(x), Some(y), Some(z)], Some(feed), true) = (place, number('F'), is_line) else {
+        // Millimetres, absolute places and feeds per minute are the only modes.
+        let knows = |number: f64| {
+            let known = [1, 21, 53, 54, 90, 94];
+            known
+                .iter()
+                .any(|code| (f64::from(*code) - number).abs() < 1e-9)
+        };
+        if !words.all('G').all(knows) || words.number('M').is_some() {
             return UNSUPPORTED.to_owned();
+        }
+        let axes = ['X', 'Y', 'Z'].map(|letter| words.number(letter));
+        if !words.has('G', 1) {
+            return match axes {
+                [None, None, None] => OK.to_owned(),
+                _ => UNSUPPORTED.to_owned(),
+            };
+        }
+        let Some(feed) = words.number('F') else {
+            return NO_FEED.to_owned();
         };
         let Ok(speed) = Speed::try_new(feed / 60.0) else {
-            return UNSUPPORTED.to_owned();
+            return NO_FEED.to_owned();
         };
         let mut inside = self.inside();
         if inside.is_alarmed {
             return LOCKED.to_owned();
         }
-        inside.waiting = Some(Motion {
-            place_mm: [x, y, z],
-            speed,
-        });
+        let at = self.bench.pose().position;
+        let at = Base::to_base([at.x.0, at.y.0, at.z.0]);
+        let last = inside.waiting.as_ref().or(inside.current.as_ref());
+        let stays = last.map_or(at, |motion| motion.place_mm);
+        let place_mm = std::array::from_fn(|axis| axes[axis].unwrap_or(stays[axis]));
+        inside.waiting = Some(Motion { place_mm, speed });
         drop(inside);
         self.turn();
         OK.to_owned()
+    }
+
+    /// Answer to a query or a command after `$`.
+    fn answer(&self, query: &str) -> String {
+        let lines =
+            |lines: &[&str]| -> String { lines.iter().map(|line| format!("{line}\r\n")).collect() };
+        let found = match query {
+            "$" => lines(SETTINGS),
+            "#" => lines(OFFSETS),
+            "G" => lines(&["[GC:G1 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0]"]),
+            "I" => lines(&["[VER:1.1h.20190825:]", "[OPT:V,15,128]"]),
+            "X" => {
+                self.inside().is_alarmed = false;
+                lines(&["[MSG:Caution: Unlocked]"])
+            }
+            _ => return UNKNOWN_QUERY.to_owned(),
+        };
+        found + OK
     }
 }

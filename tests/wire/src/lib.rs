@@ -27,6 +27,8 @@ mod rig_file;
 mod server;
 #[cfg(unix)]
 mod terminal;
+#[cfg(unix)]
+mod words;
 
 pub mod control;
 #[cfg(unix)]

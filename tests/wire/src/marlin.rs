@@ -1,7 +1,8 @@
 //! Emulated printer with Marlin 2 at the other end of a pseudo-terminal.
 //!
-//! Supported: queued `G1` (with `G21 G90`), `M114` with the planned position, `M115`, `M118`, `M400`, and immediate `M410`. Not supported:
-//! heating, homing, acceleration, line numbers, lost steps.
+//! Supported: queued `G0` and `G1` (with `G21 G90`, with some coordinates or all, with and without blanks), line numbers and checksums with
+//! requests to resend. Supported too: `M105` without heaters, `M110`, `M114` with the planned position, `M115`, `M118`, `M400`, immediate
+//! `M410`. Not supported: heating, homing, acceleration, lost steps.
 
 use std::collections::VecDeque;
 use std::fs::File;
@@ -17,6 +18,7 @@ use crate::error::WireError;
 use crate::fault::{Arm, ArmFault, Device, FaultKind};
 use crate::server::End;
 use crate::terminal::ServedLine;
+use crate::words::Words;
 
 /// Emulated printer, unplugged on drop.
 #[derive(Debug)]
@@ -46,6 +48,10 @@ struct Inside {
     is_killed: bool,
     current: Option<Motion>,
     waiting: VecDeque<Motion>,
+    /// Last feed, mm/min, which later motions keep.
+    feed: Option<f64>,
+    /// Number of the last numbered line.
+    last_line: i64,
     /// Commands received while another one waits for the motions.
     lines: VecDeque<String>,
 }
@@ -157,12 +163,22 @@ impl Printer {
         answers
     }
 
-    /// Handles a received command; commands after a waiting one are answered later.
+    /// Handles a received line; commands after a waiting one are answered later.
     fn take(&self, line: &str) -> String {
         let mut inside = self.inside();
         if inside.is_killed || line.is_empty() {
             return String::new();
         }
+        let line = match numbered(line, inside.last_line) {
+            Ok(Numbered { number, command }) => {
+                inside.last_line = number.unwrap_or(inside.last_line);
+                command
+            }
+            Err(why) => {
+                let last = inside.last_line;
+                return format!("Error:{why}, Last Line: {last}\nResend: {}\n{OK}", last + 1);
+            }
+        };
         if line == "M410" && self.firmware == Firmware::StopsAtOnce {
             self.stop(&mut inside);
         }
@@ -178,13 +194,10 @@ impl Printer {
     }
 
     fn carry_out(&self, inside: &mut Inside, line: &str) -> String {
-        let words: Vec<&str> = line.split_whitespace().collect();
-        let number = |letter: char| {
-            let word = words.iter().find_map(|word| word.strip_prefix(letter));
-            word.and_then(|number| number.parse::<f64>().ok())
-        };
-        match words.first().copied().unwrap_or_default() {
-            "G21" | "G90" | "M400" => OK.to_owned(),
+        let code = line.split_whitespace().next().unwrap_or_default();
+        match code {
+            "G21" | "G90" | "M110" | "M400" => OK.to_owned(),
+            "M105" => "ok T:21.00 /0.00 B:21.00 /0.00 @:0 B@:0\n".to_owned(),
             "M410" => {
                 self.stop(inside);
                 OK.to_owned()
@@ -206,23 +219,113 @@ impl Printer {
                 )
             }
             "M118" => format!("{}\n{OK}", line[4..].trim_start()),
-            "G1" => {
-                let place = [number('X'), number('Y'), number('Z')];
-                let speed = number('F').and_then(|feed| Speed::try_new(feed / 60.0).ok());
-                if let ([Some(x), Some(y), Some(z)], Some(speed)) = (place, speed) {
-                    inside.waiting.push_back(Motion {
-                        place_mm: [x, y, z],
-                        speed,
-                    });
-                    if !self.bench.is_moving() {
-                        inside.current = inside.waiting.pop_front();
-                        let place = Base::pose([x, y, z], 0.0);
-                        self.bench.set_out(place, speed);
-                    }
+            _ => match Words::read(line)
+                .filter(|words| [0, 1].iter().any(|code| words.has('G', *code)))
+            {
+                Some(words) => {
+                    self.go(inside, &words);
+                    OK.to_owned()
                 }
-                OK.to_owned()
-            }
-            _ => format!("echo:Unknown command: \"{line}\"\n{OK}"),
+                None => format!("echo:Unknown command: \"{line}\"\n{OK}"),
+            },
+        }
+    }
+
+    /// Queues a motion; coordinates and a feed that the line lacks stay.
+    fn go(&self, inside: &mut Inside, words: &Words) {
+        let at = self.bench.pose().position;
+        let at = Base::to_base([at.x.0, at.y.0, at.z.0]);
+        let last = inside.waiting.back().or(inside.current.as_ref());
+        let [x, y, z] = last.map_or(at, |motion| motion.place_mm);
+        let place_mm = [('X', x), ('Y', y), ('Z', z)]
+            .map(|(letter, stays)| words.number(letter).unwrap_or(stays));
+        inside.feed = words.number('F').or(inside.feed);
+        let speed = inside
+            .feed
+            .and_then(|feed| Speed::try_new(feed / 60.0).ok());
+        let Some(speed) = speed else {
+            return;
+        };
+        inside.waiting.push_back(Motion { place_mm, speed });
+        if !self.bench.is_moving() {
+            inside.current = inside.waiting.pop_front();
+            self.bench.set_out(Base::pose(place_mm, 0.0), speed);
+        }
+    }
+}
+
+/// Command of a line, and its number if it has one.
+#[derive(Debug, PartialEq)]
+struct Numbered<'a> {
+    number: Option<i64>,
+    command: &'a str,
+}
+
+/// Takes number and checksum off a line after line `last`; the error is the firmware's.
+fn numbered(line: &str, last: i64) -> Result<Numbered<'_>, &'static str> {
+    let (text, checksum) = match line.rsplit_once('*') {
+        Some((text, checksum)) => (text, Some(checksum)),
+        None => (line, None),
+    };
+    let Some(behind) = text.strip_prefix('N') else {
+        return match checksum {
+            Some(_) => Err("No Line Number with checksum"),
+            None => Ok(Numbered {
+                number: set_number(text),
+                command: text,
+            }),
+        };
+    };
+    let (number, command) = behind.split_once(' ').unwrap_or((behind, ""));
+    let command = command.trim();
+    let set = set_number(command);
+    let number: i64 = number.parse().unwrap_or(i64::MIN);
+    if number != last + 1 && set.is_none() {
+        return Err("Line Number is not Last Line Number+1");
+    }
+    let Some(checksum) = checksum else {
+        return Err("No Checksum with line number");
+    };
+    let sum = text.bytes().fold(0, |sum, byte| sum ^ byte);
+    if checksum.trim().parse::<u8>() != Ok(sum) {
+        return Err("checksum mismatch");
+    }
+    Ok(Numbered {
+        number: set.or(Some(number)),
+        command,
+    })
+}
+
+/// Number that `M110 N5` sets.
+fn set_number(command: &str) -> Option<i64> {
+    command.strip_prefix("M110 N")?.trim().parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_with_a_wrong_number_or_checksum_is_asked_for_again() {
+        // As printrun 2.2.0 writes them.
+        for (line, last, number, command) in [
+            ("N-1 M110 N-1*125", 7, Some(-1), "M110 N-1"),
+            ("N0 G21*26", -1, Some(0), "G21"),
+            ("N2 G1 X1 Y2 Z3 F600*49", 1, Some(2), "G1 X1 Y2 Z3 F600"),
+            ("G21", 5, None, "G21"),
+            ("M110 N9", 5, Some(9), "M110 N9"),
+        ] {
+            assert_eq!(numbered(line, last), Ok(Numbered { number, command }));
+        }
+        for (line, last, error) in [
+            ("N2 G1 X1 Y2 Z3 F600*48", 1, "checksum mismatch"),
+            ("N2 G1 X1 Y2 Z4 F600*49", 1, "checksum mismatch"),
+            ("N0 G21*26", 3, "Line Number is not Last Line Number+1"),
+            ("N0 G21", -1, "No Checksum with line number"),
+            ("G21*26", 3, "No Line Number with checksum"),
+            ("N0 G21*x", -1, "checksum mismatch"),
+        ] {
+            assert_eq!(numbered(line, last), Err(error), "{line}");
         }
     }
 }

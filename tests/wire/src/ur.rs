@@ -1,8 +1,10 @@
-//! Emulated controller of Universal Robots: the real-time data exchange (port 30004) and script (port 30002).
+//! Emulated controller of Universal Robots: the real-time data exchange (port 30004), script (port 30002) and the dashboard (port 29999).
 //!
 //! Supported: the outputs of a version by name (zeros for what is not simulated), `movel` to a pose, `speedl` for a time (without rotation), `stopl` with a
-//! register number before it, safety stops. Not supported: inputs, other script, acceleration, joints.
+//! register number before it, safety stops, the speed slider, questions at the dashboard. Not supported: inputs, other script, programs
+//! of the dashboard, acceleration, joints.
 
+mod dashboard;
 mod exchange;
 mod outputs;
 mod program;
@@ -25,10 +27,13 @@ pub struct Emulator {
     controller: Arc<Controller>,
     states: Server,
     script: Server,
+    dashboard: Server,
 }
 
 /// Ports that clients expect: data exchange, and script.
 pub const USUAL_PORTS: [u16; 2] = [30_004, 30_002];
+/// Port of the dashboard that clients expect.
+pub const USUAL_DASHBOARD_PORT: u16 = 29_999;
 /// A tool that points down.
 const DOWN: [f64; 3] = [std::f64::consts::PI, 0.0, 0.0];
 /// Maximum length of a program, bytes.
@@ -51,7 +56,7 @@ struct Inside {
     turned: [f64; 3],
     /// Number of the last numbered stop.
     stop_number: i32,
-    /// Position of the speed slider, 0 to 1. It is reported only: motions keep their speed.
+    /// Position of the speed slider, 0 to 1, which slows every motion.
     slider: f64,
 }
 
@@ -82,6 +87,12 @@ impl Controller {
 
     fn fault(&self) -> Option<ArmFault> {
         self.inside().fault
+    }
+
+    /// Ends a protective stop, and no emergency stop.
+    fn unlock(&self) {
+        let mut inside = self.inside();
+        inside.fault = inside.fault.filter(|fault| *fault != ArmFault::Collision);
     }
 
     /// Moves at a velocity until it expires.
@@ -120,13 +131,14 @@ impl Controller {
             lasts_s,
         } = *program
         {
-            self.cruise(velocity_m_s, lasts_s);
+            let scaled = velocity_m_s.map(|side| side * inside.slider);
+            self.cruise(scaled, lasts_s);
         }
         if let Program::MoveLine {
             pose: [x, y, z, rx, ry, rz],
             speed_m_s,
         } = *program
-            && let Ok(speed) = Speed::try_new(speed_m_s * 1e3)
+            && let Ok(speed) = Speed::try_new(speed_m_s * 1e3 * inside.slider)
         {
             inside.turned = [rx, ry, rz];
             let yaw_rad = 0.0;
@@ -137,7 +149,8 @@ impl Controller {
 }
 
 impl Emulator {
-    /// Starts an arm over the gel of `bench`: switched on, 20 mm above it; port 0 selects any free port.
+    /// Starts an arm over the gel of `bench`: switched on, 20 mm above it; port 0 selects any free port. The dashboard has its usual port if
+    /// both others have theirs, and otherwise any free one.
     ///
     /// # Errors
     /// [`WireError`] if it cannot listen on a port.
@@ -160,6 +173,10 @@ impl Emulator {
         version: [u32; 2],
     ) -> Result<Emulator, WireError> {
         let end = End::default();
+        let dashboard = match [states, script] {
+            USUAL_PORTS => USUAL_DASHBOARD_PORT,
+            _ => 0,
+        };
         let controller = Arc::new(Controller {
             bench: bench.clone(),
             version,
@@ -194,21 +211,32 @@ impl Emulator {
                 }
             }
         })?;
+        let serving = (Arc::clone(&controller), end.clone());
+        let dashboard = Server::start(host, dashboard, &end, move |stream| {
+            // A closed client ends its questions.
+            let _ = dashboard::serve(stream, &serving.0, &serving.1);
+        })?;
         Ok(Emulator {
             controller,
             states,
             script,
+            dashboard,
         })
     }
 
-    /// Sets the speed slider of the pendant, 0 to 1.
+    /// Sets the speed slider, 0.01 to 1, which slows all later motions and is an output.
     pub fn set_slider(&self, slider: f64) {
-        self.controller.inside().slider = slider;
+        self.controller.inside().slider = slider.clamp(0.01, 1.0);
     }
 
     /// Address of the data exchange.
     pub fn states_address(&self) -> SocketAddr {
         self.states.address()
+    }
+
+    /// Address of the dashboard.
+    pub fn dashboard_address(&self) -> SocketAddr {
+        self.dashboard.address()
     }
 
     /// Address of the script port.

@@ -1,14 +1,18 @@
 //! Emulated control box of UFACTORY: commands on port 502, reports on 30001, 30002 and 30003.
 //!
-//! Supported: versions, enabling, modes, states, queued straight motions (absolute and relative, both layouts), expiring velocities of the
-//! tip, poses, errors and their clearing, and messages at the end of a motion. Not supported: servo motions, velocities with rotation,
-//! blending, joints, limits of jerk, braking distances. Speeds outside the limits of the rich report are changed without a word. An unknown
-//! register is answered with "result invalid".
+//! Supported motions: queued straight ones (absolute, relative, in the frame of the tool, with rotation vectors, both layouts), motions of
+//! the joints, checks, expiring velocities of the tip. Supported too: versions, enabling, modes, states, poses, errors and their clearing,
+//! messages at the end of a motion. Not supported: servo motions, velocities with rotation, blending, limits of jerk, braking distances.
+//! A motion of the joints goes straight, by the kinematics of an xArm 6. Speeds outside the limits of the rich report are changed without
+//! a word. An unknown register is answered with "result invalid".
 
 mod answer;
 mod client;
 mod controller;
+mod joint_motion;
+mod kinematics;
 mod line;
+mod placement;
 mod report;
 mod session;
 

@@ -107,7 +107,7 @@ impl Transducer {
         let found = self.records.next(self.last, patience);
         let seen = found.map_err(|none| {
             none.while_waiting(&KEY, READ, || {
-                let missing = self.records.newest().map_or(0, |seen| seen.what.missing);
+                let missing = self.missing();
                 format!("no reading within {patience:?}; {missing} earlier readings were lost")
             })
         })?;
@@ -115,6 +115,11 @@ impl Transducer {
         self.sequence = Some(u64::from(seen.what.record.number));
         self.is_latched |= seen.what.record.status.is_latched();
         Ok(seen)
+    }
+
+    /// Number of records lost so far, by their sequence numbers.
+    fn missing(&self) -> u64 {
+        self.records.newest().map_or(0, |seen| seen.what.missing)
     }
 
     /// Converts a record to N and N·mm, including the zero offset of the box.
@@ -166,6 +171,10 @@ impl ForceTransducer for Transducer {
 
     fn sequence(&self) -> Option<u64> {
         self.sequence
+    }
+
+    fn lost(&self) -> Option<u64> {
+        Some(self.missing())
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

@@ -212,6 +212,11 @@ impl ForceTransducer for Transducer {
         self.sequence
     }
 
+    fn lost(&self) -> Option<u64> {
+        let newest = self.link.readings().newest();
+        Some(newest.map_or(0, |seen| seen.what.missing))
+    }
+
     fn stop(&mut self) -> Result<(), DriverError> {
         if !self.is_running {
             return Ok(());

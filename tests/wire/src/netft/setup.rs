@@ -38,15 +38,29 @@ impl Setup {
     /// The page `/netftapi2.xml` of a transducer with the serial number `serial`.
     pub(super) fn page(&self, serial: &str, range_n: f64) -> String {
         let tool = self.tool.map(|number| number.to_string()).join(";");
+        let six_zeros = "0;0;0;0;0;0";
+        let conditions = |value: &str| [value; 16].join(";");
         let range = [range_n, range_n, range_n, RANGE_NM, RANGE_NM, RANGE_NM];
         let entries = [
             ("runstat", "0x00000000".to_owned()),
-            ("runft", "0;0;0;0;0;0".to_owned()),
+            ("runft", six_zeros.to_owned()),
+            ("runpkmx", six_zeros.to_owned()),
+            ("runpkmn", six_zeros.to_owned()),
             ("runrate", INTERNAL_HZ.to_string()),
+            ("runmcb", "0x00000000".to_owned()),
+            ("runmco", "0x00".to_owned()),
+            ("runmcl", "0".to_owned()),
             ("setcfgsel", "0".to_owned()),
             ("setuserfilter", self.filter.to_string()),
-            ("setbias", "0;0;0;0;0;0".to_owned()),
-            ("setmce", "Disabled".to_owned()),
+            ("setpke", "0".to_owned()),
+            ("setbias", six_zeros.to_owned()),
+            ("setmce", "0".to_owned()),
+            // Thresholds of which none is used.
+            ("mce", conditions("0")),
+            ("mcx", conditions("-1")),
+            ("mcc", conditions("1")),
+            ("mcv", conditions("0")),
+            ("mco", conditions("0x00")),
             ("cfgnam", "Configuration &#35;1".to_owned()),
             ("cfgcalsel", "0".to_owned()),
             ("cfgcalsn", serial.to_owned()),
@@ -60,10 +74,17 @@ impl Setup {
             ("scfgtdu", "mm".to_owned()),
             ("scfgtau", "degrees".to_owned()),
             ("cfgtfx", tool),
+            ("cfgusra", "empty".to_owned()),
+            ("cfgusrb", "empty".to_owned()),
+            ("nethwaddr", "02:00:00:00:00:00".to_owned()),
+            ("netip", "127.0.0.1".to_owned()),
+            ("comnetip", "127.0.0.1".to_owned()),
             ("comnetdhcp", "Disabled".to_owned()),
             ("comrdte", "Enabled".to_owned()),
             ("comrdtrate", RATE_HZ.to_string()),
             ("comrdtbsiz", "40".to_owned()),
+            ("mfgdigsn", serial.to_owned()),
+            ("mfgdigver", "2.2.59".to_owned()),
             ("prodname", "TACEVA-SIM".to_owned()),
         ];
         let entries = entries.map(|(key, value)| format!("<{key}>{value}</{key}>\r\n"));

@@ -1,8 +1,10 @@
 //! Answers of each register.
 
 use super::client::{Client, Push};
-use super::controller::{Controller, Snapshot};
+use super::controller::{Controller, Snapshot, Taken};
+use super::joint_motion::JointMotion;
 use super::line::Line;
+use super::placement::Placement;
 
 /// Settings of one client.
 #[derive(Debug, Default)]
@@ -15,8 +17,8 @@ const HAS_ERROR: u8 = 0x40;
 const HAS_WARNING: u8 = 0x20;
 const NOT_READY: u8 = 0x10;
 const INVALID: u8 = 0x08;
-/// Length of the answer to the version query.
-const VERSION_BYTES: usize = 40;
+/// Length of the answers to the queries of the version and of the serial numbers.
+const TEXT_BYTES: usize = 40;
 
 impl Session {
     /// Answer frames of a command; `head` is its transaction and protocol.
@@ -33,6 +35,7 @@ impl Session {
         let mut pushed = None;
         let data = match (register, first) {
             (1, _) => version(controller),
+            (2, _) => padded(serials(controller).join("\0")),
             (11, Some(_)) => {
                 controller.enable(parameters.get(1) == Some(&1));
                 Vec::new()
@@ -59,36 +62,32 @@ impl Session {
                 controller.set_mode(mode);
                 Vec::new()
             }
-            (21 | 83, _) => {
-                let line = match register {
-                    21 => Line::absolute(parameters, controller.takes_long_lines()),
-                    _ => Line::relative(parameters),
-                };
-                let is_only_checked = line.as_ref().is_some_and(|line| line.is_only_checked);
+            (21 | 23 | 24 | 28 | 83 | 92, _) => {
                 let push = self.wants_push.then(|| Push {
                     client: client.clone(),
                     head,
                 });
-                match line {
-                    Some(line) if controller.take(&line, push) => {}
-                    Some(_) => refused = NOT_READY,
+                let taken = taken(controller, register, parameters, push);
+                let mut data = controller.snapshot().queued.to_be_bytes().to_vec();
+                match taken {
+                    Some(Taken::Accepted) => {}
+                    Some(Taken::Checked(error)) => data.push(error),
+                    Some(Taken::Refused) => refused = NOT_READY,
                     None => refused = INVALID,
                 }
-                let mut data = controller.snapshot().queued.to_be_bytes().to_vec();
-                // Result of a check: the motion is possible.
-                data.extend(is_only_checked.then_some(0));
                 data
             }
-            (41, _) => controller
-                .snapshot()
-                .pose
-                .into_iter()
-                .flat_map(f32::to_le_bytes)
-                .collect(),
-            (42, _) => [0.0_f32; 7]
-                .into_iter()
-                .flat_map(f32::to_le_bytes)
-                .collect(),
+            (41, _) => numbers(&controller.snapshot().pose),
+            (42, _) => {
+                let mut angles = numbers(&controller.snapshot().angles);
+                // The seventh joint of other arms.
+                angles.extend([0; 4]);
+                angles
+            }
+            (91, _) => {
+                let Snapshot { pose, .. } = controller.snapshot();
+                numbers(&Placement::of_pose(pose).rotation_vector())
+            }
             (82, _) => {
                 match velocity(parameters) {
                     Some((velocity_mm_s, duration_s))
@@ -127,6 +126,38 @@ impl Session {
     }
 }
 
+/// Reply to the motion in the parameters of `register`; `None` if they match no layout.
+fn taken(
+    controller: &Controller,
+    register: u8,
+    parameters: &[u8],
+    push: Option<Push>,
+) -> Option<Taken> {
+    let joints = match register {
+        23 | 24 => JointMotion::absolute(parameters),
+        83 => JointMotion::relative(parameters),
+        _ => None,
+    };
+    if let Some(joints) = joints {
+        return Some(controller.turn_joints(&joints, push));
+    }
+    let line = match register {
+        21 => Line::absolute(parameters, controller.takes_long_lines()),
+        28 => Line::in_tool(parameters),
+        83 => Line::relative(parameters),
+        92 => Line::by_rotation_vector(parameters),
+        _ => None,
+    };
+    Some(controller.take(&line?, push))
+}
+
+fn numbers(numbers: &[f32]) -> Vec<u8> {
+    numbers
+        .iter()
+        .flat_map(|number| number.to_le_bytes())
+        .collect()
+}
+
 /// Velocity in mm/s and its duration in s, from the parameters of register 82. `None` with rotation, in the tool frame, without an end, or
 /// for an invalid number.
 fn velocity(parameters: &[u8]) -> Option<([f64; 3], f64)> {
@@ -159,13 +190,23 @@ fn status(snapshot: &Snapshot) -> u8 {
     status
 }
 
-/// Identity of the controller: six axes, type 12, and serial numbers. That of the control box marks it as simulated.
-fn version(controller: &Controller) -> Vec<u8> {
-    let [major, minor, revision] = controller.firmware;
+/// Serial numbers of the arm, in the maker's form, and of the control box, which marks it as simulated.
+fn serials(controller: &Controller) -> [String; 2] {
     let serial = controller.bench.serial();
     let number: String = serial.chars().filter(char::is_ascii_digit).collect();
-    let text = format!("6,12,XF1300{number},{serial},v{major}.{minor}.{revision}");
+    [format!("XF1300{number}"), serial]
+}
+
+/// Identity of the controller: six axes, type 12, serial numbers and firmware.
+fn version(controller: &Controller) -> Vec<u8> {
+    let [major, minor, revision] = controller.firmware;
+    let serials = serials(controller).join(",");
+    padded(format!("6,12,{serials},v{major}.{minor}.{revision}"))
+}
+
+/// Text in an answer of fixed length.
+fn padded(text: String) -> Vec<u8> {
     let mut bytes = text.into_bytes();
-    bytes.resize(VERSION_BYTES, 0);
+    bytes.resize(TEXT_BYTES, 0);
     bytes
 }

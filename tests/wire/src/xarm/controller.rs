@@ -6,7 +6,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use taceva_core::Speed;
 
 use super::client::Push;
+use super::joint_motion::JointMotion;
+use super::kinematics::{ABOVE, Angles, angles_at, flange};
 use super::line::Line;
+use super::placement::Placement;
 use crate::base::Base;
 use crate::bench::WallBench;
 use crate::fault::ArmFault;
@@ -28,6 +31,8 @@ struct BoxState {
     enabled: u8,
     /// roll, pitch, yaw in rad, which the gel ignores.
     turned: [f32; 3],
+    /// Angles of the joints at the last look.
+    angles: Angles,
     waiting: VecDeque<Order>,
     /// Motion in progress.
     current: Option<Order>,
@@ -37,8 +42,29 @@ struct BoxState {
 #[derive(Debug)]
 struct Order {
     pose: [f32; 6],
+    /// Angles at the end of a motion of the joints.
+    angles: Option<Angles>,
     speed: Speed,
     push: Option<Push>,
+}
+
+/// A motion that a client wants.
+struct Motion {
+    pose: [f32; 6],
+    angles: Option<Angles>,
+    speed_mm_s: f64,
+    is_only_checked: bool,
+}
+
+/// Reply to a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Taken {
+    /// The arm makes it, or said by an error or a warning why it does not.
+    Accepted,
+    /// It was only checked: the number of the error that it would end in, or 0.
+    Checked(u8),
+    /// The arm may not move.
+    Refused,
 }
 
 /// Content of a status byte and a report.
@@ -51,6 +77,8 @@ pub(super) struct Snapshot {
     pub(super) enabled: u8,
     pub(super) queued: u16,
     pub(super) pose: [f32; 6],
+    /// Angles of the joints, rad.
+    pub(super) angles: [f32; 6],
 }
 
 /// Mode for velocities of the tip.
@@ -69,6 +97,11 @@ const BOUNDARY: u8 = 35;
 const BAD_PARAMETER: u8 = 12;
 /// Least and greatest speed of the tip, mm/s. Other speeds become the nearest of these.
 pub(super) const SPEEDS_MM_S: [f64; 2] = [0.1, 1_000.0];
+/// Least and greatest speed of a joint, rad/s.
+pub(super) const JOINT_SPEEDS_RAD_S: [f64; 2] = [0.001, 3.0];
+/// Least time of a motion of the joints, s, and least speed of the tip in it, mm/s: joints may turn without a way of the tip.
+const TURN_MIN_S: f64 = 1e-3;
+const TURN_MIN_MM_S: f64 = 1e-3;
 /// Safety boundary: range of the tip about the centre of the gel, mm.
 const BOUNDARY_MM: [[f64; 2]; 3] = [[-60.0, 60.0], [-60.0, 60.0], [-100.0, 30.0]];
 
@@ -84,6 +117,7 @@ impl Controller {
                 warning: 0,
                 enabled: ALL_JOINTS,
                 turned: [std::f32::consts::PI, 0.0, 0.0],
+                angles: ABOVE,
                 waiting: VecDeque::new(),
                 current: None,
             }),
@@ -97,7 +131,11 @@ impl Controller {
 
     pub(super) fn snapshot(&self) -> Snapshot {
         self.turn();
-        let inside = self.inside();
+        let mut inside = self.inside();
+        let pose = self.pose(&inside);
+        if let Some(angles) = angles_at(&Placement::of_pose(pose), inside.angles) {
+            inside.angles = angles;
+        }
         Snapshot {
             state: inside.state,
             mode: inside.mode,
@@ -106,7 +144,8 @@ impl Controller {
             enabled: inside.enabled,
             queued: u16::try_from(inside.waiting.len() + usize::from(inside.current.is_some()))
                 .unwrap_or(u16::MAX),
-            pose: self.pose(&inside),
+            pose,
+            angles: inside.angles.map(single),
         }
     }
 
@@ -125,6 +164,7 @@ impl Controller {
         }
         if let Some(done) = inside.current.take() {
             inside.turned = [done.pose[3], done.pose[4], done.pose[5]];
+            inside.angles = done.angles.unwrap_or(inside.angles);
             if let Some(push) = done.push {
                 push.send(Push::SUCCEEDED);
             }
@@ -135,44 +175,90 @@ impl Controller {
         }
     }
 
-    /// Accepts a motion; `false` if the arm may not move.
-    pub(super) fn take(&self, line: &Line, push: Option<Push>) -> bool {
+    /// Accepts a straight motion.
+    pub(super) fn take(&self, line: &Line, push: Option<Push>) -> Taken {
         let mut inside = self.inside();
+        let last = inside.waiting.back().or(inside.current.as_ref());
+        let from = last.map_or_else(|| self.pose(&inside), |order| order.pose);
+        let [least, most] = SPEEDS_MM_S;
+        let speed_mm_s = f64::from(line.speed_mm_s).clamp(least, most);
+        let motion = Motion {
+            pose: line.end(from),
+            angles: None,
+            speed_mm_s,
+            is_only_checked: line.is_only_checked,
+        };
+        self.accept(&mut inside, motion, push)
+    }
+
+    /// Accepts a motion of the joints. The tip goes straight to where they bring it, in the time that the slowest of them needs.
+    pub(super) fn turn_joints(&self, motion: &JointMotion, push: Option<Push>) -> Taken {
+        self.snapshot();
+        let mut inside = self.inside();
+        let last = inside.waiting.back().or(inside.current.as_ref());
+        let from = last.map_or_else(|| self.pose(&inside), |order| order.pose);
+        let from = Placement::of_pose(from);
+        let before = last.and_then(|order| order.angles);
+        let before = before.or_else(|| angles_at(&from, inside.angles));
+        let before = before.unwrap_or(inside.angles);
+        let angles = motion.end(before);
+        let ways = angles
+            .iter()
+            .zip(before)
+            .map(|(end, from)| (end - from).abs());
+        let [least, most] = JOINT_SPEEDS_RAD_S;
+        let speed_rad_s = f64::from(motion.speed_rad_s).clamp(least, most);
+        let lasts_s = (ways.fold(0.0, f64::max) / speed_rad_s).max(TURN_MIN_S);
+        let end = flange(angles);
+        let [x, y, z, ..] = from.apart(&end);
+        let speed_mm_s = x.hypot(y).hypot(z) / lasts_s;
+        let motion = Motion {
+            pose: end.pose(),
+            angles: Some(angles),
+            speed_mm_s: speed_mm_s.max(TURN_MIN_MM_S),
+            is_only_checked: motion.is_only_checked,
+        };
+        self.accept(&mut inside, motion, push)
+    }
+
+    fn accept(&self, inside: &mut BoxState, motion: Motion, push: Option<Push>) -> Taken {
         let can_move = inside.error == 0
             && inside.mode == 0
             && inside.enabled == ALL_JOINTS
             && inside.state < STOPPED;
         if !can_move {
-            return false;
+            return Taken::Refused;
         }
-        let last = inside.waiting.back().or(inside.current.as_ref());
-        let from = last.map_or_else(|| self.pose(&inside), |order| order.pose);
-        let pose = line.end(from);
-        let [least, most] = SPEEDS_MM_S;
-        let speed = Speed::try_new(f64::from(line.speed_mm_s).clamp(least, most));
+        let Motion { pose, angles, .. } = motion;
+        let speed = Speed::try_new(motion.speed_mm_s);
         let (true, Ok(speed)) = (pose.iter().all(|side| side.is_finite()), speed) else {
             inside.warning = BAD_PARAMETER;
-            return true;
+            return Taken::Accepted;
         };
-        if line.is_only_checked {
-            return true;
-        }
         let place = Base::to_sensor([pose[0], pose[1], pose[2]].map(f64::from));
         let is_inside = place
             .iter()
             .zip(BOUNDARY_MM)
             .all(|(side, [least, most])| (least..=most).contains(side));
-        if !is_inside {
-            self.fail(&mut inside, BOUNDARY);
-            return true;
+        if motion.is_only_checked {
+            return Taken::Checked(if is_inside { 0 } else { BOUNDARY });
         }
-        let order = Order { pose, speed, push };
+        if !is_inside {
+            self.fail(inside, BOUNDARY);
+            return Taken::Accepted;
+        }
+        let order = Order {
+            pose,
+            angles,
+            speed,
+            push,
+        };
         if inside.current.is_some() || inside.state == PAUSED {
             inside.waiting.push_back(order);
         } else {
-            self.begin(&mut inside, order);
+            self.begin(inside, order);
         }
-        true
+        Taken::Accepted
     }
 
     /// Accepts a velocity in mm/s of the base frame for `duration_s`; `false` if the arm may not move.
@@ -198,8 +284,13 @@ impl Controller {
         for (side, velocity_mm_s) in pose.iter_mut().zip(velocity_mm_s) {
             *side += single(velocity_mm_s * duration_s);
         }
-        let push = None;
-        self.begin(&mut inside, Order { pose, speed, push });
+        let order = Order {
+            pose,
+            angles: None,
+            speed,
+            push: None,
+        };
+        self.begin(&mut inside, order);
         true
     }
 

@@ -4,7 +4,8 @@ use std::io::Write;
 use std::net::TcpStream;
 use std::time::Duration;
 
-use super::controller::{Controller, SPEEDS_MM_S, Snapshot, single};
+use super::controller::{Controller, JOINT_SPEEDS_RAD_S, SPEEDS_MM_S, Snapshot, single};
+use super::placement::Placement;
 use crate::fault::{Device, FaultKind};
 use crate::link::Link;
 use crate::server::End;
@@ -71,21 +72,21 @@ fn write(port: ReportPort, shown: &Snapshot, [major, minor, revision]: [u32; 3])
     put(0, &u32::try_from(length).unwrap_or(0).to_be_bytes());
     put(4, &[shown.state | shown.mode << 4]);
     put(5, &shown.queued.to_be_bytes());
-    let pose: Vec<u8> = shown.pose.into_iter().flat_map(f32::to_le_bytes).collect();
-    put(35, &pose);
+    let numbers = |numbers: &[f32]| -> Vec<u8> {
+        let bytes = numbers.iter().flat_map(|number| number.to_le_bytes());
+        bytes.collect()
+    };
+    put(7, &numbers(&shown.angles));
+    put(35, &numbers(&shown.pose));
     if port != ReportPort::Pose {
         // Brakes are open if motors are on.
         put(
             87,
             &[shown.enabled, shown.enabled, shown.error, shown.warning],
         );
-        let gravity: Vec<u8> = [0.0_f32, 0.0, -1.0]
-            .into_iter()
-            .flat_map(f32::to_le_bytes)
-            .collect();
-        // Sensitivities of collision and of hand guiding.
+        // Sensitivities of collision and of hand guiding, and gravity.
         put(131, &[3, 3]);
-        put(133, &gravity);
+        put(133, &numbers(&[0.0, 0.0, -1.0]));
     }
     if port == ReportPort::Rich {
         // Type and axes, then the version.
@@ -93,11 +94,13 @@ fn write(port: ReportPort, shown: &Snapshot, [major, minor, revision]: [u32; 3])
         put(151, format!("v{major}.{minor}.{revision}").as_bytes());
         // Jerk, then accelerations and speeds of the tip, least and greatest, then those of joints.
         let [least, most] = SPEEDS_MM_S.map(single);
+        let [slowest, fastest] = JOINT_SPEEDS_RAD_S.map(single);
         let limits = [
-            1_000.0, 1.0, 50_000.0, least, most, 20.0, 0.01, 20.0, 0.001, 3.0,
+            1_000.0, 1.0, 50_000.0, least, most, 20.0, 0.01, 20.0, slowest, fastest,
         ];
-        let limits: Vec<u8> = limits.into_iter().flat_map(f32::to_le_bytes).collect();
-        put(181, &limits);
+        put(181, &numbers(&limits));
+        let [.., rx, ry, rz] = Placement::of_pose(shown.pose).rotation_vector();
+        put(482, &numbers(&[rx, ry, rz]));
     }
     bytes
 }

@@ -1,6 +1,11 @@
 //! Third-party programs on the other end of our sockets, which show that our two ends do not share an error.
 
 mod ffmpeg;
+#[cfg(unix)]
+mod grbl;
+#[cfg(unix)]
+mod marlin;
+mod mjpeg;
 mod netft;
 mod printer;
 mod python;

@@ -1,5 +1,6 @@
 //! Every driver of a robot and of a force transducer with its emulated device, through sockets and a pseudo-terminal.
 
+mod answers;
 mod expiring;
 mod gate;
 #[cfg(unix)]

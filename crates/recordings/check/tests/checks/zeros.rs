@@ -103,6 +103,15 @@ fn a_zero_of_rows_without_times_steps_at_a_row() {
 }
 
 #[test]
+fn a_zero_that_steps_in_a_press_is_seen_at_the_next_picture_without_contact() {
+    // Sample 122 is the second of three in one press.
+    let step = |number: u32| if number < 122 { 0.0 } else { -0.6 };
+    let report = with_zero("Fz", false, step);
+    let said = message(&report, "TAC035");
+    assert!(said.contains("at row 125: the zero has moved"), "{said}");
+}
+
+#[test]
 fn a_shear_force_that_is_zeroed_anew_steps_beside_a_sound_normal_force() {
     let step = |number: u32| if number < 60 { 0.0 } else { 0.35 };
     let report = with_zero("Fx", true, step);

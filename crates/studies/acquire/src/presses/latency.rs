@@ -87,6 +87,10 @@ impl ForceTransducer for Late<dyn ForceTransducer> {
         self.device.sequence()
     }
 
+    fn lost(&self) -> Option<u64> {
+        self.device.lost()
+    }
+
     fn stop(&mut self) -> Result<(), DriverError> {
         self.device.stop()
     }

@@ -193,6 +193,10 @@ impl ForceTransducer for Turned {
         self.force.sequence()
     }
 
+    fn lost(&self) -> Option<u64> {
+        self.force.lost()
+    }
+
     fn stop(&mut self) -> Result<(), DriverError> {
         self.force.stop()
     }

@@ -44,15 +44,13 @@ pub(super) fn listen_to_force(force: &mut dyn ForceTransducer) -> Result<Stream,
         let (wrench, stamp) = force.read(READ_DEADLINE)?;
         listener.hear(stamp.valid_s, MonotonicClock.now_s());
         listener.measure(wrench.force.map(|force| force.0));
-        if let Some(number) = force.sequence() {
-            listener.number(number);
-        }
         Ok(())
     });
+    let lost = force.lost();
     let stopped = force.stop();
     let heard = heard?;
     stopped?;
-    Ok(heard)
+    Ok(Stream { lost, ..heard })
 }
 
 pub(super) fn listen_to_robot(robot: &mut dyn Robot) -> Result<Stream, DriverError> {

@@ -17,7 +17,8 @@ pub struct Stream {
     pub late_ms: f64,
     /// Greatest standard deviation among the components, in the unit of the reading; `None` for a device without numeric readings.
     pub noise: Option<f64>,
-    /// Number of readings missing by sequence number; `None` for a device without sequence numbers.
+    /// Number of readings lost on their way, as the driver counts them; `None` if it does not. A reading that a newer one overtook on this
+    /// host is not lost.
     pub lost: Option<u64>,
 }
 
@@ -28,7 +29,6 @@ pub(super) struct Listener {
     late_s: f64,
     /// Count, mean and sum of squared deviations of each component, updated incrementally (Welford 1962).
     spread: Option<(f64, [f64; 3], [f64; 3])>,
-    numbers: Option<(u64, u64)>,
 }
 
 impl Listener {
@@ -47,15 +47,6 @@ impl Listener {
             mean[axis] += before / *count;
             squares[axis] += before * (read[axis] - mean[axis]);
         }
-    }
-
-    /// Adds the sequence number of a reading.
-    pub(super) fn number(&mut self, number: u64) {
-        self.numbers = Some(match self.numbers {
-            None => (number, 0),
-            // A lower number means that the device was restarted.
-            Some((last, lost)) => (number, lost + number.saturating_sub(last).saturating_sub(1)),
-        });
     }
 
     /// Mean of each component, and the standard error of that of the last; `None` without values.
@@ -84,7 +75,7 @@ impl Listener {
             gap_ms: gap_s * 1e3,
             late_ms: self.late_s * 1e3,
             noise,
-            lost: self.numbers.map(|(_, lost)| lost),
+            lost: None,
         }
     }
 }
@@ -94,18 +85,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_stream_is_its_rate_its_longest_gap_its_lateness_its_noise_and_what_is_missing() {
+    fn a_stream_is_its_rate_its_longest_gap_its_lateness_and_its_noise() {
         let mut listener = Listener::default();
         for (place, valid_s) in [1.0, 1.01, 1.02, 1.05, 1.06].into_iter().enumerate() {
             listener.hear(valid_s, valid_s + if place == 2 { 0.009 } else { 0.001 });
             let side = if place % 2 == 0 { 1.0 } else { -1.0 };
             listener.measure([0.0, 5.0 + 0.1 * side, 0.05 * side]);
         }
-        for number in [7, 8, 9, 12, 13] {
-            listener.number(number);
-        }
         let stream = listener.heard();
-        assert_eq!((stream.count, stream.lost), (5, Some(2)));
+        assert_eq!(stream.count, 5);
         assert!((stream.rate_hz - 4.0 / 0.06).abs() < 1e-6, "{stream:?}");
         assert!((stream.gap_ms - 30.0).abs() < 1e-6, "{stream:?}");
         assert!((stream.late_ms - 9.0).abs() < 1e-6, "{stream:?}");

@@ -14,7 +14,7 @@ def say(*words):
     sys.stdout.flush()
 
 
-arm = XArmAPI(host, is_radian=False, report_type=report, check_joint_limit=False)
+arm = XArmAPI(host, is_radian=False, report_type=report)
 say("serial", arm.sn)
 say("enabled", arm.motion_enable(True), arm.set_mode(0), arm.set_state(0))
 time.sleep(0.3)

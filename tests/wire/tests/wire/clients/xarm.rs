@@ -1,8 +1,11 @@
 //! `xarm-python-sdk`, UFACTORY's own client, with the emulated arm.
 
+use std::sync::Arc;
+
 use taceva_needs::{Need, skip};
+use taceva_wire::control::Control;
 use taceva_wire::xarm::{Emulator, Ports};
-use taceva_wire::{BenchOptions, WallBench, WireError};
+use taceva_wire::{Arm, BenchOptions, WallBench, WireError};
 
 use super::{address, python};
 
@@ -57,4 +60,57 @@ fn the_public_client_moves_and_stops_the_arm_with_reports_of_status() {
 #[test]
 fn the_public_client_moves_and_stops_an_arm_of_old_firmware() {
     moves_and_stops(3, [1, 10, 0], "rich");
+}
+
+fn moves_by_tool_and_joints(last: u8, firmware: [u32; 3]) {
+    let Some(python) = python::with("xarm") else {
+        return;
+    };
+    let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
+    let host = address(last);
+    let ports = Ports {
+        host,
+        firmware,
+        ..Ports::USUAL
+    };
+    let arm: Arc<dyn Arm> = match Emulator::start(&bench, ports) {
+        Ok(arm) => Arc::new(arm),
+        Err(error @ WireError::Listen { .. }) => return skip(Need::PublicClients, error),
+        Err(error) => panic!("{error}"),
+    };
+    let control = Control::start(&bench, Some(arm), host, 0).expect("a port");
+    let port = control.address().port().to_string();
+    let script = include_str!("xarm_motions.py");
+    let said = python::run(&python, script, &[host.to_string(), port]);
+    let expected = [
+        "serial 0 XF13000007",
+        "checked 0 0",
+        // The boundary of safety.
+        "checked 1 35",
+        "stays 0 300.0 0.0 271.3 180.0 0.0 0.0",
+        "tool 0 0 300.0 0.0 270.0 180.0 0.0 0.0",
+        "turned 0 0 300.0 0.0 270.0 180.0 0.0 -10.0",
+        "rotation 0 0 300.0 0.0 265.0 180.0 0.0 0.0",
+        "by 0 0 300.0 2.0 264.0 180.0 0.0 0.0",
+        "vector 0 300.0 2.0 264.0 180.0 0.0 0.0",
+        "joint 0",
+        "swung True 5.0",
+        "back 0 0 300.0 2.0 264.0 180.0 0.0 0.0",
+        "slow 0 True",
+        // An emergency stop, as the client calls it, before any report of the error.
+        "collided -9 0",
+        "refused 1",
+        "reads 0 (0, [31, 0])",
+    ];
+    assert_eq!(said, expected);
+}
+
+#[test]
+fn the_public_client_moves_by_tool_and_joints_checks_and_learns_of_a_collision() {
+    moves_by_tool_and_joints(6, [2, 7, 0]);
+}
+
+#[test]
+fn the_public_client_does_so_with_an_arm_of_old_firmware() {
+    moves_by_tool_and_joints(7, [1, 10, 0]);
 }

@@ -14,7 +14,7 @@ use crate::waiting::setup::Setup;
 use crate::waiting::support::{MOMENT, PATIENCE, inject, lower, speed};
 
 /// Allowed errors of a driver on a faulty link.
-const TYPED: [ErrorKind; 4] = [
+pub(crate) const TYPED: [ErrorKind; 4] = [
     ErrorKind::Protocol,
     ErrorKind::Timeout,
     ErrorKind::Disconnected,
@@ -73,6 +73,29 @@ fn numbers_that_are_left_out_are_seen_in_the_sequence_and_no_reading_comes_twice
             last = Some(number);
         }
         assert!(widest >= 7, "at most {widest}");
+    });
+}
+
+#[test]
+fn readings_that_a_slow_reader_leaves_are_not_lost_and_those_that_never_came_are() {
+    each_transducer(|bench, transducer| {
+        transducer.read(MOMENT).expect("a reading");
+        let before = transducer.sequence().expect("they are numbered");
+        // Longer than a busy machine keeps a box from its turn.
+        std::thread::sleep(Duration::from_millis(200));
+        transducer.read(MOMENT).expect("a reading");
+        let after = transducer.sequence().expect("they are numbered");
+        assert!(
+            after > before + 2,
+            "{before} {after}: nothing was overtaken"
+        );
+        assert_eq!(transducer.lost(), Some(0));
+        inject(bench, Device::Force, FaultKind::Gap, BAD_MS);
+        let until = Instant::now() + Duration::from_millis(BAD_MS);
+        while Instant::now() < until {
+            transducer.read(MOMENT).expect("a reading");
+        }
+        assert!(transducer.lost() >= Some(7), "{:?}", transducer.lost());
     });
 }
 
@@ -142,13 +165,13 @@ impl<E: Arm> Setup<E> {
     }
 }
 
-fn xarm() -> Setup<xarm::Emulator> {
+pub(crate) fn xarm_setup() -> Setup<xarm::Emulator> {
     Setup::new(XarmFactory::new().expect("a factory"), |bench| {
         xarm::Emulator::start(bench, xarm::Ports::ANY)
     })
 }
 
-fn ur() -> Setup<ur::Emulator> {
+pub(crate) fn ur_setup() -> Setup<ur::Emulator> {
     Setup::new(UrFactory::new().expect("a factory"), |bench| {
         ur::Emulator::start(bench, Ipv4Addr::LOCALHOST, [0, 0])
     })
@@ -156,12 +179,12 @@ fn ur() -> Setup<ur::Emulator> {
 
 #[test]
 fn a_motion_arrives_however_the_reports_of_the_arm_are_split_and_merged() {
-    xarm().arrives_in_pieces_and_heaps();
-    ur().arrives_in_pieces_and_heaps();
+    xarm_setup().arrives_in_pieces_and_heaps();
+    ur_setup().arrives_in_pieces_and_heaps();
 }
 
 #[test]
 fn bytes_of_others_among_the_reports_end_in_a_typed_error_and_an_arm_that_stands() {
-    xarm().stands_among_bytes_of_others();
-    ur().stands_among_bytes_of_others();
+    xarm_setup().stands_among_bytes_of_others();
+    ur_setup().stands_among_bytes_of_others();
 }

@@ -1,6 +1,7 @@
 //! `ati/netft` with the emulated box, through sockets.
 
-use std::net::{Ipv4Addr, UdpSocket};
+use std::io::{Read, Write};
+use std::net::{Ipv4Addr, TcpListener, TcpStream, UdpSocket};
 use std::time::{Duration, Instant};
 
 use taceva_conformance::{self as conformance, Trial};
@@ -126,6 +127,97 @@ fn a_latched_threshold_is_a_warning_and_any_other_word_an_error_by_name() {
         said.contains("supply of the analog board too low (bit 5)"),
         "{said}"
     );
+}
+
+/// The emulated box opened with a page that `changed` makes of its own, answer head included.
+fn opened_with_page(changed: impl FnOnce(String) -> Vec<u8>) -> Result<(), DriverError> {
+    let setup = setup();
+    let mut stream = TcpStream::connect(setup.emulator.page_address()).expect("a page");
+    let request = b"GET /netftapi2.xml HTTP/1.0\r\n\r\n";
+    stream.write_all(request).expect("sent");
+    let mut page = String::new();
+    stream.read_to_string(&mut page).expect("a page");
+    let page = changed(page);
+    let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = listener.local_addr().expect("bound").port();
+    std::thread::spawn(move || {
+        let (mut stream, _) = listener.accept().expect("a client");
+        let _ = stream.read(&mut [0; 1024]);
+        let _ = stream.write_all(&page);
+    });
+    let own = format!("page_port={}", setup.emulator.page_address().port());
+    let arguments = setup
+        .arguments()
+        .replace(&own, &format!("page_port={port}"));
+    let mut transducer = opened(&arguments)?;
+    transducer.start(MOMENT)?;
+    transducer.read(MOMENT).map(drop)
+}
+
+/// `page` with `to` in place of `from`.
+fn replaced(page: &str, from: &str, to: &str) -> String {
+    assert!(page.contains(from), "{from}");
+    page.replace(from, to)
+}
+
+#[test]
+fn a_page_of_a_box_that_is_cut_off_is_refused_as_incomplete() {
+    for part in [3, 7, 9] {
+        let error = opened_with_page(|page| page.as_bytes()[..page.len() * part / 10].to_vec());
+        let error = error.expect_err("cut off");
+        assert_eq!(error.kind(), ErrorKind::Protocol, "{error}");
+        assert!(error.to_string().contains("incomplete"), "{error}");
+    }
+}
+
+#[test]
+fn a_page_of_a_box_with_entities_and_bytes_of_latin_1_is_read() {
+    for unit in [&b"N&#183;m"[..], b"N&middot;m", b"N&#xB7;m", b"N\xb7m"] {
+        let read = opened_with_page(|page| {
+            let page = replaced(&page, "<scfgfu>N<", "<scfgfu>&#78;<");
+            let (before, behind) = page.split_once("<scfgtu>Nm<").expect("a unit");
+            [
+                before.as_bytes(),
+                b"<scfgtu>",
+                unit,
+                b"<",
+                behind.as_bytes(),
+            ]
+            .concat()
+        });
+        read.unwrap_or_else(|error| panic!("{unit:?}: {error}"));
+    }
+}
+
+#[test]
+fn a_page_of_a_box_of_another_language_is_refused_by_its_entry() {
+    for (from, to, words) in [
+        (
+            "<cfgcpf>10000000<",
+            "<cfgcpf>10000000,0<",
+            "`cfgcpf` in /netftapi2.xml is `10000000,0`",
+        ),
+        (
+            "<cfgcpf>10000000<",
+            "<cfgcpf>10.000.000<",
+            "`cfgcpf` in /netftapi2.xml is `10.000.000`",
+        ),
+        (
+            "<scfgfu>N<",
+            "<scfgfu>牛顿<",
+            "`scfgfu` in /netftapi2.xml is `牛顿`",
+        ),
+        (
+            "<cfgtfx>0;0;0;0;0;0<",
+            "<cfgtfx>0,0;0,0;0,0;0,0;0,0;0,0<",
+            "`cfgtfx` in /netftapi2.xml is",
+        ),
+    ] {
+        let error = opened_with_page(|page| replaced(&page, from, to).into_bytes());
+        let error = error.expect_err(to);
+        assert_eq!(error.kind(), ErrorKind::Protocol, "{error}");
+        assert!(error.to_string().contains(words), "{error}");
+    }
 }
 
 #[test]

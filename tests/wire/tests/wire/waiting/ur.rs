@@ -83,6 +83,20 @@ fn a_press_reaches_the_gel_where_the_driver_sent_it() {
 }
 
 #[test]
+fn an_arm_whose_speed_slider_is_down_moves_slower_and_arrives() {
+    let setup = setup();
+    let mut arm = setup.open();
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    setup.emulator.set_slider(0.25);
+    let began = std::time::Instant::now();
+    arm.move_to(lower(home, 4.0), speed(20.0), PATIENCE)
+        .expect("it arrives");
+    // 0.2 s at full speed.
+    assert!(began.elapsed() > Duration::from_millis(750));
+    assert!((setup.bench.truth().tip_mm[2] + 16.0).abs() < 0.01);
+}
+
+#[test]
 fn a_halt_stops_the_arm_at_once_and_no_program_begins_after_it() {
     let setup = setup();
     let mut arm = setup.open();

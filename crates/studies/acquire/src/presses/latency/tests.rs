@@ -26,6 +26,10 @@ impl ForceTransducer for Arrived {
     fn sequence(&self) -> Option<u64> {
         Some(5)
     }
+
+    fn lost(&self) -> Option<u64> {
+        Some(2)
+    }
 }
 
 /// A robot whose guarded motion ends by contact or arrival at 7 s.
@@ -125,5 +129,5 @@ fn a_reading_that_was_stamped_on_arrival_was_true_by_the_latency_earlier() {
     let (_, stamp) = late.read(Deadline::PASSED).expect("a reading");
     assert!((stamp.valid_s - 6.996).abs() < 1e-12, "{stamp:?}");
     assert_eq!(stamp.received_s, Some(7.0));
-    assert_eq!(late.sequence(), Some(5));
+    assert_eq!((late.sequence(), late.lost()), (Some(5), Some(2)));
 }

@@ -218,6 +218,13 @@ fn whoever_is_no_controller_is_refused_by_what_it_said() {
 }
 
 #[test]
+fn a_controller_of_another_version_of_the_protocol_is_refused_by_its_number() {
+    let error = opened_against(b"\x00\x01\x00\x04\x00\x02\x01\x00");
+    assert_eq!(error.kind(), ErrorKind::Protocol, "{error}");
+    assert!(error.to_string().contains("protocol 0x0004"), "{error}");
+}
+
+#[test]
 fn a_port_where_nobody_listens_is_not_found() {
     let factory = XarmFactory::new().expect("a factory");
     let args = factory

@@ -1,0 +1,141 @@
+//! Controllers whose answers come byte by byte, twice or late, or in another version of the protocol.
+
+use std::io::{Read, Write};
+use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::time::Duration;
+
+use taceva_core::{ErrorKind, Factory, Rig};
+use taceva_drivers::ur::rtde::UrFactory;
+use taceva_wire::Arm;
+use taceva_wire::xarm::Port;
+
+use crate::waiting::links::{TYPED, ur_setup, xarm_setup};
+use crate::waiting::setup::Setup;
+use crate::waiting::support::{PATIENCE, lower, speed};
+
+/// Arrival of what a controller says.
+#[derive(Clone, Copy, Debug)]
+enum Arrival {
+    /// In pieces of one byte.
+    Bytewise,
+    /// Everything a second time.
+    Twice,
+    /// Later by [`LATE`].
+    Late,
+}
+
+const LATE: Duration = Duration::from_millis(15);
+/// Time within which an arm stands after an error.
+const STANDS: Duration = Duration::from_millis(300);
+
+/// Port of a proxy before `address`, from which everything arrives like `arrival`.
+fn before(address: SocketAddr, arrival: Arrival) -> u16 {
+    let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = listener.local_addr().expect("bound").port();
+    std::thread::spawn(move || {
+        for driver in listener.incoming().flatten() {
+            let controller = TcpStream::connect(address).expect("it listens");
+            driver.set_nodelay(true).expect("a socket");
+            let back = [&controller, &driver].map(|side| side.try_clone().expect("a socket"));
+            std::thread::spawn(move || pass(driver, controller, None));
+            let [controller, driver] = back;
+            std::thread::spawn(move || pass(controller, driver, Some(arrival)));
+        }
+    });
+    port
+}
+
+fn pass(mut from: TcpStream, mut to: TcpStream, arrival: Option<Arrival>) {
+    let mut bytes = vec![0; 1 << 16];
+    while let Ok(count @ 1..) = from.read(&mut bytes) {
+        let came = &bytes[..count];
+        let sent = match arrival {
+            Some(Arrival::Bytewise) => came.chunks(1).try_for_each(|byte| to.write_all(byte)),
+            Some(Arrival::Twice) => to.write_all(came).and_then(|()| to.write_all(came)),
+            Some(Arrival::Late) => {
+                std::thread::sleep(LATE);
+                to.write_all(came)
+            }
+            None => to.write_all(came),
+        };
+        if sent.is_err() {
+            break;
+        }
+    }
+    // The other side may have closed already.
+    let _ = to.shutdown(std::net::Shutdown::Both);
+}
+
+impl<E: Arm> Setup<E> {
+    /// Moves while what the port at `address` says comes like `arrival`: ends at the target, or in a typed error and at rest. True if it
+    /// arrived.
+    fn arrives(&self, address: SocketAddr, arrival: Arrival) -> bool {
+        let port = before(address, arrival);
+        let direct = format!(";port={};", address.port());
+        let proxied = self.arguments().replace(&direct, &format!(";port={port};"));
+        assert_ne!(proxied, self.arguments());
+        let moved = self.opened(&proxied).and_then(|mut arm| {
+            let (home, _) = arm.pose(PATIENCE)?;
+            arm.move_to(lower(home, 4.0), speed(5.0), PATIENCE)
+        });
+        if let Err(error) = &moved {
+            assert!(TYPED.contains(&error.kind()), "{arrival:?}: {error}");
+            std::thread::sleep(STANDS);
+        }
+        let truth = self.bench.truth();
+        assert!(!truth.is_moving, "{arrival:?}: {truth:?}");
+        let apart_mm = (truth.tip_mm[2] + 16.0).abs();
+        assert!(moved.is_err() || apart_mm < 0.05, "{arrival:?}: {truth:?}");
+        moved.is_ok()
+    }
+}
+
+#[test]
+fn an_arm_whose_controller_answers_in_one_byte_pieces_arrives() {
+    let setup = xarm_setup();
+    assert!(setup.arrives(setup.emulator.address(Port::Command), Arrival::Bytewise));
+    let setup = ur_setup();
+    assert!(setup.arrives(setup.emulator.states_address(), Arrival::Bytewise));
+}
+
+#[test]
+fn an_arm_whose_controller_answers_twice_arrives_or_stands_with_a_typed_error() {
+    let setup = xarm_setup();
+    setup.arrives(setup.emulator.address(Port::Command), Arrival::Twice);
+    let setup = ur_setup();
+    setup.arrives(setup.emulator.states_address(), Arrival::Twice);
+}
+
+#[test]
+fn an_arm_whose_controller_answers_late_arrives_or_stands_with_a_typed_error() {
+    let setup = xarm_setup();
+    setup.arrives(setup.emulator.address(Port::Command), Arrival::Late);
+    let setup = ur_setup();
+    setup.arrives(setup.emulator.states_address(), Arrival::Late);
+}
+
+#[test]
+fn a_controller_of_another_version_of_the_exchange_is_refused_by_that_version() {
+    let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = listener.local_addr().expect("bound").port();
+    std::thread::spawn(move || {
+        let serve = |mut stream: TcpStream| {
+            let mut question = [0; 64];
+            let _ = stream.read(&mut question);
+            // The request for version 2 is not accepted.
+            let _ = stream.write_all(&[0, 4, b'V', 0]);
+            let _ = stream.read(&mut question);
+        };
+        for stream in listener.incoming().flatten() {
+            std::thread::spawn(move || serve(stream));
+        }
+    });
+    let factory = UrFactory::new().expect("a factory");
+    let arguments = format!("host=127.0.0.1;port={port};script_port={port}");
+    let args = factory.descriptor().args(&arguments).expect("good");
+    let Err(error) = factory.open(&args, &mut Rig::new()) else {
+        panic!("opened a controller of another version")
+    };
+    assert_eq!(error.kind(), ErrorKind::Unsupported, "{error}");
+    assert!(error.to_string().contains("version 2"), "{error}");
+}
