@@ -70,7 +70,7 @@ impl Date {
         let year = self.year + 400 - u64::from(self.month <= 2);
         let of_year = (153 * ((self.month + 9) % 12) + 2) / 5 + self.day - 1;
         let days = 365 * year + year / 4 - year / 100 + year / 400 + of_year;
-        days.cast_signed() - 146_097 - 719_468
+        (-146_097_i64 - 719_468).wrapping_add_unsigned(days)
     }
 }
 
