@@ -101,10 +101,11 @@ fn cut(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) -> O
     let mut sorted = labels.to_vec();
     sorted.retain(|(_, value)| value.abs() > 0.0);
     sorted.sort_by(|one, other| one.1.total_cmp(&other.1).then(one.0.cmp(&other.0)));
-    let values: Vec<&[(usize, f64)]> = sorted.chunk_by(is_same).collect();
+    let values = sorted.chunk_by(|one, other| is_same(one.1, other.1));
+    let values: Vec<&[(usize, f64)]> = values.collect();
     let (least, greatest) = (*values.first()?, *values.last()?);
     let is_cut = |end: &&[(usize, f64)]| {
-        let others = values.iter().filter(|value| !is_same(&value[0], &end[0]));
+        let others = values.iter().filter(|value| !is_same(value[0].1, end[0].1));
         let next = others.map(|value| value.len()).max().unwrap_or(0);
         end.len() >= CUT && end.len() * CUT_SHARE >= labels.len() && end.len() > TIMES * next
     };
