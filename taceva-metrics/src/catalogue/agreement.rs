@@ -39,10 +39,10 @@ pub(crate) static AGREEMENT: Metric = Metric {
     documentation: "1.96 standard deviations of truth − prediction. About 95 % of errors that are normally distributed are within \
                     `bias` ± this value, from `lower` to `upper`. If a contact point was pressed several times, the variance `sd`² \
                     is the sum of those between and within clusters of the one-way random model. Its degrees of freedom are \
-                    Satterthwaite's. Intervals are exact for independent errors: of `lower` and `upper` by the noncentral t distribution, of \
-                    the value and `sd` by χ². `slope` is the change of the error with the mean of truth and prediction, and `slope_p` the \
-                    probability of such a slope by chance. The interval of `slope`, and those of planes, leave out one cluster at a \
-                    time. Undefined if all errors are equal, or if all samples are of one cluster. \
+                    Satterthwaite's. Intervals are exact for independent errors of one normal distribution: of `lower` and `upper` by the \
+                    noncentral t distribution, of the value and `sd` by χ². Clusters may differ in spread, so their intervals leave out one \
+                    cluster at a time, as do those of planes and of `slope`. `slope` is the change of the error with the mean of truth and \
+                    prediction, and `slope_p` the probability of such a slope by chance. Undefined if all errors are equal, or if all samples are of one cluster. \
                     Above 30,000 clusters of a channel they count as unknown.",
     needs: LIMIT_NEEDS,
     constants: |_| {
@@ -73,14 +73,17 @@ fn agreement(errors: &Errors<'_>, unit: Unit) -> Numbers {
         .with(SLOPE_P, Unit::One, Range::Any, chance)
 }
 
-/// Replaces the intervals of one channel by those from the components of variance, and finds the chance of a slope of clusters.
+/// Replaces the intervals of independent errors by exact ones, and finds the chance of a slope of clusters.
 fn settle(found: &mut Intervals, whole: &Whole<'_>) {
+    let none = Interval::Undefined(UndefinedReason::NoInterval);
     if !whole.are_independent {
         let chance = chance_of(whole.numbers.variant(SLOPE), found.of(Some(SLOPE)));
         found.values.push((SLOPE_P.to_owned(), chance));
+        found.variants.push((SLOPE_P.to_owned(), none));
+        return;
     }
     let mut set = |name: &str, interval| found.variants.push((name.to_owned(), interval));
-    set(SLOPE_P, Interval::Undefined(UndefinedReason::NoInterval));
+    set(SLOPE_P, none);
     let Some(sample) = whole.sample else { return };
     let of = |ends: [f64; 2], freedom: f64| of_components(ends, freedom, whole.clusters);
     let [low, high] = sample.limit_ends();

@@ -114,7 +114,7 @@ pub enum Interval {
         /// Kind of the clusters.
         by: ClusteredBy,
     },
-    /// From the variance between and within clusters, for a spread beyond chance and for limits of agreement.
+    /// From the variance between and within clusters, for a spread beyond chance and for limits of agreement of independent errors.
     Components {
         /// Lower end.
         low: f64,

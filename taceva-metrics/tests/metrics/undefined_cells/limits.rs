@@ -142,6 +142,10 @@ fn the_deviation_of_clusters_is_the_sum_of_both_components_of_variance() {
         number(&evaluation, "agreement", Some("upper")).0,
         mean + Z * sd,
     );
+    // Clusters may differ in spread: no distribution of all errors is assumed.
+    let method = number(&evaluation, "agreement", Some("upper")).1.method();
+    let expected = "jackknife by point_id, G=8";
+    assert_eq!(method.as_deref(), Some(expected));
     // The probability of the slope is that of its jackknife.
     let (slope, interval) = number(&evaluation, "agreement", Some("slope"));
     let Interval::Jackknife {
