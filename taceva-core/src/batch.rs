@@ -36,12 +36,12 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// A batch of ready columns.
+    /// A batch of complete columns.
     ///
     /// # Shapes
     /// `truth`, `prediction`: one column per channel, all of one length; `points`: of that length.
     /// # Panics
-    /// If the shapes differ: a mistake of the caller's code, not of its data.
+    /// If the shapes differ. This is a bug in the caller.
     pub fn from_columns(
         channels: Channels,
         truth: Vec<Column>,
@@ -251,17 +251,17 @@ impl Batch {
         &self.channels
     }
 
-    /// The truth of the channel at `position`, as the reference instruments measured it.
+    /// True values of the channel at `position`, from the reference instruments.
     pub fn truth(&self, position: usize) -> &Column {
         &self.truth[position]
     }
 
-    /// The prediction of the channel at `position`.
+    /// The predictions of the channel at `position`.
     pub fn prediction(&self, position: usize) -> &Column {
         &self.prediction[position]
     }
 
-    /// The contact point of each sample, if samples name one.
+    /// The contact point of each sample; `None` if any sample has no point.
     pub fn points(&self) -> Option<&Labels> {
         self.points.as_ref()
     }
@@ -271,24 +271,24 @@ impl Batch {
         self.recordings.as_ref()
     }
 
-    /// The name of each sample, if the batch carries them.
+    /// The name of each sample; `None` if the batch has no names.
     pub fn samples(&self) -> Option<&Labels> {
         self.samples.as_ref()
     }
 
-    /// The texts of `field`, if the batch carries them: scene, unit, phase, kind of grating or digest of the frame.
+    /// The texts of `field`: scene, unit, phase, kind of grating or digest of the frame. `None` if the batch has none.
     pub fn labels(&self, field: Field) -> Option<&Labels> {
         self.labels.get(&field)
     }
 
-    /// The numbers of `field`, if the batch carries them: depth step, repeat, time in s, spacings in whole nm (exact in
-    /// binary64), intensity.
+    /// The numbers of `field`: depth step, repeat, time in s, spacings in whole nm (exact in binary64), intensity. `None` if the batch has
+    /// none.
     pub fn numbers(&self, field: Field) -> Option<&Column> {
         self.numbers.get(&field)
     }
 }
 
-/// Fields that are texts.
+/// Fields with text values.
 const LABELS: [Field; 5] = [
     Field::Scene,
     Field::UnitId,
@@ -297,7 +297,7 @@ const LABELS: [Field; 5] = [
     Field::FrameDigest,
 ];
 
-/// Fields that are numbers.
+/// Fields with numbers.
 const NUMBERS: [Field; 6] = [
     Field::DepthStep,
     Field::Repeat,

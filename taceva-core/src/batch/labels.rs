@@ -1,9 +1,9 @@
-//! Names, one per row.
+//! Column of names, one per row.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// One name per row, each distinct name kept once; a row may have none.
+/// One optional name per row. Each distinct name is stored once.
 ///
 /// ```
 /// use taceva_core::Labels;
@@ -122,7 +122,7 @@ impl Labels {
         &self.index
     }
 
-    /// Labels in the order of the row indices `rows`, each row once. The order of the names stays.
+    /// Labels in the order of the row indices `rows`, each row once. The list of names is unchanged.
     ///
     /// ```
     /// use taceva_core::Labels;

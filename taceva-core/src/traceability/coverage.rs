@@ -2,7 +2,7 @@
 
 /// Meaning of an expanded uncertainty: its coverage factor, or its coverage probability.
 ///
-/// This type gets no further variant: a certificate states one of these.
+/// This type gets no further variant: a certificate states one of the two.
 ///
 /// ```
 /// use taceva_core::Coverage;
