@@ -12,7 +12,7 @@ use crate::stamp::Stamp;
 /// # Units
 /// Poses in mm and degrees in the sensor's frame; z points into the gel.
 ///
-/// # Motion
+/// # The physical contract
 /// - Opening moves nothing: the robot keeps its position.
 /// - [`move_to`](Robot::move_to) moves the tip along a straight line and blocks until the tip rests. No other call moves the tip.
 /// - [`halt`](Robot::halt) stops the motion and latches: the robot refuses every later move with `Interrupted` until
