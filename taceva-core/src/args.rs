@@ -107,7 +107,7 @@ impl Args {
     /// Value of `key`, a number in the declared unit.
     ///
     /// # Panics
-    /// As [`whole`](Args::whole).
+    /// Under the condition of [`whole`](Args::whole).
     pub fn number(&self, key: &str) -> f64 {
         match self.get(key) {
             Some(&ArgValue::Number(value)) => value,
@@ -118,7 +118,7 @@ impl Args {
     /// Value of `key`: a text, a path or a choice.
     ///
     /// # Panics
-    /// As [`whole`](Args::whole).
+    /// Under the condition of [`whole`](Args::whole).
     pub fn text(&self, key: &str) -> &str {
         match self.get(key) {
             Some(ArgValue::Text(value)) => value,
@@ -129,7 +129,7 @@ impl Args {
     /// Value of the switch `key`.
     ///
     /// # Panics
-    /// As [`whole`](Args::whole).
+    /// Under the condition of [`whole`](Args::whole).
     pub fn flag(&self, key: &str) -> bool {
         match self.get(key) {
             Some(&ArgValue::Flag(value)) => value,

@@ -89,7 +89,7 @@ impl Batch {
     /// The same batch with the texts of `field`: scene, unit, phase, kind of grating or digest of the frame.
     ///
     /// # Panics
-    /// If the length differs from the number of rows, or the field does not hold text.
+    /// If the length differs from the number of rows, or the values of the field are not text.
     #[must_use]
     pub fn with_labels(mut self, field: Field, labels: Labels) -> Batch {
         assert_eq!(labels.index().len(), self.rows, "a label for each row");
@@ -153,7 +153,7 @@ impl Batch {
     /// The same batch with the numbers of `field`: depth step, repeat, time in s, spacings in whole nm, intensity.
     ///
     /// # Panics
-    /// If the length differs from the number of rows, or the field does not hold numbers.
+    /// If the length differs from the number of rows, or the values of the field are not numbers.
     #[must_use]
     pub fn with_numbers(mut self, field: Field, numbers: Column) -> Batch {
         assert_eq!(numbers.len(), self.rows, "a number for each row");
@@ -197,8 +197,8 @@ impl Batch {
         }
     }
 
-    /// The batch with periodic angles moved by whole periods. Each prediction is then nearest to its truth, and each truth nearest to the
-    /// centre of its channel in `centres`, if there is one.
+    /// The batch with periodic angles shifted by whole periods. Each prediction is then nearest to its truth, and each truth nearest to the
+    /// centre of its channel in `centres`. A channel without a centre keeps its truths.
     ///
     /// `None` if no channel has a period, so that the batch needs no change.
     ///

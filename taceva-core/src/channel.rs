@@ -208,7 +208,7 @@ impl Channels {
         Ok(Channels { list })
     }
 
-    /// Index of the channel called `name`; `None` if there is none.
+    /// Index of the channel called `name`; `None` for an unknown name.
     pub fn position(&self, name: &str) -> Option<usize> {
         self.list.iter().position(|channel| channel.name() == name)
     }

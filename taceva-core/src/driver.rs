@@ -15,7 +15,7 @@
 //! may call these during any other call.
 //!
 //! mm, degrees, N and N·mm in the sensor's frame. Values must be finite. An infinite value or NaN from the caller is
-//! [`InvalidArgument`](crate::ErrorKind::InvalidArgument). From the device it is [`DeviceFault`](crate::ErrorKind::DeviceFault).
+//! [`InvalidArgument`](crate::ErrorKind::InvalidArgument). From the device such a value is [`DeviceFault`](crate::ErrorKind::DeviceFault).
 //! [`check_pose`] and [`check_wrench`] check both.
 
 mod bench;

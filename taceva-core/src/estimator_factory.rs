@@ -92,7 +92,7 @@ pub trait EstimatorFactory: Send + Sync {
     /// Fits a model to the samples of `request`.
     ///
     /// # Errors
-    /// As [`Estimator::fit`](crate::Estimator::fit).
+    /// The errors of [`Estimator::fit`](crate::Estimator::fit).
     fn fit(&self, request: &FitRequest<'_>) -> Result<Box<dyn SavedRegressor>, ModelError>;
 
     /// Loads a saved model.

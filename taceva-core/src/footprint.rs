@@ -58,7 +58,7 @@ impl Footprint {
     /// Rectangle from −half to +half along x and y.
     ///
     /// # Errors
-    /// As [`disc`](Footprint::disc).
+    /// The errors of [`disc`](Footprint::disc).
     pub fn rectangle(
         half_x_mm: f64,
         half_y_mm: f64,

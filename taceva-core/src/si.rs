@@ -100,7 +100,7 @@ impl Speed {
     /// Speed from m/s, rounded to whole nm/s.
     ///
     /// # Errors
-    /// As [`try_new`](Speed::try_new).
+    /// The errors of [`try_new`](Speed::try_new).
     pub fn from_metres_per_second(metres: f64) -> Result<Speed, SpeedError> {
         Speed::try_new(nearest(metres * PER_METRE, 1e6))
     }

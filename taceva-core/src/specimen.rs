@@ -5,7 +5,7 @@ use std::fmt;
 use crate::grating::GratingKind;
 use crate::nanometre::Nanometre;
 
-/// Object that the robot presses into the gel. Its displayed text is its name in a [`Changer`](crate::Changer) and never changes. It
+/// Object that the robot presses into the gel. Its displayed text is its name in a [`Changer`](crate::Changer) and never changes. This type
 /// gets no further variant in a compatible version. The specimen decides every label and the identity of a press, so readers must handle
 /// each kind.
 ///

@@ -56,7 +56,7 @@ impl<S: SampleSink + ?Sized> SampleSink for &mut S {
     }
 }
 
-/// Two sinks that receive one stream, to record and evaluate in one pass. A plain pair: it gets no further fields.
+/// Two sinks that receive one stream, to record and evaluate in one pass. A plain pair, which gets no further fields.
 ///
 /// ```
 /// # use taceva_core::{FieldSet, SampleSink, SinkError};

@@ -140,7 +140,7 @@ impl ArgSpec {
             })
     }
 
-    /// Strips the unit after the number of `text`, if there is one.
+    /// Strips an optional unit after the number of `text`.
     fn bare<'a>(&self, text: &'a str) -> &'a str {
         self.unit
             .as_deref()

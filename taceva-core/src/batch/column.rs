@@ -38,7 +38,7 @@ impl Column {
         }
     }
 
-    /// Adds a row with a value, or without one.
+    /// Adds a row; `None` is a missing value.
     pub fn push(&mut self, value: Option<f64>) {
         if value.is_none() && self.present.is_none() {
             self.present = Some(vec![true; self.values.len()]);
@@ -49,7 +49,7 @@ impl Column {
         self.values.push(value.unwrap_or(0.0));
     }
 
-    /// The value at `row`, if there is one.
+    /// The value at `row`; `None` for a missing value.
     pub fn get(&self, row: usize) -> Option<f64> {
         let present = self.present.as_ref().is_none_or(|present| present[row]);
         present.then(|| self.values[row])

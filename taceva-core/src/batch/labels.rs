@@ -17,7 +17,7 @@ pub struct Labels {
     index: Vec<u32>,
 }
 
-/// The distinct names; labels of the same rows in another order share them.
+/// Distinct names, shared with labels of the same rows in another order.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Known {
     names: Vec<String>,
@@ -145,7 +145,7 @@ impl Labels {
         !self.index.contains(&Labels::ABSENT)
     }
 
-    /// The name of `row`, if it has one.
+    /// The name of `row`; `None` for a row without a name.
     pub fn get(&self, row: usize) -> Option<&str> {
         let index = self.index[row];
         (index != Labels::ABSENT).then(|| self.names()[index as usize].as_str())

@@ -65,13 +65,13 @@ pub trait SimulatedBench: Send + Sync {
     /// resumed run therefore has the same random errors as an uninterrupted run.
     ///
     /// # Errors
-    /// As [`rest`](SimulatedBench::rest).
+    /// The errors of [`rest`](SimulatedBench::rest).
     fn name_press(&self, name: u64) -> Result<(), DriverError>;
 
     /// Delays the next tare in the air until the time `at` on the bench's clock. A time in the past causes no delay.
     ///
     /// # Errors
-    /// As [`rest`](SimulatedBench::rest).
+    /// The errors of [`rest`](SimulatedBench::rest).
     fn schedule(&self, at: Duration) -> Result<(), DriverError>;
 
     /// Provenance of the simulation: version, parameters and seed; `None` until a sensor of the bench is opened.

@@ -32,7 +32,7 @@ pub trait ExpiringMotion {
     /// Moves as [`move_to`](super::Robot::move_to) does, and begins to brake at most [`EXPIRES`] after the last message of the host.
     ///
     /// # Errors
-    /// As [`move_to`](super::Robot::move_to).
+    /// The errors of [`move_to`](super::Robot::move_to).
     fn move_expiring(
         &mut self,
         target: Pose,

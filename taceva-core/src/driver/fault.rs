@@ -1,4 +1,4 @@
-//! Faults of a robot that a person must inspect before it moves again.
+//! Faults of a robot, which a person must inspect before the robot moves again.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! Rejects NaN and infinity in values sent to a device or received from it.
+//! Rejects NaN and infinity in values sent to a device or received from a device.
 
 use std::fmt;
 

@@ -54,7 +54,7 @@ pub trait ForceTransducer: Send {
     /// Starts the readings. Does nothing if the transducer needs no start.
     ///
     /// # Errors
-    /// As [`Sensor::start`](super::Sensor::start).
+    /// The errors of [`Sensor::start`](super::Sensor::start).
     fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
         let _ = deadline;
         Ok(())
@@ -64,7 +64,7 @@ pub trait ForceTransducer: Send {
     ///
     /// # Errors
     /// [`DriverError`] of kind
-    /// - `Timeout` if no reading came within `deadline`,
+    /// - `Timeout` if no reading arrived within `deadline`,
     /// - `OutOfRange` if a component is beyond the range of the transducer, so that its value would be clipped,
     /// - `DeviceFault` if the transducer reports a fault or a number that is not finite,
     /// - `Disconnected` or `EndOfStream` if no further reading can arrive.

@@ -45,7 +45,7 @@ pub trait GuardedMotion {
     /// Moves as [`move_to`](super::Robot::move_to) does, and stops once the force reaches `guard`.
     ///
     /// # Errors
-    /// As [`move_to`](super::Robot::move_to); also `InvalidArgument` for a guard that is not above 0 N.
+    /// The errors of [`move_to`](super::Robot::move_to); also `InvalidArgument` for a guard that is not above 0 N.
     fn move_guarded(
         &mut self,
         target: Pose,

@@ -124,7 +124,7 @@ pub trait Robot: Send {
     /// Stops the robot. Allowed in every state and idempotent.
     ///
     /// # Errors
-    /// As [`Halt::halt`].
+    /// The errors of [`Halt::halt`].
     fn halt(&mut self) -> Result<(), DriverError> {
         self.halt_handle().halt()
     }

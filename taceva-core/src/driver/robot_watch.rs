@@ -20,7 +20,7 @@ pub trait RobotWatch: Send + Sync {
     /// Present pose of the tip, and the time of the pose. Never waits for the end of a motion.
     ///
     /// # Units
-    /// As [`Robot::pose`](super::Robot::pose): mm and degrees in the sensor's frame.
+    /// Like [`Robot::pose`](super::Robot::pose): mm and degrees in the sensor's frame.
     /// # Errors
     /// [`DriverError`] of kind `Timeout` if no pose arrived within `deadline`, `Disconnected`, or `DeviceFault`, with its
     /// [`Fault`](super::Fault) if the robot names one.

@@ -17,7 +17,7 @@ const JUMP_S: f64 = 60.0;
 
 /// Checks the delays and stamps of the samples of one device.
 ///
-/// A sample is late if the calls for it took more than ten periods of the declared rate and more than 50 ms. Ten consecutive late samples
+/// A sample is late if the calls for this sample took more than ten periods of the declared rate and more than 50 ms. Ten consecutive late samples
 /// are an error, and so is a stamp that jumps by more than a minute. A sample from a queue may be old.
 ///
 /// ```

@@ -286,7 +286,7 @@ impl Descriptor {
     /// Parses and checks arguments written as `text`.
     ///
     /// # Errors
-    /// As [`Args::parse`].
+    /// The errors of [`Args::parse`].
     pub fn args(&self, text: &str) -> Result<Args, ArgError> {
         Args::parse(self.arguments(), text)
     }

@@ -63,12 +63,12 @@ impl Found {
 pub enum Access {
     /// The device can be opened.
     Ready,
-    /// This user may not open it.
+    /// This user may not open the device.
     Denied {
         /// Action that would grant access.
         remedy: String,
     },
-    /// Another program holds the device.
+    /// Another program has the device open.
     Busy,
 }
 

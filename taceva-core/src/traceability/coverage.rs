@@ -16,7 +16,7 @@ pub enum Coverage {
     Probability {
         /// Probability, in 0..1.
         p: f64,
-        /// Degrees of freedom; `None` if they are infinitely many.
+        /// Degrees of freedom; `None` for infinity.
         dof: Option<f64>,
     },
 }

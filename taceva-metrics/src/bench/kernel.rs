@@ -113,7 +113,7 @@ impl Kernel {
     }
 
     /// True if the order of rows cannot change a bit of the result. This is a property of the algorithm: equal results for some orders would
-    /// not prove it.
+    /// prove nothing.
     pub fn is_order_free(self) -> bool {
         self.is_exact()
     }

@@ -20,7 +20,7 @@ fn is_valid(n: f64, freedom: f64, share: f64, confidence: f64) -> bool {
     is_positive(n) && is_positive(freedom) && is_share(share) && is_share(confidence)
 }
 
-/// Factor k of a one-sided limit: mean + k s has `share` of a normal distribution below it, with `confidence`.
+/// Factor k of a one-sided limit: `share` of a normal distribution is below mean + k s, with `confidence`.
 ///
 /// The mean has the variance σ²/`n`, and s has `freedom` degrees of freedom: n − 1 for independent values. `None` for an argument out of
 /// range.

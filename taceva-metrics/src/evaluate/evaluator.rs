@@ -193,7 +193,7 @@ impl Evaluator {
     /// Mergeable states of all samples so far.
     ///
     /// # Errors
-    /// As [`update`](Evaluator::update), for samples still buffered.
+    /// The errors of [`update`](Evaluator::update), for samples still buffered.
     pub fn states(&mut self) -> Result<Vec<State>, MetricError> {
         self.flush()?;
         let accumulators = self.accumulators.iter();
@@ -205,7 +205,7 @@ impl Evaluator {
     /// Scores of all samples so far. Further samples may follow.
     ///
     /// # Errors
-    /// As [`update`](Evaluator::update), for samples still buffered.
+    /// The errors of [`update`](Evaluator::update), for samples still buffered.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator};
@@ -235,7 +235,7 @@ impl Evaluator {
     /// Scores of all samples.
     ///
     /// # Errors
-    /// As [`update`](Evaluator::update), for samples still buffered.
+    /// The errors of [`update`](Evaluator::update), for samples still buffered.
     pub fn finish(mut self) -> Result<Evaluation, MetricError> {
         self.flush()?;
         Ok(self.scored())

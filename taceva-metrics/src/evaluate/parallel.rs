@@ -29,7 +29,7 @@ impl Evaluator {
     /// ```
     ///
     /// # Errors
-    /// As [`update`](Evaluator::update).
+    /// The errors of [`update`](Evaluator::update).
     pub fn of_batches(
         plan: &MetricPlan,
         batches: impl IntoParallelIterator<Item = Batch>,

@@ -9,7 +9,7 @@ const LEAST_POINTS: u64 = 64;
 
 /// Hull with a core that contains most new points.
 ///
-/// The core is inside the hull of some of the points, and so inside the hull of all. It affects only the points examined, not the hull.
+/// The core is inside the hull of some of the points, and so inside the hull of all. The core affects only which points are examined, not the hull.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GrowingHull {
     hull: Hull,

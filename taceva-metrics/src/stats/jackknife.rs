@@ -57,7 +57,7 @@ pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interv
 /// Standard error and degrees of freedom of the same jackknife on the unbounded scale; `None` unless all scores have a value there.
 ///
 /// A score of few clusters is skewed: a cluster with large errors raises the score more by its presence than it lowers the score by its
-/// absence. The standard error would then depend on the value of the score; on the unbounded scale it does not (`docs/coverage.md`).
+/// absence. The standard error would then depend on the value of the score; on the unbounded scale the standard error does not (`docs/coverage.md`).
 fn carried(estimated: &Estimated, left_out: &[LeftOut]) -> Option<[f64; 2]> {
     let carry = |cluster: &LeftOut| {
         let value = estimated.carry(cluster.value.ok()?)?;
@@ -81,7 +81,7 @@ pub(crate) fn standard_error(value: f64, left_out: &[LeftOut]) -> Result<f64, Un
 /// With n samples, m_j of them in cluster j, h_j = n / m_j and θ_(−j) the score without cluster j: the pseudo-values are
 /// h_j θ − (h_j − 1) θ_(−j), and the variance is the mean of z_j², z_j² = (pseudo_j − mean)² / (h_j − 1).
 ///
-/// A variance from few clusters is itself uncertain. With κ = mean(z⁴) / mean(z²)² it has 2 g / (κ − (g − 3)/(g − 1)) degrees of freedom.
+/// A variance from few clusters is itself uncertain. With κ = mean(z⁴) / mean(z²)² the variance has 2 g / (κ − (g − 3)/(g − 1)) degrees of freedom.
 /// These are g − 1 for the κ = 3 of normal pseudo-values, never more, and at least [`LEAST_FREEDOM`].
 ///
 /// # Reference

@@ -37,7 +37,7 @@ pub(crate) fn critical_factor(freedom: f64) -> f64 {
 /// P(t′ ≤ t) for t ≥ 0, with `freedom` degrees of freedom and the noncentrality δ ≥ 0.
 ///
 /// With y = δ² / 2, Poisson's shares pⱼ = e^(−y) yʲ / j! and qⱼ = δ e^(−y) yʲ / (√2 Γ(j + 3/2)) and the incomplete beta function I of
-/// x = t² / (ν + t²) it is ½ (1 + Σ pⱼ Iₓ(j + ½, ν/2) − Σ qⱼ (1 − Iₓ(j + 1, ν/2))), since Σ qⱼ = 1 − 2 Φ(−δ).
+/// x = t² / (ν + t²) the result is ½ (1 + Σ pⱼ Iₓ(j + ½, ν/2) − Σ qⱼ (1 − Iₓ(j + 1, ν/2))), since Σ qⱼ = 1 − 2 Φ(−δ).
 ///
 /// # Reference
 /// Lenth, Algorithm AS 243, Applied Statistics 38 (1989).

@@ -1,4 +1,4 @@
-//! Spread of bin means, and the part of it from chance.
+//! Spread of bin means, and the part of this spread from chance.
 
 use crate::exact::moments::Moments;
 use crate::exact::{Dyadic, ExactSum};

@@ -121,7 +121,7 @@ fn density(t: f64, freedom: f64) -> f64 {
 
 /// Γ(z + 1/2) / Γ(z), z > 0.
 ///
-/// With w = z − 1/4 it is √w (1 + 1/64 w⁻² − 19/8192 w⁻⁴ + 631/2¹⁹ w⁻⁶ − 174317/2²⁷ w⁻⁸ + …), whose next term is below 2⁻⁵⁸
+/// With w = z − 1/4 the ratio is √w (1 + 1/64 w⁻² − 19/8192 w⁻⁴ + 631/2¹⁹ w⁻⁶ − 174317/2²⁷ w⁻⁸ + …), whose next term is below 2⁻⁵⁸
 /// from z = 32 on; smaller arguments are raised by z / (z + 1/2) = the quotient of the ratios at z and z + 1.
 pub(super) fn gamma_ratio(z: f64) -> f64 {
     const COEFFICIENTS: [f64; 5] = [

@@ -39,7 +39,7 @@ pub struct Provenance {
     /// Split of the samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub split: Option<String>,
-    /// Findings about similar neighbouring samples, and about a split that separates them.
+    /// Sentence about neighbouring samples that resemble each other, and about their division into parts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<String>,
     /// Seed of all random choices.
@@ -169,7 +169,7 @@ pub struct ModelProvenance {
 /// One of several recordings behind a result.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecordingProvenance {
-    /// Prefix of the names of its samples and contact points.
+    /// Prefix of the names of the samples and contact points in the recording.
     pub name: String,
     /// Digest of the recording.
     pub digest: String,

@@ -57,7 +57,7 @@ pub struct Variant {
     pub interval: Option<Interval>,
 }
 
-/// Scores of an evaluation, in its order.
+/// Scores of an evaluation, in the same order.
 pub fn scores(evaluation: &Evaluation) -> Vec<Score> {
     let all = evaluation.scores();
     all.map(|(metric, channel, score)| Score::of(metric, channel, score))
@@ -107,7 +107,7 @@ impl Score {
         }
     }
 
-    /// Variant called `name`; `None` if there is none.
+    /// Variant called `name`; `None` if the score lacks the variant.
     pub fn variant(&self, name: &str) -> Option<&Variant> {
         self.variants.iter().find(|variant| variant.name == name)
     }

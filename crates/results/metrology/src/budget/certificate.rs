@@ -28,11 +28,11 @@ pub(super) fn factor(coverage: Coverage) -> Option<f64> {
 pub struct Certificate {
     /// Number of the certificate.
     pub number: String,
-    /// Laboratory that issued it.
+    /// Laboratory that issued the certificate.
     pub laboratory: String,
     /// Serial number in the certificate.
     pub serial: String,
-    /// Serial number read by the instrument's driver, if any.
+    /// Serial number read by the instrument's driver; `None` if the driver reads none.
     pub instrument_serial: Option<String>,
     /// Coverage of the expanded uncertainties.
     pub coverage: Coverage,

@@ -95,7 +95,7 @@ pub enum BudgetProblem {
     NotMeasured {
         /// Name of the figure.
         name: String,
-        /// Reason why it has no value.
+        /// Reason for the missing value.
         reason: String,
     },
     /// Two sources with the same name, or with the same figure.
@@ -111,7 +111,7 @@ pub enum BudgetProblem {
     Inside {
         /// Included figure.
         inner: String,
-        /// Figure that includes it.
+        /// Figure that includes `inner`.
         outer: String,
         /// Line of `outer`.
         line: usize,

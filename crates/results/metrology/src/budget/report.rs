@@ -165,7 +165,7 @@ pub struct Correlation {
 pub struct Missing {
     /// Name of the figure that would cover the effect.
     pub source: String,
-    /// Effect, and the reason why it matters.
+    /// Effect, and its relevance to the budget.
     pub reason: String,
 }
 

@@ -31,7 +31,7 @@ pub struct BudgetText {
     pub(super) written: WrittenBudget,
     /// Byte offset of the start of each line.
     starts: Vec<usize>,
-    /// Unit of the measurand, to which sources are converted; `None` for a unit that TacEva does not know.
+    /// Unit of the measurand, to which sources are converted; `None` for a unit that TacEva cannot convert.
     pub(super) kept_unit: Option<Unit>,
     pub(super) unit: String,
     pub(super) coverage: f64,

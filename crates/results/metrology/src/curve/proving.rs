@@ -33,7 +33,7 @@ const LEAST_FORCES: [(&str, f64); 4] =
 pub struct ProvingSeries {
     /// Forces F, ascending.
     pub forces: Vec<f64>,
-    /// First series. Every series is empty if it was not recorded.
+    /// First series. A series that was not recorded is empty.
     pub x1: Vec<f64>,
     /// Second series, in the mounting of the first.
     pub x2: Vec<f64>,

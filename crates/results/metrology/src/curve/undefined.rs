@@ -62,7 +62,7 @@ pub enum CurveUndefined {
     Levels {
         /// Name of the series.
         series: &'static str,
-        /// Number of its levels.
+        /// Number of levels of the series.
         have: usize,
         /// Number of forces.
         expected: usize,

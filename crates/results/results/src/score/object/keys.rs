@@ -237,7 +237,7 @@ fn shape<E: Error>() -> E {
     E::custom("expected one value for each place, found another number of values")
 }
 
-/// Standing, parsed from its words.
+/// Standing, parsed from the words in the JSON object.
 struct Words(Standing);
 
 impl<'de> Deserialize<'de> for Words {
