@@ -266,7 +266,7 @@ impl Batch {
         self.points.as_ref()
     }
 
-    /// The recording of each sample, if the batch combines several recordings.
+    /// The recording of each sample; `None` unless the batch combines several recordings.
     pub fn recordings(&self) -> Option<&Labels> {
         self.recordings.as_ref()
     }

@@ -213,7 +213,7 @@ impl Channels {
         self.list.iter().position(|channel| channel.name() == name)
     }
 
-    /// The channel called `name`.
+    /// The channel called `name`; `None` for an unknown name.
     pub fn by_name(&self, name: &str) -> Option<&Channel> {
         self.list.iter().find(|channel| channel.name() == name)
     }

@@ -31,7 +31,7 @@ pub trait Progress: Send + Sync {
     fn begin(&self, stage: &str, steps: Option<u64>) {
         let _ = (stage, steps);
     }
-    /// Reports `steps` more completed steps of the current stage. Does nothing by default.
+    /// Reports `steps` further completed steps of the current stage. Does nothing by default.
     fn advance(&self, steps: u64) {
         let _ = steps;
     }

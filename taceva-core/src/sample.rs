@@ -125,7 +125,7 @@ impl Readings {
         }
     }
 
-    /// The value of the channel at `position`.
+    /// The value of the channel at `position`; `None` for a missing value.
     pub fn get(&self, position: usize) -> Option<f64> {
         self.values.get(position).copied().flatten()
     }

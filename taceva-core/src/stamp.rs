@@ -46,7 +46,7 @@ impl fmt::Display for Clock {
 pub struct Stamp {
     /// Time of the measurement, s; for a picture the middle of the exposure, if known.
     pub valid_s: f64,
-    /// Time of receipt, s. The difference from `valid_s` is the latency.
+    /// Time of receipt, s; `None` if unknown. The difference from `valid_s` is the latency.
     pub received_s: Option<f64>,
 }
 
@@ -80,7 +80,7 @@ impl Stamp {
         nanoseconds(self.valid_s)
     }
 
-    /// Time of receipt, to the nanosecond.
+    /// Time of receipt, to the nanosecond; `None` if unknown.
     pub fn received(&self) -> Option<Duration> {
         self.received_s.map(nanoseconds)
     }

@@ -90,7 +90,7 @@ const SYNONYMS: [(&str, &str); 9] = [
     ("l1", "mae"),
 ];
 
-/// The metric called `id`.
+/// The metric called `id`; `None` for an unknown name.
 pub fn find(id: &str) -> Option<&'static Metric> {
     ALL.into_iter().find(|metric| metric.id == id)
 }

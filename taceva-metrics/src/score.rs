@@ -78,12 +78,12 @@ pub struct Score {
 }
 
 impl Score {
-    /// The variant called `name`: `slope`, `map`.
+    /// The variant called `name`: `slope`, `map`; `None` if the score lacks the variant.
     pub fn variant(&self, name: &str) -> Option<&Variant> {
         self.variants.iter().find(|variant| variant.name == name)
     }
 
-    /// Value of the count called `name`.
+    /// Value of the count called `name`; `None` if the score lacks the count.
     pub fn count(&self, name: &str) -> Option<u64> {
         let found = self.counts.iter().find(|count| count.name == name);
         found.map(|count| count.value)

@@ -23,7 +23,7 @@ pub struct ArgSpec {
     pub key: String,
     /// Type and range of the value.
     pub kind: ArgKind,
-    /// Unit of a number, such as `ms` or `mm/h`. Users may write the unit after the number.
+    /// Unit of a number, such as `ms` or `mm/h`; `None` without a unit. Users may write the unit after the number.
     pub unit: Option<String>,
     /// Presence: required, optional or with a default.
     pub presence: Presence,

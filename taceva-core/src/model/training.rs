@@ -49,7 +49,7 @@ pub struct TrainingSet<'a> {
     pub features: &'a Features,
     /// Target values of each sample.
     pub targets: Targets<'a>,
-    /// Group of each sample. Settings are chosen by leaving out one group at a time.
+    /// Group of each sample, for settings chosen by leaving out one group at a time; `None` without groups.
     pub groups: Option<&'a [u32]>,
 }
 

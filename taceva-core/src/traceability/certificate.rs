@@ -45,11 +45,11 @@ pub struct Certificate {
     pub number: String,
     /// Laboratory that issued the certificate.
     pub laboratory: String,
-    /// Accreditation of the laboratory: `DAkkS D-K-15063-01-00`.
+    /// Accreditation of the laboratory: `DAkkS D-K-15063-01-00`; `None` if not stated.
     pub accreditation: Option<String>,
     /// Day of issue.
     pub issued: Date,
-    /// Last day of validity.
+    /// Last day of validity; `None` if not stated.
     pub valid_until: Option<Date>,
     /// Serial number of the instrument.
     pub serial: String,

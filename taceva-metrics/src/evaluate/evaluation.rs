@@ -96,7 +96,7 @@ impl Evaluation {
         entries.map(|entry| (entry.metric, entry.channel.as_str(), &entry.score))
     }
 
-    /// The score of one metric and channel or plane.
+    /// Score of `metric` on a channel or plane; `None` if the evaluation lacks the score.
     pub fn score(&self, metric: &str, channel: &str) -> Option<&Score> {
         let mut scores = self.scores();
         let found = scores.find(|(found, of, _)| found.id == metric && *of == channel);

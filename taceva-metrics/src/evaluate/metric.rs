@@ -28,7 +28,7 @@ pub struct Metric {
     pub id: &'static str,
     /// Title in words.
     pub title: &'static str,
-    /// Symbol in papers, as LaTeX.
+    /// Symbol in papers, as LaTeX; `None` without a symbol.
     pub symbol: Option<&'static str>,
     /// Section of reports.
     pub theme: Theme,

@@ -17,7 +17,7 @@ use crate::exact::merge::keyed;
 use crate::exact::record::Record;
 use histogram::Histogram;
 
-/// Family of histograms of errors of grating spacing.
+/// Family of histograms of spacing errors.
 pub(crate) static KIND: FamilyKind = FamilyKind::new("taceva.resolution/1", |plan| {
     erased(Resolution::for_plan(plan))
 });

@@ -26,7 +26,7 @@ pub struct Curve {
     pub values: Vec<Option<f64>>,
     /// Number of samples of each value.
     pub counts: Vec<u64>,
-    /// Lower and upper curve around the values. The metric defines their meaning.
+    /// Lower and upper curve around the values, with a meaning that the metric defines; `None` without a band.
     pub band: Option<Band>,
 }
 

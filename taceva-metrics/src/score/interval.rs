@@ -189,7 +189,7 @@ impl Interval {
         }
     }
 
-    /// Scale on which the ends are symmetric about the value.
+    /// Scale on which the ends are symmetric about the value; `None` for an interval without such a scale.
     pub fn scale(&self) -> Option<Scale> {
         match *self {
             Interval::Jackknife { scale, .. }

@@ -113,7 +113,7 @@ impl ClusterSums {
         self.cells.iter().map(|(name, cell)| (name.as_str(), cell))
     }
 
-    /// Sum of the cluster called `cluster`.
+    /// Sum of the cluster called `cluster`; `None` for an unknown cluster.
     pub fn get(&self, cluster: &str) -> Option<&ClusterSum> {
         self.cells.get(cluster)
     }

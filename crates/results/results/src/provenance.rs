@@ -33,10 +33,10 @@ pub struct Provenance {
     /// Digests of the tables by name, for results without a dataset.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub tables: BTreeMap<String, String>,
-    /// Model with its digest.
+    /// Model with its digest; `None` if no model was fitted or named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelProvenance>,
-    /// Split of the samples.
+    /// Split of the samples; `None` without a split.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub split: Option<String>,
     /// Sentence about neighbouring samples that resemble each other, and about their division into parts.

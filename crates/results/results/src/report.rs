@@ -109,7 +109,7 @@ impl EvaluationReport {
         EvaluationReport::new(Subject::default(), evaluation, provenance)
     }
 
-    /// Score of `metric` on the channel or plane `channel`.
+    /// Score of `metric` on the channel or plane `channel`; `None` if the report lacks the score.
     pub fn score(&self, metric: &str, channel: &str) -> Option<&Score> {
         let mut scores = self.scores.iter();
         scores.find(|score| score.metric == metric && score.channel == channel)

@@ -255,7 +255,7 @@ impl Samples {
         channels.filter_map(|name| self.channel(name)).collect()
     }
 
-    /// Channel called `name`.
+    /// Channel called `name`; `None` for an unknown name.
     pub fn channel(&self, name: &str) -> Option<SampleChannel<'_>> {
         let truth = self.numbers(name);
         let prediction = self.numbers(&format!("{name}{}", Samples::PREDICTED));

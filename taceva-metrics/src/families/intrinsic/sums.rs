@@ -18,7 +18,7 @@ pub(crate) struct IntrinsicSums {
     n_invalid: u64,
     /// Samples with a time.
     timed: u64,
-    /// Number of samples in contact with a place.
+    /// Number of samples that are in contact and have a place.
     contacts: u64,
     hull: GrowingHull,
     frames: SortedMap<(Ordered, Option<u64>), ()>,
@@ -66,7 +66,7 @@ impl IntrinsicSums {
         self.timed
     }
 
-    /// Number of samples in contact with a place.
+    /// Number of samples that are in contact and have a place.
     pub(super) fn contacts(&self) -> u64 {
         self.contacts
     }

@@ -40,11 +40,11 @@ pub struct Certificate {
     pub absolute: f64,
     /// Expanded uncertainty relative to the reading.
     pub relative: f64,
-    /// Least and greatest calibrated value.
+    /// Least and greatest calibrated value; `None` if the certificate states no range.
     pub range: Option<[f64; 2]>,
-    /// Last day of validity, as `2027-05-12`.
+    /// Last day of validity, as `2027-05-12`; `None` if not stated.
     pub valid_until: Option<String>,
-    /// Day of the recording, as `2027-05-12`.
+    /// Day of the recording, as `2027-05-12`; `None` if unknown.
     pub recorded_on: Option<String>,
 }
 

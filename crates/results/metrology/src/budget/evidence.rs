@@ -21,15 +21,15 @@ pub struct Figure {
     pub u: f64,
     /// Degrees of freedom of `u`.
     pub freedom: Freedom,
-    /// Number of rows behind the figure.
+    /// Number of rows behind the figure; `None` if unknown.
     pub n: Option<u64>,
-    /// Number of clusters among these rows, such as contact points.
+    /// Number of clusters among these rows, such as contact points; `None` if unknown.
     pub clusters: Option<u64>,
-    /// Least and greatest label of these rows.
+    /// Least and greatest label of these rows; `None` if unknown.
     pub labels: Option<[f64; 2]>,
-    /// Digest of the figure's source file.
+    /// Digest of the figure's source file; `None` if unknown.
     pub digest: Option<String>,
-    /// Reservation that every output repeats.
+    /// Reservation that every output repeats; `None` for no reservation.
     pub note: Option<String>,
 }
 
@@ -112,7 +112,7 @@ impl Evidence {
         }
     }
 
-    /// The figure called `name`.
+    /// The figure called `name`; `None` for an unknown name.
     pub fn figure(&self, name: &str) -> Option<&Figure> {
         self.figures.get(name)
     }
@@ -122,7 +122,7 @@ impl Evidence {
         self.figures.keys().map(String::as_str)
     }
 
-    /// Certificate of the reference.
+    /// Certificate of the reference; `None` without a certificate.
     pub fn certificate(&self) -> Option<&Certificate> {
         self.certificate.as_ref()
     }

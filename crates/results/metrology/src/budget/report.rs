@@ -124,7 +124,7 @@ pub struct Source {
     pub contribution: f64,
     /// Share (c u)² / u² of the combined variance; `None` if that variance is 0. Without correlation the shares sum to 1.
     pub share: Option<f64>,
-    /// Measured figure that the source uses.
+    /// Measured figure that the source uses; `None` for stated numbers.
     pub from: Option<String>,
     /// Number of rows behind the figure.
     pub n: Option<u64>,

@@ -70,11 +70,11 @@ impl fmt::Display for Word {
 pub struct Decision {
     /// Measured value.
     pub value: f64,
-    /// Standard uncertainty, in the unit of the value.
+    /// Standard uncertainty, in the unit of the value; `None` if unknown.
     pub standard_uncertainty: Option<f64>,
     /// Degrees of freedom of the uncertainty; `None` if infinite or unknown.
     pub freedom: Option<f64>,
-    /// Coverage factor of the expanded uncertainty.
+    /// Coverage factor of the expanded uncertainty; `None` if the uncertainty is unknown.
     pub coverage_factor: Option<f64>,
     /// Expanded uncertainty at the coverage of the rule, in the unit of the value; to first order on a logarithmic scale.
     pub expanded_uncertainty: Option<f64>,
@@ -84,7 +84,7 @@ pub struct Decision {
     pub rule: DecisionRule,
     /// Limits of accepted values; `None` without an uncertainty, or if no value is accepted.
     pub acceptance: Option<Limits>,
-    /// Probability of conformity.
+    /// Probability of conformity; `None` if the uncertainty is unknown.
     pub conformance_probability: Option<f64>,
     /// Decision in one word.
     pub word: Word,

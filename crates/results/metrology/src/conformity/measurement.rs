@@ -150,13 +150,13 @@ impl Measurement {
         self.value
     }
 
-    /// Standard uncertainty, in the unit of the value.
+    /// Standard uncertainty, in the unit of the value; `None` if unknown.
     #[must_use]
     pub fn standard_uncertainty(&self) -> Option<f64> {
         self.uncertainty.map(|of| self.in_unit(of.scaled))
     }
 
-    /// Degrees of freedom of the standard uncertainty.
+    /// Degrees of freedom of the standard uncertainty; `None` if the uncertainty is unknown.
     #[must_use]
     pub fn freedom(&self) -> Option<f64> {
         self.uncertainty.map(|of| of.freedom)

@@ -68,11 +68,11 @@ impl Indication {
 pub struct IndicationLevel {
     /// Repeats during loading. Blanks are NaN and are skipped.
     pub up: Vec<Indication>,
-    /// Reading during unloading, after the last repeat.
+    /// Reading during unloading, after the last repeat; `None` if not recorded.
     pub down: Option<Indication>,
     /// Readings at zero force.
     pub zeros: Vec<f64>,
-    /// Resolution of the indication, in the unit of the force.
+    /// Resolution of the indication, in the unit of the force; `None` if unknown.
     pub resolution: Option<f64>,
 }
 
@@ -97,9 +97,9 @@ pub struct IndicationFigures {
     pub b: Option<f64>,
     /// Reversibility v = (F_up − F_down)/F̄ at one indicated force, %; `None` without an unloading reading.
     pub v: Option<f64>,
-    /// Zero error f_0 = max |zero|/F_N.
+    /// Zero error f_0 = max |zero|/F_N, %; `None` without readings at zero force.
     pub f_0: Option<f64>,
-    /// Relative resolution a = resolution/F.
+    /// Relative resolution a = resolution/F, %; `None` for an unknown resolution.
     pub a: Option<f64>,
 }
 

@@ -45,11 +45,11 @@ pub struct ProvingSeries {
     pub x5: Vec<f64>,
     /// Unloading after `x5`.
     pub x6: Vec<f64>,
-    /// Readings at zero force, before and after the series.
+    /// Readings at zero force, before and after the series; `None` if not recorded.
     pub zeros: Option<[f64; 2]>,
-    /// Readings at the greatest force after 30 s and after 300 s.
+    /// Readings at the greatest force after 30 s and after 300 s; `None` if not recorded.
     pub creep: Option<[f64; 2]>,
-    /// Resolution, in the unit of the force.
+    /// Resolution, in the unit of the force; `None` if unknown.
     pub resolution: Option<f64>,
     /// Full-scale reading X_N, in the unit of the readings. Defaults to X̄_r at the greatest force.
     pub full_scale: Option<f64>,
@@ -99,9 +99,9 @@ pub struct ProvingLevel {
 pub struct ProvingFigures {
     /// Levels, in the order of the forces.
     pub levels: Vec<ProvingLevel>,
-    /// f_0: (i_f − i_0)/X_N, in %.
+    /// f_0: (i_f − i_0)/X_N, in %; `None` without readings at zero force.
     pub f_0: Option<f64>,
-    /// c: (i_300 − i_30)/X_N, in %.
+    /// c: (i_300 − i_30)/X_N, in %; `None` without creep readings.
     pub c: Option<f64>,
     /// Resolution, in the unit of the force.
     pub resolution: Option<f64>,

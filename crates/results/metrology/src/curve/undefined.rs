@@ -28,7 +28,7 @@ pub enum CurveUndefined {
     TooFewX {
         /// Number of distinct x.
         have: usize,
-        /// Least number.
+        /// Least number of distinct x.
         least: usize,
     },
     /// A row has a number that is not finite.

@@ -55,7 +55,7 @@ pub struct GaugeSettings {
     pub method: Method,
     /// Threshold of the p value above which the interaction is pooled with repeatability; AIAG uses 0.25.
     pub pool: f64,
-    /// Width of the tolerance, in the unit of the readings.
+    /// Width of the tolerance, in the unit of the readings; `None` without a tolerance.
     pub tolerance: Option<f64>,
     /// True if the readings are errors. Parts then differ only by bias, so distinct categories and the AIAG class are undefined.
     pub are_errors: bool,
